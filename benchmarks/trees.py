@@ -8,7 +8,7 @@ import py_trees
 from costs import best, growth, upto
 from py_trees.common import ParallelPolicy, Status
 
-from osc2tx_runtime.domain.routes.map_search import SHIPPED
+from osc2tx_runtime.domain.map.search import SHIPPED
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.tree import (
     Behaviour,

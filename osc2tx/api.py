@@ -32,8 +32,8 @@ from osc2tx.compilation.products import files_of_module
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Diagnostic, Severity
 from osc2tx.options import Dialect, OneOfPolicy, Standard, Target, XmlProfile, XmlVersion
-from osc2tx.support.output_names import MODULE
-from osc2tx_classes import dataclass
+from osc2tx.support.paths import MODULE
+from osc2tx_shared.classes import dataclass
 
 __all__ = ["CompileResult", "compile_file", "compile_text"]
 

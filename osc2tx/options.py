@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Literal, TypeAlias
 
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 Standard: TypeAlias = Literal["2.1", "2.2"]
 Dialect: TypeAlias = Literal["asam", "carla"]

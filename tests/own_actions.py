@@ -7,7 +7,7 @@ import runpy
 import sys
 from pathlib import Path
 
-from osc2tx_runtime.language.registry import methods
+from osc2tx_runtime.language.actions.registry import methods
 from tests.processes import Ended, forked
 
 DOCUMENT = Path(__file__).parent.parent / "docs" / "extending.md"

@@ -22,10 +22,10 @@ import black
 
 from osc2tx.backends.py_trees.naming import class_name
 from osc2tx.catalogue import catalogue
-from osc2tx_runtime.domain.actions.modifiable import ModifiableAction
+from osc2tx_runtime.domain.actions.movement.modifiable import ModifiableAction
 from osc2tx_runtime.domain.modifiers import MODIFIERS as KINDS
 from osc2tx_runtime.domain.modifiers import groups
-from osc2tx_runtime.language.registry import Method, methods
+from osc2tx_runtime.language.actions.registry import Method, methods
 
 FOLDER = Path(__file__).parents[1] / "runtime_lib/osc2tx_runtime/domain/methods"
 MADE = "made by tools/make_actor_methods.py"
@@ -77,7 +77,7 @@ def _methods_of(kind: str) -> str:
         '# mypy: disable-error-code="empty-body"\n',
         "from __future__ import annotations\n",
         "from typing import TYPE_CHECKING\n",
-        "from osc2tx_runtime.language.registry import carried_out\n",
+        "from osc2tx_runtime.language.actions.registry import carried_out\n",
         "if TYPE_CHECKING:",
         *lines,
         f'\n__all__ = ["{name}"]\n',

@@ -4,10 +4,10 @@ Input: a `SemanticModel` without errors; only the user's files are looked at. Ou
 and diagnostics OSC42x (constraints, errors) and OSC43x (warnings). `analyse` runs the parts:
 
 1. Constraints. `collect` gathers what constrains each type and its invocations, names made definite
-   by `parameter_lookup`; `constraint_overrides` drops the defaults that are replaced;
+   by `parameter_lookup`; `overrides` drops the defaults that are replaced;
    `operation_list` flattens expressions; `solver` propagates `domains` to a fixed point by
    `forward` and `backward` over `interval_arithmetic`. The result is the `ConstraintAnalysis` in
-   `constraints`; `report_constraints` reports conflicts.
+   `propagation`; `report_constraints` reports conflicts.
 2. Liveness. `termination` finds what never ends by itself, `usage` what is used; `liveness`,
    `usage`, `recursive_scenarios` and `constant_conditions` report.
 3. Levels. `levels` says for each scenario whether it is abstract, logical or concrete, with what is
@@ -21,7 +21,7 @@ unknown; nothing recurses along chains of expressions or members.
 """
 
 from osc2tx.analysis.analyse import Analysis, analyse
-from osc2tx.analysis.constraints import (
+from osc2tx.analysis.constraints.propagation import (
     ConstraintAnalysis,
     ParameterDomain,
     State,

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from osc2tx.analysis.constant_conditions import report_conditions
-from osc2tx.analysis.constraints import ConstraintAnalysis, analyse_constraints
-from osc2tx.analysis.contradictory_durations import report_durations
+from osc2tx.analysis.constraints.propagation import ConstraintAnalysis, analyse_constraints
+from osc2tx.analysis.constraints.report_constraints import report_constraints
 from osc2tx.analysis.levels import ScenarioLevel, find_levels
-from osc2tx.analysis.liveness import report_liveness
-from osc2tx.analysis.recursive_scenarios import report_recursion
-from osc2tx.analysis.report_constraints import report_constraints
-from osc2tx.analysis.shared_slots import report_shared_slots
-from osc2tx.analysis.termination import find_endings
-from osc2tx.analysis.time_lints import report_times
+from osc2tx.analysis.lints.constant_conditions import report_conditions
+from osc2tx.analysis.lints.contradictory_durations import report_durations
+from osc2tx.analysis.lints.liveness import report_liveness
+from osc2tx.analysis.lints.recursive_scenarios import report_recursion
+from osc2tx.analysis.lints.shared_slots import report_shared_slots
+from osc2tx.analysis.lints.termination import find_endings
+from osc2tx.analysis.lints.time_lints import report_times
+from osc2tx.analysis.lints.usage import CONSTRAINTS, find_usage, report_usage
 from osc2tx.analysis.tree_walk import NodesByKind
-from osc2tx.analysis.usage import CONSTRAINTS, find_usage, report_usage
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.options import OneOfPolicy
 from osc2tx.semantics import SemanticModel
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,21 +10,21 @@ from __future__ import annotations
 from collections.abc import Iterator
 from enum import Enum
 
-from osc2tx.analysis.cast_checks import openings_of_cast
-from osc2tx.analysis.constraints import ConstraintAnalysis, State
-from osc2tx.analysis.liveness import keyword_span
-from osc2tx.analysis.operation_list import Key
-from osc2tx.analysis.parameter_lookup import is_of_scope, name_of
-from osc2tx.analysis.termination import Endings
+from osc2tx.analysis.constraints.operation_list import Key
+from osc2tx.analysis.constraints.parameter_lookup import is_of_scope, name_of
+from osc2tx.analysis.constraints.propagation import ConstraintAnalysis, State
+from osc2tx.analysis.constraints.value_text import format_free, format_range
+from osc2tx.analysis.lints.cast_checks import openings_of_cast
+from osc2tx.analysis.lints.liveness import keyword_span
+from osc2tx.analysis.lints.termination import Endings
 from osc2tx.analysis.tree_walk import do_directives, do_members
-from osc2tx.analysis.value_text import format_free, format_range
 from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import Span
 from osc2tx.options import OneOfPolicy
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 MOST_SHOWN = 5
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from osc2tx.analysis.collect import Constraint
-from osc2tx.analysis.constraints import TypeConstraints
+from osc2tx.analysis.constraints.collect import Constraint
+from osc2tx.analysis.constraints.propagation import TypeConstraints
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.scope import is_subtype
 from osc2tx.syntax import ast
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,6 +8,5 @@ not at all, and those that are up to date are not touched.
 of earlier builds that still hold (`fingerprint` is what they hold for), `workers` make the others,
 `plan` compares what the sources make with the folder, where the `manifest` says which files are
 ours, `written_digests` and `version_control` which of them nobody has edited, and `write` brings
-the folder up to date. `diff` and `revision` show changes instead; `watch` builds again when a
-source changes.
+the folder up to date. `compare` shows changes instead; `watch` builds again when a source changes.
 """

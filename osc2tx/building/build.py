@@ -22,8 +22,8 @@ from osc2tx.building.workers import compile_jobs, with_siblings
 from osc2tx.building.write import Update, update_folder
 from osc2tx.building.written_digests import read_digests
 from osc2tx.config import ConfigFiles, GivenOptions
-from osc2tx.support.output_names import is_committed
-from osc2tx_classes import dataclass
+from osc2tx.support.paths import is_committed
+from osc2tx_shared.classes import dataclass
 
 Progress = Callable[[int, int], None]
 

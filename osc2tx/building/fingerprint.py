@@ -19,7 +19,7 @@ _KINDS = (".py", ".osc", ".json", ".toml", ".j2", ".xodr")
 # What else reports and outputs depend on: the rules of calls, how texts are escaped, and, as
 # OpenSCENARIO XML holds its sizes, courses and maps, the runtime. Of the others one file tells the
 # version.
-_OURS = ("osc2tx_classes", "osc2tx_rules", "osc2tx_runtime", "osc2tx_text")
+_OURS = ("osc2tx_shared.classes", "osc2tx_shared.rules", "osc2tx_runtime", "osc2tx_shared.text")
 _LIBRARIES = ("antlr4", "black", "jinja2", "lxml", "pint")
 _STARTED = time.time_ns()
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from osc2tx.compilation.inputs import find_inputs
 from osc2tx.diagnostics import InternalCompilerError
-from osc2tx_classes import dataclass, replace
-from osc2tx_text import visible
+from osc2tx_shared.classes import dataclass, replace
+from osc2tx_shared.text import visible
 
 if TYPE_CHECKING:
     from osc2tx.compilation.driver import Compilation, Memory

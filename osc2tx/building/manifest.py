@@ -25,8 +25,8 @@ from dataclasses import field
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from osc2tx.version import __version__
-from osc2tx_classes import dataclass
-from osc2tx_text import in_json
+from osc2tx_shared.classes import dataclass
+from osc2tx_shared.text import in_json
 
 MANIFEST_NAME = ".osc2tx-manifest.json"
 FORMAT = 3

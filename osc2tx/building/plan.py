@@ -15,16 +15,16 @@ from osc2tx.building.manifest import Manifest, beside
 from osc2tx.building.results import FileResult, OutputRecord
 from osc2tx.building.version_control import committed_objects, is_object
 from osc2tx.building.written_digests import Digests
-from osc2tx.support.output_names import (
+from osc2tx.support.paths import (
     LOSS_REPORT,
     MODULE,
     XML,
     is_committed,
+    is_portable,
     module_of,
     source_map_of,
 )
-from osc2tx.support.portable_names import is_portable
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 class State(Enum):

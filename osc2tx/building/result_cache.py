@@ -11,17 +11,17 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
 from osc2tx.building.fingerprint import digest, tool_stamp
 from osc2tx.building.jobs import Job, options_of
-from osc2tx.building.results import Dependency, FileResult, ImportedFile, OutputRecord
+from osc2tx.building.results import Dependency, FileResult, ImportedFile, OutputRecord, check_job
 from osc2tx.building.stored_reports import ReportReader, ReportWriter
 from osc2tx.compilation.file_reports import LossEntry
 from osc2tx.diagnostics import SourceFile
-from osc2tx_cache import cache_folder, forget_the_oldest, read_own, write_own
+from osc2tx_shared.cache import cache_folder, forget_the_oldest, read_own, write_own
 
 FORMAT = 3
 MOST_KEPT = 64  # folders that are remembered, of each kind
@@ -162,3 +162,21 @@ class ResultCache:
                 os.path.join(self._real_path(folder), name) if is_plain else os.path.realpath(path)
             )
         return self._real[path]
+
+
+def check_jobs(jobs: Sequence[Job], *, remember: bool = True) -> list[FileResult]:
+    """Return what there is to report on each file, in the order of the jobs.
+
+    Args:
+        jobs: What to check.
+        remember: Whether results of earlier checks in this folder count, and these are kept.
+    """
+    if not remember:
+        return [check_job(job) for job in jobs]
+    memory = ResultCache("checks", Path.cwd())
+    known = {job: result for job in jobs if (result := memory.load(job)) is not None}
+    made = {job: check_job(job) for job in jobs if job not in known}
+    if made:
+        memory.keep(made.values())
+    known |= made
+    return [known[job] for job in jobs]

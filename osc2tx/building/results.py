@@ -10,7 +10,7 @@ from osc2tx.building.jobs import Job, find_bug
 from osc2tx.compilation.file_reports import LossEntry
 from osc2tx.diagnostics import Diagnostic, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 if TYPE_CHECKING:
     from osc2tx.compilation.driver import Compilation, Memory, Output

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from osc2tx.building.results import FileResult
-from osc2tx.support.real_paths import real_path
+from osc2tx.support.paths import real_path
 
 SETTINGS = ("osc2tx.toml", "pyproject.toml")
 

@@ -22,7 +22,7 @@ from osc2tx.building.written_digests import (
     Digests,
     render_digests,
 )
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 TEMPORARY = ".osc2tx-tmp"
 SYNCS_AT_ONCE = 16

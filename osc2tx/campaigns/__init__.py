@@ -1,7 +1,7 @@
 """Campaigns: a logical scenario run many times, each time with other values.
 
 In order of control flow: `identity` says what a campaign is, `samplers` which values its rows have
-(`sequences`, `designs` and their `pairs`, `tables`; a `search` has an aim, of `aims`), `planner`
+(`designs` or tables; a `search` has an aim, of `aims`), `planner`
 leaves out those that break a constraint, `engine` runs rows in processes of this machine, `store`
 keeps what came of them as `records`, `driver` leads all of it. `replay` makes the files of one row
 again, `export` tables of all. `coverage` counts hits of buckets, `summary` what came of all rows;
@@ -13,6 +13,6 @@ seed, not on how many rows there are, who runs them and in which order.
 
 from __future__ import annotations
 
-from .errors import CampaignError
+from .store import CampaignError
 
 __all__ = ["CampaignError"]

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from osc2tx.campaigns.errors import CampaignError
-from osc2tx_classes import dataclass
 from osc2tx_runtime.kpis import measures_by_name
+from osc2tx_shared.classes import dataclass
+
+from .store import CampaignError
 
 __all__ = ["Aim"]
 

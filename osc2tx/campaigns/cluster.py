@@ -12,15 +12,16 @@ from collections import deque
 from collections.abc import Generator, Iterator
 from typing import Any
 
-from osc2tx.campaigns.engine import crashed, take
-from osc2tx.campaigns.errors import CampaignError
+from osc2tx.campaigns.engine import Engine, LocalEngine, crashed, take
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.campaigns import Plan, Row, RowResult
 from osc2tx_runtime.campaigns.remote import parcel_of, run_rows, unchanged
 from osc2tx_runtime.campaigns.worker import Refused
 from osc2tx_runtime.errors import told
 
-__all__ = ["DaskEngine"]
+from .store import CampaignError
+
+__all__ = ["DaskEngine", "engine_by_name"]
 
 LOOK = 5.0  # seconds without news, after which somebody looks whether there are workers
 AHEAD = 2  # batches for each worker: one that it runs, one that waits for it
@@ -168,3 +169,33 @@ def _distributed() -> Any:
             "--engine dask://HOST:PORT needs distributed: pip install 'osc2tx[dask]'"
         ) from None
     return distributed
+
+
+def engine_by_name(
+    name: str, batch: int, processes: int, workers: int | None, timeout: float | None = None
+) -> Engine:
+    """Return an engine.
+
+    Args:
+        name: `local`, or `dask://HOST:PORT`.
+        batch: How many rows a worker has at once.
+        processes: How many workers there are here if `workers` does not say.
+        workers: How many are wanted.
+        timeout: Seconds by the clock that a row may take.
+
+    Raises:
+        CampaignError: There is none of this name, or it cannot do what is wanted.
+    """
+    if name == "local":
+        return LocalEngine(workers or processes, batch, timeout)
+    scheme, _, address = name.partition("://")
+    host, _, port = address.rpartition(":")
+    if scheme != "dask" or not host or not port.isdecimal():
+        raise CampaignError(f"--engine {name}: there is local and dask://HOST:PORT")
+    for option, value in (("--workers", workers), ("--timeout", timeout)):
+        if value is not None:
+            raise CampaignError(
+                f"{option} is for --engine local: a cluster has its own workers, and a row there"
+                " cannot be ended from here"
+            )
+    return DaskEngine(address, batch)

@@ -13,8 +13,8 @@ from typing import Any
 
 from osc2tx.campaigns.identity import plan_from
 from osc2tx.campaigns.store import Store
-from osc2tx_classes import dataclass
 from osc2tx_runtime.campaigns import Executor, Plan
+from osc2tx_shared.classes import dataclass
 
 __all__ = ["Bucket", "Item", "coverage_of", "items_of"]
 

@@ -2,17 +2,88 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from itertools import product
-from typing import Any
+from itertools import combinations, islice, product
+from math import prod
+from typing import Any, TypeAlias
 
-from osc2tx.campaigns.errors import CampaignError
-from osc2tx.campaigns.pairs import pairwise_rows
 from osc2tx.campaigns.sampling import Wanted, row_seed
 from osc2tx_runtime.campaigns import Row
 from osc2tx_runtime.campaigns.points import Column
 
-__all__ = ["GridSampler", "PairwiseSampler", "levels_of"]
+from .store import CampaignError
+
+__all__ = ["GridSampler", "PairwiseSampler", "SequenceSampler", "levels_of", "pairwise_rows"]
+
+TRIES = 300
+
+Pair: TypeAlias = tuple[tuple[int, int], tuple[int, int]]
+"""Two parameters, each with the index of a level."""
+
+
+def pairwise_rows(
+    levels: Sequence[Sequence[float]], keeps: Callable[[Sequence[float]], bool]
+) -> Iterator[list[float]]:
+    """Yield rows, the same ones for the same arguments.
+
+    Args:
+        levels: Of two parameters at least.
+        keeps: Whether constraints allow a row.
+    """
+    counts = [len(each) for each in levels]
+    missing: dict[Pair, None] = {
+        ((i, a), (j, b)): None
+        for i, j in combinations(range(len(counts)), 2)
+        for a, b in product(range(counts[i]), range(counts[j]))
+    }
+    while missing:
+        pair = next(iter(missing))
+        for row in _completions(pair, counts, missing):
+            shares = [level[index] for level, index in zip(levels, row, strict=True)]
+            if keeps(shares):
+                for met in combinations(enumerate(row), 2):
+                    missing.pop(met, None)
+                yield shares
+                break
+        else:
+            del missing[pair]  # constraints do not let them meet
+
+
+def _completions(
+    pair: Pair, counts: Sequence[int], missing: dict[Pair, None]
+) -> Iterator[list[int]]:
+    """Yield rows with a pair, the best one first."""
+    fixed = dict(pair)
+    yield _greedy(dict(fixed), counts, missing)
+    free = [index for index in range(len(counts)) if index not in fixed]
+    if prod(counts[index] for index in free) <= TRIES:
+        others: Iterator[tuple[int, ...]] = product(*(range(counts[index]) for index in free))
+    else:
+        generator = random.Random(str(pair))
+        others = islice(_drawn([counts[index] for index in free], generator), TRIES)
+    for chosen in others:
+        row = {**fixed, **dict(zip(free, chosen, strict=True))}
+        yield [row[index] for index in range(len(counts))]
+
+
+def _drawn(counts: Sequence[int], generator: random.Random) -> Iterator[tuple[int, ...]]:
+    while True:
+        yield tuple(generator.randrange(count) for count in counts)
+
+
+def _greedy(row: dict[int, int], counts: Sequence[int], missing: dict[Pair, None]) -> list[int]:
+    """Complete a row with the levels that meet most of what is missing, the first of equals."""
+    for index, count in enumerate(counts):
+        if index in row:
+            continue
+
+        def met(level: int, index: int = index) -> int:
+            pairs = (sorted((item, (index, level))) for item in row.items())
+            return sum((one, other) in missing for one, other in pairs)
+
+        row[index] = max(range(count), key=met)
+    return [row[index] for index in range(len(counts))]
 
 
 def levels_of(column: Column, most: int) -> list[float]:
@@ -73,3 +144,50 @@ class PairwiseSampler(_Design):
 
     def _keeps(self, shares: Sequence[float]) -> bool:
         return self._is_allowed(self._row(0, shares))
+
+
+KINDS = {"lhs": "LatinHypercube", "sobol": "Sobol", "halton": "Halton"}
+BLOCK = 1024  # a power of two: a Sobol sequence is balanced after each block
+
+
+class SequenceSampler:
+    """Points of a sequence, scrambled by the seed."""
+
+    is_checked = True
+
+    def __init__(self, name: str, columns: Sequence[Column], wanted: Wanted) -> None:
+        self._name, self._columns, self._wanted = name, columns, wanted
+        self._qmc = _qmc(name)
+
+    @property
+    def identity(self) -> Mapping[str, Any]:
+        """The columns, the version of scipy, and of a Latin hypercube the number of rows."""
+        import scipy
+
+        rows = {"rows": self._wanted.samples} if self._name == "lhs" else {}
+        names = [column.name for column in self._columns]
+        return {"columns": names, "scipy": scipy.__version__, **rows}
+
+    def rows(self) -> Iterator[Row]:
+        """Yield rows without end."""
+        names, seed = [column.name for column in self._columns], self._wanted.seed
+        for number, shares in enumerate(self._points(len(names))):
+            yield Row(number, row_seed(seed, number), dict(zip(names, shares, strict=True)))
+
+    def _points(self, dimensions: int) -> Iterator[list[float]]:
+        seed = self._wanted.seed
+        kind = getattr(self._qmc, KINDS[self._name])
+        engine = kind(dimensions, scramble=True, rng=seed)
+        block = self._wanted.samples if self._name == "lhs" else BLOCK
+        while True:
+            yield from engine.random(block).tolist()
+
+
+def _qmc(name: str) -> Any:
+    try:
+        from scipy.stats import qmc
+    except ImportError:
+        raise CampaignError(
+            f"--sampler {name} needs scipy: pip install 'osc2tx[campaign]'"
+        ) from None
+    return qmc

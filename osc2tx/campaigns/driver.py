@@ -6,14 +6,15 @@ from collections.abc import Callable
 from contextlib import closing
 
 from osc2tx.campaigns.engine import Engine
-from osc2tx.campaigns.errors import CampaignError
 from osc2tx.campaigns.identity import Texts, identity_of, plan_to
 from osc2tx.campaigns.planner import Planner, columns_of, why_left_out
 from osc2tx.campaigns.samplers import sampler_by_name
 from osc2tx.campaigns.sampling import Findings, Sampler, Wanted
 from osc2tx.campaigns.store import Store
-from osc2tx_classes import dataclass, replace
 from osc2tx_runtime.campaigns import Executor, Plan, Row
+from osc2tx_shared.classes import dataclass, replace
+
+from .store import CampaignError
 
 __all__ = ["Progress", "run_campaign"]
 

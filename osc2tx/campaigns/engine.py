@@ -16,11 +16,12 @@ from itertools import islice
 from multiprocessing.connection import Connection, wait
 from typing import Protocol
 
-from osc2tx.campaigns.errors import CampaignError
-from osc2tx_classes import replace
 from osc2tx_runtime.campaigns import Plan, Row, RowResult
 from osc2tx_runtime.campaigns.rows import CRASHED
 from osc2tx_runtime.campaigns.worker import Refused, work
+from osc2tx_shared.classes import replace
+
+from .store import CampaignError
 
 __all__ = ["Engine", "LocalEngine", "crashed", "take"]
 

@@ -9,10 +9,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from osc2tx.campaigns.errors import CampaignError
 from osc2tx.campaigns.store import Store
 from osc2tx_runtime.errors import InputError
 from osc2tx_runtime.running.output_files import write_output
+
+from .store import CampaignError
 
 __all__ = ["export_rows", "flat_rows", "write_text"]
 

@@ -10,10 +10,10 @@ from typing import Any
 
 from osc2tx.campaigns.sampling import Sampler, Wanted
 from osc2tx.version import __version__
-from osc2tx_classes import replace
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.campaigns import Condition, Executor, Plan, Row
 from osc2tx_runtime.running.options import read_options
+from osc2tx_shared.classes import replace
 
 __all__ = ["identity_of", "plan_from", "plan_to"]
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from xml.etree import ElementTree as etree
 
 from osc2tx.campaigns.summary import Results, Run, replay_command
-from osc2tx_text import visible
+from osc2tx_shared.text import visible
 
 __all__ = ["render_junit"]
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterator
 
-from osc2tx.campaigns.errors import CampaignError
 from osc2tx.campaigns.sampling import Sampler
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.campaigns import Executor, Row
 from osc2tx_runtime.campaigns.points import Column
 from osc2tx_runtime.errors import SettingsError
+
+from .store import CampaignError
 
 __all__ = ["Planner", "columns_of", "why_left_out"]
 

@@ -6,14 +6,15 @@ from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
 
-from osc2tx.campaigns.errors import CampaignError
 from osc2tx.campaigns.identity import plan_from
 from osc2tx.campaigns.records import row_of
 from osc2tx.campaigns.store import Store
-from osc2tx_classes import replace
 from osc2tx_runtime import RunResult
 from osc2tx_runtime.campaigns import Executor
 from osc2tx_runtime.campaigns.executor import trace_digest
+from osc2tx_shared.classes import replace
+
+from .store import CampaignError
 
 __all__ = ["replay_row"]
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from osc2tx.campaigns.coverage import Item, overall
 from osc2tx.campaigns.summary import Results, Run, replay_command, summary_of
-from osc2tx_runtime.report.campaign_page import render_campaign
+from osc2tx_runtime.report.page import render_campaign
 
 __all__ = ["render_report"]
 

@@ -7,9 +7,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Protocol
 
 from osc2tx.campaigns.aims import Aim
-from osc2tx.campaigns.errors import CampaignError
-from osc2tx_classes import dataclass
 from osc2tx_runtime.campaigns import Plan, Row, RowResult
+from osc2tx_shared.classes import dataclass
+
+from .store import CampaignError
 
 __all__ = ["Findings", "Sampler", "Wanted", "row_seed", "wanted_rows"]
 

@@ -12,10 +12,11 @@ from itertools import count
 from typing import Any
 
 from osc2tx.campaigns.aims import Aim
-from osc2tx.campaigns.errors import CampaignError
 from osc2tx.campaigns.sampling import Findings, row_seed
 from osc2tx_runtime.campaigns import Row
 from osc2tx_runtime.campaigns.points import Column
+
+from .store import CampaignError
 
 __all__ = ["SearchSampler"]
 

@@ -14,11 +14,15 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from osc2tx.campaigns.errors import CampaignError
 from osc2tx.campaigns.records import COLUMNS, OF_THE_MACHINE, SCHEMA, decoded, record
 from osc2tx_runtime.campaigns import RowResult
 
-__all__ = ["Store"]
+__all__ = ["CampaignError", "Store"]
+
+
+class CampaignError(Exception):
+    """A campaign cannot be run, or its store cannot be used; the message says what to do."""
+
 
 FORMAT = 1
 

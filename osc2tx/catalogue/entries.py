@@ -8,8 +8,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Literal
 
-from osc2tx_classes import dataclass
-from osc2tx_rules import ModifierRules, Rule, Sort
+from osc2tx_shared.classes import dataclass
+from osc2tx_shared.rules import ModifierRules, Rule, Sort
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -24,8 +24,8 @@ from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError
 from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.version import __version__
-from osc2tx_text import READER_HAS_GONE, OutputError, complain, expect_output, put
-from osc2tx_text import explain as explain_output
+from osc2tx_shared.text import READER_HAS_GONE, OutputError, complain, expect_output, put
+from osc2tx_shared.text import explain as explain_output
 
 # Command -> where it is, and its line in the help page.
 COMMANDS: Mapping[str, tuple[str, str]] = {

@@ -11,8 +11,7 @@ import click
 from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.building.manifest import MANIFEST_NAME, ManifestError
 from osc2tx.cli.diff_output import print_diff, read_text
-from osc2tx.cli.options import compile_options, target_options
-from osc2tx.cli.places import seen_from, stated_sources
+from osc2tx.cli.options import compile_options, seen_from, stated_sources, target_options
 from osc2tx.cli.progress import progress_bar
 from osc2tx.cli.reporting import Exit, Reporter, count_of, found, report_options
 from osc2tx.compilation.driver import Compilation
@@ -20,8 +19,8 @@ from osc2tx.compilation.dump import dump_product
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError, ConfigFiles, GivenOptions
 from osc2tx.options import PRODUCT_NAMES, ProductName
-from osc2tx_classes import dataclass, replace
-from osc2tx_text import complain, put, visible
+from osc2tx_shared.classes import dataclass, replace
+from osc2tx_shared.text import complain, put, visible
 
 if TYPE_CHECKING:
     from osc2tx.building.build import BuildOptions, BuildResult, Change

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from osc2tx.campaigns.driver import Progress
-from osc2tx_text import is_watched, visible
+from osc2tx_shared.text import is_watched, visible
 
 __all__ = ["progress_bar"]
 

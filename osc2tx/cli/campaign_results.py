@@ -19,7 +19,7 @@ from osc2tx.campaigns.summary import Results, results_of, summary_of
 from osc2tx.cli.reporting import Exit, count_of
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.running.main import verdict
-from osc2tx_text import complain, say
+from osc2tx_shared.text import complain, say
 
 STORE = click.Path(dir_okay=False, path_type=Path)
 FILE = click.Path(dir_okay=False, path_type=Path)

@@ -12,9 +12,9 @@ from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.building.workers import processors
 from osc2tx.campaigns import CampaignError
 from osc2tx.campaigns.aims import Aim
+from osc2tx.campaigns.cluster import engine_by_name
 from osc2tx.campaigns.driver import Progress, run_campaign
 from osc2tx.campaigns.engine import Engine
-from osc2tx.campaigns.engines import engine_by_name
 from osc2tx.campaigns.samplers import SAMPLERS
 from osc2tx.campaigns.sampling import Wanted, wanted_rows
 from osc2tx.campaigns.store import Store
@@ -33,12 +33,12 @@ from osc2tx.cli.run import (
 from osc2tx.compilation.inputs import InputError, find_inputs
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import CAMPAIGN_SETTINGS, ConfigError, ConfigFiles, GivenOptions
-from osc2tx_classes import replace
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.campaigns import Condition, Modules, Plan
 from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.kpis import MEASURES
-from osc2tx_text import complain
+from osc2tx_shared.classes import replace
+from osc2tx_shared.text import complain
 
 
 class CampaignCommand(RunCommand):

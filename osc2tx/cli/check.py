@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from osc2tx.building.checks import check_jobs
 from osc2tx.building.jobs import find_jobs, run_all
-from osc2tx.cli.options import compile_options, target_options
-from osc2tx.cli.places import sources_or_stated
+from osc2tx.building.result_cache import check_jobs
+from osc2tx.cli.options import compile_options, sources_or_stated, target_options
 from osc2tx.cli.reporting import Exit, Reporter, count_of, found, report_options
 from osc2tx.cli.standard_input import (
     compilation_of_standard_input,

@@ -7,11 +7,10 @@ from pathlib import Path
 
 import click
 
-from osc2tx.cli.options import compile_options, target_options
-from osc2tx.cli.places import seen_from
+from osc2tx.cli.options import compile_options, seen_from, target_options
 from osc2tx.config import ConfigFiles, GivenOptions, InForce, Origin
-from osc2tx.support.real_paths import real_path
-from osc2tx_text import in_json, say
+from osc2tx.support.paths import real_path
+from osc2tx_shared.text import in_json, say
 
 
 @click.command()

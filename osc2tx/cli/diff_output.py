@@ -6,9 +6,9 @@ from pathlib import Path
 
 import click
 
-from osc2tx.building.diff import diff_lines
-from osc2tx.cli.terminal import wants_color
-from osc2tx_text import put, visible
+from osc2tx.building.compare import diff_lines
+from osc2tx.cli.reporting import wants_color
+from osc2tx_shared.text import put, visible
 
 _STYLES = {"+": "green", "-": "red", "@": "cyan"}
 

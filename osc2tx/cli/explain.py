@@ -7,11 +7,11 @@ import json
 import click
 from click.shell_completion import CompletionItem
 
-from osc2tx.cli.terminal import columns, wants_color
+from osc2tx.cli.reporting import columns, wants_color
 from osc2tx.diagnostics import CODES, Code
-from osc2tx.diagnostics.code_lookup import find_code, meant_code
+from osc2tx.diagnostics.codes import find_code, meant_code
 from osc2tx.diagnostics.render import explanation_data, render_explanation
-from osc2tx_text import in_json, put
+from osc2tx_shared.text import in_json, put
 
 
 def _complete(

@@ -9,8 +9,7 @@ import click
 from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.building.write import replace_file
 from osc2tx.cli.diff_output import print_diff
-from osc2tx.cli.options import compile_options
-from osc2tx.cli.places import sources_or_stated
+from osc2tx.cli.options import compile_options, sources_or_stated
 from osc2tx.cli.reporting import Exit, Reporter, count_of, report_options
 from osc2tx.cli.standard_input import (
     compilation_of_standard_input,
@@ -19,8 +18,8 @@ from osc2tx.cli.standard_input import (
 )
 from osc2tx.compilation.driver import Compilation
 from osc2tx.config import GivenOptions
-from osc2tx.support.real_paths import real_path
-from osc2tx_text import complain, put
+from osc2tx.support.paths import real_path
+from osc2tx_shared.text import complain, put
 
 
 @click.command()

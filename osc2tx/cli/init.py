@@ -10,7 +10,7 @@ import click
 from osc2tx.cli.reporting import Exit
 from osc2tx.options import STANDARDS
 from osc2tx.resources import resource_dir
-from osc2tx_text import complain, put, say
+from osc2tx_shared.text import complain, put, say
 
 SETTINGS = "settings.toml"
 

@@ -10,7 +10,7 @@ import click
 
 from osc2tx.cli.reporting import Exit
 from osc2tx_runtime.opendrive import MapError, RoadMap, read_map, unread_elements
-from osc2tx_text import complain, say
+from osc2tx_shared.text import complain, say
 
 
 @click.command()

@@ -14,8 +14,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from osc2tx.compilation.inputs import InputError
-from osc2tx.support.output_names import COVERAGE_MODEL, SOURCE_MAP
-from osc2tx.support.real_paths import real_path
+from osc2tx.support.paths import COVERAGE_MODEL, SOURCE_MAP, real_path
 from osc2tx_runtime import Scenario, ScenarioError
 
 if TYPE_CHECKING:

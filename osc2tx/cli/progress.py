@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 
-from osc2tx_text import is_watched
+from osc2tx_shared.text import is_watched
 
 FEWEST_FILES = 20  # that take long enough to look at a bar
 

@@ -7,11 +7,11 @@ import json
 import click
 
 from osc2tx.cli.explain import put_explanations
-from osc2tx.diagnostics.code_lookup import find_code
+from osc2tx.diagnostics.codes import find_code
 from osc2tx.diagnostics.render import explanation_data
 from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.reference import as_data, as_text, entries, find
-from osc2tx_text import in_json, put
+from osc2tx_shared.text import in_json, put
 
 
 def _complete(context: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:

@@ -9,7 +9,7 @@ import click
 from osc2tx.cli.reporting import Exit
 from osc2tx_runtime.errors import InputError, ScenarioError
 from osc2tx_runtime.running.trace_reports import folder_report, trace_report
-from osc2tx_text import complain, say
+from osc2tx_shared.text import complain, say
 
 
 @click.command()

@@ -6,6 +6,7 @@ goes to stdout, and all else to stderr.
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Sequence
 from enum import IntEnum
@@ -15,13 +16,34 @@ from typing import Any, Literal, TypeAlias, get_args
 
 import click
 
-from osc2tx.cli.terminal import wants_color
 from osc2tx.compilation.file_reports import Reportable, apply_suppressions
 from osc2tx.diagnostics import Severity
 from osc2tx.diagnostics.report import Report, make_report
 from osc2tx.version import __version__
-from osc2tx_classes import dataclass, replace
-from osc2tx_text import complain, put, put_document, say
+from osc2tx_shared.classes import dataclass, replace
+from osc2tx_shared.text import complain, is_watched, put, put_document, say
+
+__all__ = ["columns", "wants_color"]
+
+
+def wants_color(*, err: bool = False) -> bool:
+    """Whether to color standard output, or standard error: `NO_COLOR`, `FORCE_COLOR`, a terminal.
+
+    The first of the two variables that is not empty decides, else whether there is a terminal.
+    """
+    if os.environ.get("NO_COLOR"):
+        return False
+    return bool(os.environ.get("FORCE_COLOR")) or is_watched(err=err)
+
+
+def columns() -> int | None:
+    """Return the width of the terminal at standard output; None for files and pipes."""
+    if not is_watched(err=False):
+        return None
+    from shutil import get_terminal_size  # with all that it knows of archives
+
+    return get_terminal_size().columns
+
 
 OutputFormat: TypeAlias = Literal["text", "json", "sarif", "github"]
 OUTPUT_FORMATS: tuple[OutputFormat, ...] = get_args(OutputFormat)

@@ -16,15 +16,15 @@ from osc2tx.cli.reporting import Exit, Reporter, report_options
 from osc2tx.compilation.inputs import InputError, find_inputs
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import Config, ConfigError, ConfigFiles, GivenOptions
-from osc2tx.support.real_paths import real_path
-from osc2tx_classes import replace
+from osc2tx.support.paths import real_path
 from osc2tx_runtime import RunResult, RunSettings, Scenario, ScenarioError, run_scenario
 from osc2tx_runtime.errors import OwnCode, SettingsError
 from osc2tx_runtime.running.main import choose_scenario as choose
 from osc2tx_runtime.running.main import chosen_world, verdict
 from osc2tx_runtime.running.options import OPTIONS, read_options
 from osc2tx_runtime.worlds import EMBEDDED, Option
-from osc2tx_text import complain, is_watched, visible
+from osc2tx_shared.classes import replace
+from osc2tx_shared.text import complain, is_watched, visible
 
 if TYPE_CHECKING:
     from osc2tx.compilation.driver import Compilation

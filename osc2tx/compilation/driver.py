@@ -23,7 +23,7 @@ from osc2tx.compilation.siblings import find_siblings
 from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
 from osc2tx.options import CompileOptions
-from osc2tx.support.real_paths import real_path
+from osc2tx.support.paths import real_path
 from osc2tx.support.recursion import room_for_trees
 from osc2tx.syntax import parse, read_source
 

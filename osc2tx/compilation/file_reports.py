@@ -11,7 +11,7 @@ from typing import Protocol
 from osc2tx.diagnostics import Diagnostic, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
 from osc2tx.diagnostics.suppressions import Suppression, SuppressionResult, settle
-from osc2tx_classes import dataclass, replace
+from osc2tx_shared.classes import dataclass, replace
 
 
 class Reportable(Protocol):

@@ -6,8 +6,8 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from osc2tx_classes import dataclass
-from osc2tx_text import visible
+from osc2tx_shared.classes import dataclass
+from osc2tx_shared.text import visible
 
 
 class InputError(Exception):

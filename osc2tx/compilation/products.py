@@ -5,15 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from osc2tx.support.output_names import (
-    COVERAGE_MODEL,
-    LOSS_REPORT,
-    MODULE,
-    PARAMETERS,
-    SOURCE_MAP,
-    XML,
-)
-from osc2tx_classes import dataclass
+from osc2tx.support.paths import COVERAGE_MODEL, LOSS_REPORT, MODULE, PARAMETERS, SOURCE_MAP, XML
+from osc2tx_shared.classes import dataclass
 
 if TYPE_CHECKING:
     from osc2tx.backends.py_trees.emitter import GeneratedModule

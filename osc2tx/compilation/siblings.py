@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Protocol
 
 from osc2tx.diagnostics import SourceFile
 from osc2tx.options import CompileOptions
+from osc2tx.support.paths import real_path
 from osc2tx.support.python_modules import is_taken
-from osc2tx.support.real_paths import real_path
 
 if TYPE_CHECKING:
     from osc2tx.backends.py_trees.sharing import Sharing, Sibling

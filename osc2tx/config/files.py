@@ -7,7 +7,7 @@ from pathlib import Path
 
 from osc2tx.config.model import Config
 from osc2tx.config.reader import read_folder
-from osc2tx.support.real_paths import real_path
+from osc2tx.support.paths import real_path
 
 
 class ConfigFiles:

@@ -9,7 +9,7 @@ from typing import Any
 
 from osc2tx.config.settings import COMPILE_SETTINGS, RUN_SETTINGS
 from osc2tx.options import ONLY_VERSIONS, CompileOptions, XmlOptions
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 class ConfigError(Exception):

@@ -11,7 +11,7 @@ from osc2tx.options import (
     XML_PROFILES,
     XML_VERSIONS,
 )
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)

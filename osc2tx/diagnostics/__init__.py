@@ -4,9 +4,9 @@ A diagnostic is data (code, severity, message, spans, help); a stage puts it int
 `DiagnosticSink` and goes on. Rendering is a separate matter.
 
 Modules, in reading order: `source` (texts and spans), `model` (the diagnostic itself), `codes` (the
-registry of codes), `explanations` and `code_lookup` (what there is to say about a code), `sink`
-(collecting and ordering), `suppressions` (comments that keep warnings back), `report` (all that a
-run has to say), `render` (its forms for people and programs). `suggestions` is for "did you mean".
+registry of codes and their explanations), `sink` (collecting and ordering), `suppressions`
+(comments that silence warnings), `report` (the diagnostics of a run), `render` (its output formats).
+`suggestions` finds the nearest name ("did you mean").
 """
 
 from osc2tx.diagnostics.codes import CODES, Code

@@ -8,9 +8,58 @@ A code is permanent; a retired one is not used again.
 
 from __future__ import annotations
 
-from osc2tx.diagnostics.explanations import Explanation, explanation_of
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
 from osc2tx.diagnostics.model import Severity
-from osc2tx_classes import dataclass
+from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx_shared.classes import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Explanation:
+    """An example of a mistake.
+
+    Attributes:
+        remedy: What to do, one or two sentences.
+        faulty: A source text with the mistake.
+        fixed: The same text without it; empty where the mistake is not in the text.
+        standard: Version of the standard that the example is about.
+        dialect: Its dialect.
+        target: What is made of it; some codes are only about one target.
+    """
+
+    remedy: str
+    faulty: str
+    fixed: str = ""
+    standard: str = "2.1"
+    dialect: str = "asam"
+    target: str = "all"
+
+    @property
+    def options(self) -> str:
+        """The options with which the example shows the code, as on the command line."""
+        standard = f"--std {self.standard}" if self.standard != "2.1" else ""
+        dialect = f"--dialect {self.dialect}" if self.dialect != "asam" else ""
+        target = f"--target {self.target}" if self.target != "all" else ""
+        return " ".join(option for option in (standard, dialect, target) if option)
+
+
+def explanation_of(code: str) -> Explanation | None:
+    """Return the explanation of a code; `None` if nobody has written one."""
+    found = _family(code[3:4]).get(code)
+    return None if found is None else Explanation(**found)
+
+
+@cache
+def _family(digit: str) -> Mapping[str, Mapping[str, Any]]:
+    import tomllib  # only needed when somebody asks
+    from importlib.resources import files
+
+    path = files("osc2tx.diagnostics") / "texts" / f"{digit}xx.toml"
+    return tomllib.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+
 
 ERROR, WARNING = Severity.ERROR, Severity.WARNING
 
@@ -209,3 +258,22 @@ CODES = _table(
     Code("OSC808", "simulator", ERROR, "The simulator is not there, or refuses."),
     Code("OSC809", "run-failed", ERROR, "A run ended with a failure, or not in time."),
 )
+
+
+def find_code(written: str) -> Code | None:
+    """Return the code of that number, name or slug, in capitals or not."""
+    if written.isdecimal():
+        written = f"OSC{written}"
+    return CODES.get(written.upper()) or _by_slug().get(written.lower())
+
+
+def meant_code(written: str) -> str | None:
+    """Return a line of help that offers the code or slug that was probably meant."""
+    if written.isdecimal():
+        written = f"OSC{written}"
+    return did_you_mean(written.upper(), CODES, 0.8) or did_you_mean(written.lower(), _by_slug())
+
+
+@cache
+def _by_slug() -> dict[str, Code]:
+    return {code.slug: code for code in CODES.values()}

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from osc2tx.diagnostics.model import Diagnostic, Severity
 from osc2tx.diagnostics.source import SourceFile
-from osc2tx.support.real_paths import real_path
-from osc2tx_classes import dataclass
+from osc2tx.support.paths import real_path
+from osc2tx_shared.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,8 +8,8 @@ from dataclasses import field
 from pathlib import Path
 from typing import Final
 
-from osc2tx.support.real_paths import real_path
-from osc2tx_classes import dataclass
+from osc2tx.support.paths import real_path
+from osc2tx_shared.classes import dataclass
 
 LINE_END = re.compile(r"\r\n|\r|\n")
 

@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from osc2tx.diagnostics.code_lookup import find_code, meant_code
+from osc2tx.diagnostics.codes import find_code, meant_code
 from osc2tx.diagnostics.model import Diagnostic, Severity
 from osc2tx.diagnostics.sink import DiagnosticSink, in_order
 from osc2tx.diagnostics.source import SourceFile, Span
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ laid out anew; nothing is renamed, reordered or dropped.
 
 Stages, in order:
 
-1. `read_lines` (`lines`, with `token_gaps`): tokens and the text between them to logical lines.
+1. `read_lines` (`lines`): tokens and the text between them to logical lines.
 2. `lay_out` (`layout`, with `spacing`): a logical line to one or several physical lines.
 3. `join_lines` (`blanks`): indentation and blank lines between them.
 

@@ -35,7 +35,6 @@ from osc2tx.ir.behaviors import (
     Wait,
 )
 from osc2tx.ir.compare import means_same, same, words
-from osc2tx.ir.constants import constant
 from osc2tx.ir.coverage import Bucket, Coverage
 from osc2tx.ir.declarations import (
     GLOBAL_MARK,
@@ -87,15 +86,13 @@ from osc2tx.ir.expressions import (
     Unary,
     UserShape,
 )
-from osc2tx.ir.lineages import lineage, lineages, merged
 from osc2tx.ir.nodes import (
     Module,
     Override,
     Placement,
     Scenario,
 )
-from osc2tx.ir.rewrite import applied_with, rewrite
-from osc2tx.ir.traversal import children, is_live, walk
+from osc2tx.ir.traversal import applied_with, children, constant, is_live, rewrite, walk
 from osc2tx.ir.user_types import (
     ActionParameter,
     UserAction,
@@ -103,6 +100,9 @@ from osc2tx.ir.user_types import (
     UserField,
     UserModifier,
     UserType,
+    lineage,
+    lineages,
+    merged,
 )
 from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType, qualified
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors

@@ -6,7 +6,7 @@ from osc2tx.diagnostics import Span
 from osc2tx.ir.behaviors import EventRef, Moment
 from osc2tx.ir.expressions import Expression
 from osc2tx.ir.values import Unit
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -8,7 +8,7 @@ from osc2tx.diagnostics import Span
 from osc2tx.ir.behaviors import Moment, Trigger
 from osc2tx.ir.expressions import Choices, Domain, Expression, RangeValue
 from osc2tx.ir.values import Unit, ValueType
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 # Before the name of a global parameter that a field of the scenario hides: no field has a blank in
 # its name.

@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 from osc2tx.diagnostics import Span
 from osc2tx.ir.values import ExpressionBase, Unit
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -7,7 +7,7 @@ from osc2tx.ir.behaviors import Behavior, ModifierCall
 from osc2tx.ir.coverage import Coverage
 from osc2tx.ir.declarations import Constraint, Declaration, Method
 from osc2tx.ir.user_types import UserAction, UserEnum, UserModifier, UserType
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

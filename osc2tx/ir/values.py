@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 
 from osc2tx.diagnostics import Span
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 class Kind(Enum):

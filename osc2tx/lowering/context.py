@@ -8,11 +8,11 @@ from typing import TypeVar
 
 from osc2tx import ir
 from osc2tx.analysis import ConstraintAnalysis
-from osc2tx.analysis.operation_list import Key
-from osc2tx.analysis.parameter_lookup import Place
+from osc2tx.analysis.constraints.operation_list import Key
+from osc2tx.analysis.constraints.parameter_lookup import Place
 from osc2tx.analysis.same_actors import SameActor
 from osc2tx.diagnostics import DiagnosticSink, Span
-from osc2tx.lowering.authored_units import authored_unit
+from osc2tx.lowering.value_types import authored_unit
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics.symbols import (
     ActionSymbol,
@@ -26,7 +26,7 @@ from osc2tx.semantics.symbols import (
     TypeSymbol,
 )
 from osc2tx.syntax import ast
-from osc2tx_classes import dataclass, replace
+from osc2tx_shared.classes import dataclass, replace
 
 Part = TypeVar("Part")
 

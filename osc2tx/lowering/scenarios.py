@@ -8,49 +8,48 @@ from osc2tx import ir
 from osc2tx.analysis import ConstraintAnalysis
 from osc2tx.analysis.same_actors import same_actors
 from osc2tx.diagnostics import DiagnosticSink
-from osc2tx.lowering.carla_paths import is_path_member
-from osc2tx.lowering.combined_types import lineage
-from osc2tx.lowering.composed_behaviors import (
+from osc2tx.lowering.behavior.composed_behaviors import (
     Composed,
     actor_type_of,
     is_composed,
     lineage_of,
 )
-from osc2tx.lowering.constraints import ConstraintLowering
+from osc2tx.lowering.behavior.do_directives import labelled_once, lower_body, nothing_left
+from osc2tx.lowering.behavior.durations import own_duration
+from osc2tx.lowering.behavior.user_actions import lower_actions
+from osc2tx.lowering.constraints.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
-from osc2tx.lowering.coverage import lower_coverage
-from osc2tx.lowering.declaration_order import in_order_of_use
-from osc2tx.lowering.declarations import DeclarationLowering
-from osc2tx.lowering.do_directives import labelled_once, lower_body, nothing_left
-from osc2tx.lowering.expressions import lower_expression
-from osc2tx.lowering.global_parameters import GlobalLowering
-from osc2tx.lowering.initial_placement import (
-    PlacementLowering,
-    can_place,
-    merged,
-    owner_of,
-)
-from osc2tx.lowering.method_overriding import object_types
-from osc2tx.lowering.modifier_functions import lower_modifiers, own_modifiers
-from osc2tx.lowering.modifiers import is_override
-from osc2tx.lowering.override_modifiers import lower_overrides
-from osc2tx.lowering.own_durations import own_duration
-from osc2tx.lowering.standing_modifiers import StandingModifiers, stands
-from osc2tx.lowering.unsupported_members import report_unsupported_members
-from osc2tx.lowering.user_actions import lower_actions
-from osc2tx.lowering.user_enums import lower_enums
-from osc2tx.lowering.user_fields import (
+from osc2tx.lowering.coverage.coverage import lower_coverage
+from osc2tx.lowering.declarations.combined_types import lineage
+from osc2tx.lowering.declarations.declaration_order import in_order_of_use
+from osc2tx.lowering.declarations.declarations import DeclarationLowering
+from osc2tx.lowering.declarations.global_parameters import GlobalLowering
+from osc2tx.lowering.declarations.user_fields import (
     class_default,
     mentioned_fields,
     user_fields,
     user_lineage,
 )
-from osc2tx.lowering.user_types import lower_types
+from osc2tx.lowering.declarations.user_types import lower_enums, lower_types
+from osc2tx.lowering.modifiers.modifier_functions import lower_modifiers, own_modifiers
+from osc2tx.lowering.modifiers.modifiers import is_override
+from osc2tx.lowering.modifiers.override_modifiers import lower_overrides
+from osc2tx.lowering.modifiers.standing_modifiers import StandingModifiers, stands
+from osc2tx.lowering.placement.carla_paths import is_path_member
+from osc2tx.lowering.placement.initial_placement import (
+    PlacementLowering,
+    can_place,
+    merged,
+    owner_of,
+)
+from osc2tx.lowering.unsupported_members import report_unsupported_members
+from osc2tx.lowering.values.expressions import lower_expression
+from osc2tx.lowering.values.method_kinds import object_types
 from osc2tx.options import CompileOptions
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
-from osc2tx_classes import replace
+from osc2tx_shared.classes import replace
 
 
 def lower(

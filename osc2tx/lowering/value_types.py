@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from osc2tx import ir
+from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
-from osc2tx.semantics import types
+
+__all__ = ["authored_unit"]
 
 PRIMITIVES = {
     name: ir.ValueType(kind, name)
@@ -58,3 +62,27 @@ def number_in(unit: sym.UnitSymbol, si: float) -> int | float:
     """Return how many of a unit a value in SI is, to ten digits; a whole number as such."""
     number = float(f"{(si - unit.offset) / unit.factor:.10g}")
     return int(number) if number.is_integer() else number
+
+
+def authored_unit(
+    model: SemanticModel, type_: ir.ValueType, written: Iterable[ir.Expression | None]
+) -> ir.Unit | None:
+    """Return the unit of the first literal of the type; without one the SI unit of the library.
+
+    Args:
+        model: Knows the units.
+        type_: Type of the parameter.
+        written: What the source says of it.
+
+    Returns:
+        `None` if it has no unit: it is no physical type, or one of the user without a literal.
+    """
+    if type_.kind is not ir.Kind.QUANTITY:
+        return None
+    for expression in written:
+        for part in ir.walk(expression) if expression is not None else ():
+            if isinstance(part, ir.Quantity) and part.type == type_:
+                return part.unit
+    plain = (unit for unit in model.known_units if (unit.factor, unit.offset) == (1.0, 0.0))
+    found = [unit for unit in plain if str(unit.type) == type_.name and unit.origin == "library"]
+    return lower_unit(min(found, key=lambda unit: len(unit.name))) if found else None

@@ -8,7 +8,7 @@ from functools import cache, partial
 
 from osc2tx.stdlib import DOMAIN, TYPES, library_file, member_meanings
 from osc2tx.syntax import ast
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 __all__ = ["Declaration", "Member", "declarations"]
 

@@ -2,7 +2,7 @@
 
 Input: an `ast.File`, and a callable that loads the files it imports. Output: a `SemanticModel`
 (`model`, over `symbols` and `types`) and diagnostics OSC2xx - OSC4xx, and OSC6xx for what a dialect
-lets pass. `dump_model` (`dump`, `dump_bodies`) prints a model.
+lets pass. `dump_model` (`dump`) prints a model.
 
 Order of events, with the modules that do the work; `builder` runs them:
 
@@ -15,9 +15,9 @@ Order of events, with the modules that do the work; `builder` runs them:
    `inheritance`), physical types and units (`physical`), extensions (`extensions`), enum values
    (`enums`), signatures.
 4. Resolution pass, second half (`check`): bodies. Statements: `behaviors`, `modifiers`, `events`,
-   `constraints`, `inheritance_conditions`, `coverage` (with `coverage_items` and
-   `coverage_slices`). Expressions: the package `expressions`. Arguments: `binding`, `exclusive`.
-   Names: `member_lookup`, `builtins`, `unimported`. Types: `assignability`, `conversions`. All
+   `constraints`, `inheritance_conditions`, `coverage` (with `coverage_items`).
+   Expressions: the package `expressions`. Arguments: `binding`.
+   Names: `member_lookup`, `builtins`, `unknown_names`. Types: `assignability`, `conversions`. All
    share a `Resolution` (`resolution`) and get the place they look from as an `Environment`.
 
 `units` converts authored values to SI, for the next stage.

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from osc2tx.semantics.builtins import TIME
 from osc2tx.semantics.conversions import NUMBERS, converts, dimension_of
+from osc2tx.semantics.names.scenario_runner import reads_as_quantity
 from osc2tx.semantics.resolution import Environment, Resolution
-from osc2tx.semantics.scenario_runner import reads_as_quantity
 from osc2tx.semantics.types import (
     BOOL,
     ERROR,

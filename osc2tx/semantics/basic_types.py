@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 SI_BASES = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
 

@@ -5,23 +5,37 @@ from __future__ import annotations
 from dataclasses import field
 
 from osc2tx.diagnostics import DiagnosticSink, Span
-from osc2tx.semantics.actors_by_name import hand_over_actors
 from osc2tx.semantics.check import check_bodies
-from osc2tx.semantics.collect import LIBRARY_NAMESPACES, Collector
+from osc2tx.semantics.declarations.collect import LIBRARY_NAMESPACES, Collector
+from osc2tx.semantics.declarations.imports import ImportHelp, ImportWalk, LoadFile, no_help
+from osc2tx.semantics.declarations.library import Library, build_library, shared_library
+from osc2tx.semantics.declarations.list_elements import list_elements
+from osc2tx.semantics.declarations.resolve import resolve_declarations
 from osc2tx.semantics.dialects import Dialect, Relaxations
 from osc2tx.semantics.expressions import infer
-from osc2tx.semantics.imports import ImportHelp, ImportWalk, LoadFile, no_help
-from osc2tx.semantics.library import Library, build_library, shared_library
-from osc2tx.semantics.list_elements import list_elements
 from osc2tx.semantics.model import SemanticModel
+from osc2tx.semantics.names.actors_by_name import hand_over_actors
 from osc2tx.semantics.resolution import Resolution
-from osc2tx.semantics.resolve import resolve_declarations
 from osc2tx.semantics.scope import Scope
-from osc2tx.semantics.symbols import ActionSymbol, ScenarioSymbol
-from osc2tx.semantics.type_names import tell_types_apart
+from osc2tx.semantics.symbols import (
+    ActionSymbol,
+    ActorSymbol,
+    EnumSymbol,
+    ScenarioSymbol,
+    StructSymbol,
+)
 from osc2tx.support.recursion import room_for_trees
 from osc2tx.syntax import ast
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
+
+
+def tell_types_apart(scope: Scope) -> None:
+    """Rename the types of a layer whose names stand for other types as well."""
+    for name, group in scope.types.items():
+        below = scope.parent is not None and scope.parent.types_named(name)
+        for symbol in group if below else group[1:]:
+            if isinstance(symbol, ActorSymbol | EnumSymbol | StructSymbol):
+                symbol.name = f"{symbol.namespace}::{name}"
 
 
 @dataclass(slots=True, eq=False)

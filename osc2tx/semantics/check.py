@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from osc2tx.diagnostics import Span
 from osc2tx.semantics.assignability import check_value
-from osc2tx.semantics.behaviors import check_do_member, check_on, resolve_label
+from osc2tx.semantics.bodies.behaviors import check_do_member, check_on, resolve_label
+from osc2tx.semantics.bodies.constraints import check_keep, check_remove_default
+from osc2tx.semantics.bodies.coverage import check_coverage
+from osc2tx.semantics.bodies.events import check_event
+from osc2tx.semantics.bodies.modifiers import check_modifier
 from osc2tx.semantics.builtins import BEHAVIOR
-from osc2tx.semantics.constraints import check_keep, check_remove_default
-from osc2tx.semantics.coverage import check_coverage
-from osc2tx.semantics.events import check_event
-from osc2tx.semantics.inheritance_conditions import check_inheritance_condition
-from osc2tx.semantics.modifiers import check_modifier
+from osc2tx.semantics.declarations.inheritance_conditions import check_inheritance_condition
+from osc2tx.semantics.names.scenario_runner import note_runner_event
 from osc2tx.semantics.resolution import Environment, Resolution
-from osc2tx.semantics.scenario_runner import note_runner_event
 from osc2tx.semantics.scope import supertypes
 from osc2tx.semantics.symbols import (
     ActionSymbol,

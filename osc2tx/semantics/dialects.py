@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import field
 from typing import TYPE_CHECKING
 
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 if TYPE_CHECKING:
     from osc2tx.semantics.symbols import UnitSymbol

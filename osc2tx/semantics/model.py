@@ -16,7 +16,7 @@ from osc2tx.semantics.symbols import (
 )
 from osc2tx.semantics.types import ERROR, Type
 from osc2tx.syntax import ast
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)

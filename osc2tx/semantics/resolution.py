@@ -25,7 +25,7 @@ from osc2tx.semantics.symbols import (
 )
 from osc2tx.semantics.types import Type
 from osc2tx.syntax import ast
-from osc2tx_classes import dataclass, replace
+from osc2tx_shared.classes import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,7 +24,7 @@ from osc2tx.semantics.symbols import (
 )
 from osc2tx.semantics.types import Dimension, PhysicalType
 from osc2tx.syntax import ast
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 NULL = "null"
 

@@ -22,7 +22,7 @@ from osc2tx.semantics.basic_types import (
     VoidType,
 )
 from osc2tx.syntax import ast
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 @dataclass(slots=True, kw_only=True, eq=False, repr=False)

@@ -1,7 +1,7 @@
 """Snapshots of parsed library texts in the user's cache folder.
 
-Where there is none that can be trusted (`osc2tx_cache`), the text is parsed as if there were no
-snapshots, and a new one is written if that is possible.
+Where there is none that can be trusted (`osc2tx_shared.cache`), the text is parsed as if there
+were no snapshots, and a new one is written if that is possible.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from osc2tx.diagnostics import SourceFile
 from osc2tx.syntax import ast
 from osc2tx.syntax.packed_ast import PackingError, pack, unpack
 from osc2tx.version import __version__
-from osc2tx_cache import Snapshots
+from osc2tx_shared.cache import Snapshots
 
 __all__ = ["load_snapshot", "save_snapshot"]
 

@@ -32,7 +32,7 @@ zipapp zipfile zipimport zlib zoneinfo
 
 # What the runtime imports, and what Python and pytest import by themselves where they find it.
 _OTHERS = """
-carla conftest lxml numpy osc2tx osc2tx_classes osc2tx_rules osc2tx_runtime osc2tx_text py_trees
+carla conftest lxml numpy osc2tx osc2tx_runtime osc2tx_shared py_trees
 pydot pyparsing pytest sitecustomize usercustomize
 """
 

@@ -5,10 +5,10 @@ Input: a `SourceFile`. Output: an `ast.File` and diagnostics OSC1xx in the sink.
 Stages, in order:
 
 1. `read_source` (`source_reader`): bytes to text.
-2. `TokenSource` (`token_source`, with `patterns`, `identifiers`, `keywords`, `lexical_errors`):
+2. `TokenSource` (`token_source`, with `patterns`, `keywords`, `lexical_errors`):
    text to a `TokenTable` (`tokens`): tokens with INDENT, DEDENT and NEWLINE, keywords decided by
    place, comments apart.
-3. `parse_tokens` (`parser`, `token_stream`, `syntax_errors`, `common_mistakes`): tokens to the tree
+3. `parse_tokens` (`parser`, `syntax_errors`, `common_mistakes`): tokens to the tree
    of the generated parser (`_antlr`, made from `grammar/OpenSCENARIO2.g4`).
 4. `ASTTransformer` (`ast_transformer`, `ast_builder`, `literals`): tree to AST (`ast`).
 

@@ -15,8 +15,22 @@ from antlr4.error.Errors import RecognitionException
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
 from osc2tx.syntax.syntax_errors import SyntaxErrors
-from osc2tx.syntax.token_stream import TokenStream
 from osc2tx.syntax.tokens import DEDENT, EOF, INDENT, KEYWORDS, NEWLINE, TokenTable
+
+
+class TokenStream:
+    """A cursor over a token table; the parser only ever looks one token ahead."""
+
+    def __init__(self, table: TokenTable) -> None:
+        """Start at the first token."""
+        self.table = table
+        self.types = table.types
+        self.index = 0
+
+    def LA(self, distance: int) -> int:
+        """Return the type of the current token; `distance` is always 1."""
+        return self.types[self.index]
+
 
 Tree = Any  # a context of the generated parser; its children are contexts and token indexes
 

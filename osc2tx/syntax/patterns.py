@@ -7,6 +7,21 @@ so a string of a megabyte costs no more than its length.
 from __future__ import annotations
 
 import re
+from unicodedata import category
+
+_START = frozenset({"Ll", "Lm", "Lo", "Lt", "Lu", "Nl"})
+_CONTINUE = _START | {"Mc", "Mn", "Nd", "Pc"}
+
+
+def identifier_end(text: str, start: int) -> int:
+    """Return the offset behind the identifier at `start`; `start` itself if there is none."""
+    if start >= len(text) or not (text[start] == "_" or category(text[start]) in _START):
+        return start
+    end = start + 1
+    while end < len(text) and category(text[end]) in _CONTINUE:
+        end += 1
+    return end
+
 
 _NAME = r"(?:[^\W\d]\w*+|\|[^|\r\n]++\|)"
 _DECIMAL_FLOAT = r"[0-9]*+\.[0-9]++(?:[eE][+-]?[0-9]++)?|[0-9]++[eE][+-]?[0-9]++"

@@ -6,9 +6,9 @@ from collections.abc import Collection
 
 from osc2tx.diagnostics import DiagnosticSink, SourceFile
 from osc2tx.syntax import patterns
-from osc2tx.syntax.identifiers import identifier_end
 from osc2tx.syntax.keywords import decide_keywords
 from osc2tx.syntax.lexical_errors import LexicalErrors
+from osc2tx.syntax.patterns import identifier_end
 from osc2tx.syntax.tokens import (
     DEDENT,
     EOF,

@@ -18,7 +18,7 @@ from math import inf
 import osc2tx_runtime.interrupts
 
 # isort: split
-import osc2tx_text  # noqa: F401 (before libraries that want a standard output)
+import osc2tx_shared.text  # noqa: F401 (before libraries that want a standard output)
 
 # isort: split
 import osc2tx_runtime.domain.actions  # noqa: F401 (registers the actions of the library)
@@ -38,6 +38,17 @@ from osc2tx_runtime.domain.actors import (
     TrafficLightController,
     Trailer,
     Vehicle,
+)
+from osc2tx_runtime.domain.map.crossings import Crossing, CrossingType
+from osc2tx_runtime.domain.map.roads_and_lanes import (
+    CompoundLane,
+    CompoundRoute,
+    Junction,
+    Lane,
+    LaneSection,
+    Road,
+    RoadPath,
+    Route,
 )
 from osc2tx_runtime.domain.measuring.weather import (
     Air,
@@ -70,17 +81,6 @@ from osc2tx_runtime.domain.paths.path_values import (
     Trajectory,
 )
 from osc2tx_runtime.domain.points_and_poses import GeodeticPoint, Rgb, RoutePoint, XyzPoint
-from osc2tx_runtime.domain.routes.crossings import Crossing, CrossingType
-from osc2tx_runtime.domain.routes.roads_and_lanes import (
-    CompoundLane,
-    CompoundRoute,
-    Junction,
-    Lane,
-    LaneSection,
-    Road,
-    RoadPath,
-    Route,
-)
 from osc2tx_runtime.domain.scenario import Scenario
 from osc2tx_runtime.domain.shapes import (
     AnyAccelerationShape,
@@ -103,10 +103,8 @@ from osc2tx_runtime.domain.signals.traffic_lights import (
     TrafficLightPhase,
 )
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.language.action import Action, GlobalAction
-from osc2tx_runtime.language.casts import as_type
-from osc2tx_runtime.language.declared import not_given
-from osc2tx_runtime.language.registry import (
+from osc2tx_runtime.language.actions.action import Action, GlobalAction
+from osc2tx_runtime.language.actions.registry import (
     LATERAL,
     LONGITUDINAL,
     action,
@@ -114,6 +112,7 @@ from osc2tx_runtime.language.registry import (
     methods,
     user_action,
 )
+from osc2tx_runtime.language.declared import as_type, not_given
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.tree import (
     Behaviour,
@@ -135,12 +134,19 @@ from osc2tx_runtime.language.tree import (
     rise,
 )
 from osc2tx_runtime.language.tree.duration_limits import Duration
-from osc2tx_runtime.language.tree.parameters import Range, any_of, at_least, at_most, fixed, within
-from osc2tx_runtime.language.tree.written_units import Unit
+from osc2tx_runtime.language.values.parameters import (
+    Range,
+    any_of,
+    at_least,
+    at_most,
+    fixed,
+    within,
+)
+from osc2tx_runtime.language.values.written_units import Unit
 from osc2tx_runtime.running.main import main
 from osc2tx_runtime.running.runner import RunResult, run_scenario
-from osc2tx_runtime.world.driving import Control, Driver, LaneView, Observation, OtherActor
-from osc2tx_runtime.world.velocities import (
+from osc2tx_runtime.world.drivers.driving import Control, Driver, LaneView, Observation, OtherActor
+from osc2tx_runtime.world.measuring.velocities import (
     Acceleration,
     OrientationAcceleration,
     OrientationRate,

@@ -1,41 +1,41 @@
 """The modifiers by their names in the DSL; made by tools/make_catalogue.py."""
 
-from osc2tx_runtime.domain.modifiers.conduct import Along as along
-from osc2tx_runtime.domain.modifiers.conduct import AlongTrajectory as along_trajectory
-from osc2tx_runtime.domain.modifiers.conduct import AvoidCollisions as avoid_collisions
-from osc2tx_runtime.domain.modifiers.conduct import OnPath as on_path
-from osc2tx_runtime.domain.modifiers.conduct import PhysicalMovement as physical_movement
-from osc2tx_runtime.domain.modifiers.conduct import TowTrailer as tow_trailer
-from osc2tx_runtime.domain.modifiers.lane import ChangeLane as change_lane
-from osc2tx_runtime.domain.modifiers.lane import KeepLane as keep_lane
-from osc2tx_runtime.domain.modifiers.lane import Lane as lane
-from osc2tx_runtime.domain.modifiers.lane import Lateral as lateral
-from osc2tx_runtime.domain.modifiers.map_crossings import CrossingConnects as crossing_connects
-from osc2tx_runtime.domain.modifiers.map_files import SetMapFile as set_map_file
-from osc2tx_runtime.domain.modifiers.map_files import (
+from osc2tx_runtime.domain.modifiers.map.crossings import CrossingConnects as crossing_connects
+from osc2tx_runtime.domain.modifiers.map.files import SetMapFile as set_map_file
+from osc2tx_runtime.domain.modifiers.map.files import (
     SetTrafficLightsControlFile as set_traffic_lights_control_file,
 )
-from osc2tx_runtime.domain.modifiers.map_lanes import CompoundLaneSide as compound_lane_side
-from osc2tx_runtime.domain.modifiers.map_lanes import EndLane as end_lane
-from osc2tx_runtime.domain.modifiers.map_lanes import LaneSide as lane_side
-from osc2tx_runtime.domain.modifiers.map_lanes import NumberOfLanes as number_of_lanes
-from osc2tx_runtime.domain.modifiers.map_lanes import StartLane as start_lane
-from osc2tx_runtime.domain.modifiers.map_routes import (
+from osc2tx_runtime.domain.modifiers.map.lanes import CompoundLaneSide as compound_lane_side
+from osc2tx_runtime.domain.modifiers.map.lanes import EndLane as end_lane
+from osc2tx_runtime.domain.modifiers.map.lanes import LaneSide as lane_side
+from osc2tx_runtime.domain.modifiers.map.lanes import NumberOfLanes as number_of_lanes
+from osc2tx_runtime.domain.modifiers.map.lanes import StartLane as start_lane
+from osc2tx_runtime.domain.modifiers.map.routes import (
     RoadsFollowInJunction as roads_follow_in_junction,
 )
-from osc2tx_runtime.domain.modifiers.map_routes import RoutesAreInSequence as routes_are_in_sequence
-from osc2tx_runtime.domain.modifiers.map_routes import RoutesAreOpposite as routes_are_opposite
-from osc2tx_runtime.domain.modifiers.map_routes import RoutesOverlap as routes_overlap
-from osc2tx_runtime.domain.modifiers.orientation import Orient as orientation
-from osc2tx_runtime.domain.modifiers.orientation import Yaw as yaw
-from osc2tx_runtime.domain.modifiers.position import Distance as distance
-from osc2tx_runtime.domain.modifiers.position import KeepPosition as keep_position
-from osc2tx_runtime.domain.modifiers.position import Location as location
-from osc2tx_runtime.domain.modifiers.position import Position as position
-from osc2tx_runtime.domain.modifiers.speed import Acceleration as acceleration
-from osc2tx_runtime.domain.modifiers.speed import ChangeSpeed as change_speed
-from osc2tx_runtime.domain.modifiers.speed import KeepSpeed as keep_speed
-from osc2tx_runtime.domain.modifiers.speed import Speed as speed
+from osc2tx_runtime.domain.modifiers.map.routes import RoutesAreInSequence as routes_are_in_sequence
+from osc2tx_runtime.domain.modifiers.map.routes import RoutesAreOpposite as routes_are_opposite
+from osc2tx_runtime.domain.modifiers.map.routes import RoutesOverlap as routes_overlap
+from osc2tx_runtime.domain.modifiers.movement.conduct import Along as along
+from osc2tx_runtime.domain.modifiers.movement.conduct import AlongTrajectory as along_trajectory
+from osc2tx_runtime.domain.modifiers.movement.conduct import AvoidCollisions as avoid_collisions
+from osc2tx_runtime.domain.modifiers.movement.conduct import OnPath as on_path
+from osc2tx_runtime.domain.modifiers.movement.conduct import PhysicalMovement as physical_movement
+from osc2tx_runtime.domain.modifiers.movement.conduct import TowTrailer as tow_trailer
+from osc2tx_runtime.domain.modifiers.movement.lane import ChangeLane as change_lane
+from osc2tx_runtime.domain.modifiers.movement.lane import KeepLane as keep_lane
+from osc2tx_runtime.domain.modifiers.movement.lane import Lane as lane
+from osc2tx_runtime.domain.modifiers.movement.lane import Lateral as lateral
+from osc2tx_runtime.domain.modifiers.movement.orientation import Orient as orientation
+from osc2tx_runtime.domain.modifiers.movement.orientation import Yaw as yaw
+from osc2tx_runtime.domain.modifiers.movement.position import Distance as distance
+from osc2tx_runtime.domain.modifiers.movement.position import KeepPosition as keep_position
+from osc2tx_runtime.domain.modifiers.movement.position import Location as location
+from osc2tx_runtime.domain.modifiers.movement.position import Position as position
+from osc2tx_runtime.domain.modifiers.movement.speed import Acceleration as acceleration
+from osc2tx_runtime.domain.modifiers.movement.speed import ChangeSpeed as change_speed
+from osc2tx_runtime.domain.modifiers.movement.speed import KeepSpeed as keep_speed
+from osc2tx_runtime.domain.modifiers.movement.speed import Speed as speed
 
 __all__ = [
     "acceleration",

@@ -44,35 +44,22 @@ MAY_IMPORT: dict[str, set[str]] = {
     "start": {"cli"},
     "__main__": {"start"},
     "api": {"building", "compilation", "config", "diagnostics", "options", "support"},
-    "testing": {"building", "cli", "compilation", "config", "diagnostics"}
-    | {"testing_campaigns", "testing_rows"},
-    "testing_campaigns": {"building", "campaigns", "cli", "compilation", "config", "diagnostics"},
-    "testing_marks": {"campaigns", "testing_campaigns"},
-    "testing_rows": {"testing_campaigns", "testing_marks"},
+    "testing": {"building", "cli", "compilation", "config", "diagnostics"} | {"campaigns"},
     "": {"api", "diagnostics", "version"},
 }
 
-# Part or folder -> packages of others that it imports, besides the standard library and our
-# own `dataclass`.
+# Part or folder -> packages of others that it imports, besides the standard library and
+# `osc2tx_shared`.
 OTHERS = {
     "syntax": {"antlr4"},
-    "building": {"osc2tx_cache", "osc2tx_text"},
-    "compilation": {"osc2tx_text"},
-    "catalogue": {"osc2tx_rules"},  # the rules of calls are stated and interpreted once
-    "semantics": {"osc2tx_rules", "pint"},
-    "stdlib": {"osc2tx_cache"},
-    "diagnostics/render": {"osc2tx_text"},
-    "backends/py_trees": {"black", "jinja2", "osc2tx_rules", "osc2tx_text"},
-    "backends/xosc": {"osc2tx_text"},
+    "semantics": {"pint"},
+    "backends/py_trees": {"black", "jinja2"},
     "backends/xosc/facts": {"osc2tx_runtime"},  # sizes, courses and maps are the world's own
-    "backends/xosc/xml": {"lxml", "osc2tx_text"},
+    "backends/xosc/xml": {"lxml"},
     # rows are chosen here, run there
-    "campaigns": {"distributed", "optuna", "osc2tx_runtime", "osc2tx_text", "scipy"},
-    "cli": {"click", "osc2tx_runtime", "osc2tx_text", "rich"},
+    "campaigns": {"distributed", "optuna", "osc2tx_runtime", "scipy"},
+    "cli": {"click", "osc2tx_runtime", "rich"},
     "testing": {"osc2tx_runtime", "pytest"},
-    "testing_campaigns": {"osc2tx_runtime"},
-    "testing_marks": {"osc2tx_runtime", "pytest"},
-    "testing_rows": {"pytest"},
 }
 
 FILES = files_of(COMPILER)
@@ -99,7 +86,7 @@ def imports_of(path: Path) -> tuple[set[str], set[str]]:
         first, _, rest = name.partition(".")
         if first == "osc2tx" and not is_below(rest, part_of(path)):
             inside.add(rest)
-        elif first not in {"osc2tx", "osc2tx_classes", *sys.stdlib_module_names}:
+        elif first not in {"osc2tx", "osc2tx_shared", *sys.stdlib_module_names}:
             outside.add(first)
     return inside, outside
 

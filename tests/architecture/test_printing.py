@@ -1,10 +1,11 @@
-"""All that is printed goes through `osc2tx_text`, which cleans it."""
+"""All that is printed goes through `osc2tx_shared.text`, which cleans it."""
 
 import ast
 
 from tests.architecture.module_graph import COMPILER, REPOSITORY, RUNTIME, files_of
 
-FILES = files_of(COMPILER) + files_of(RUNTIME) + files_of(RUNTIME.parent / "osc2tx_rules")
+RULES = RUNTIME.parent / "osc2tx_shared" / "rules"
+FILES = files_of(COMPILER) + files_of(RUNTIME) + files_of(RULES)
 PRINTS = {"print", "echo", "secho", "pprint", "print_exc", "print_exception", "print_stack"}
 STREAMS = {"stdout", "stderr", "__stdout__", "__stderr__"}
 

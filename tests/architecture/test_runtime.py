@@ -1,6 +1,7 @@
 """What the runtime imports: arrows between its floors only point downwards, without circles."""
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -14,133 +15,136 @@ from tests.architecture.module_graph import (
     imported_names,
 )
 
-RULES = RUNTIME.parent / "osc2tx_rules"
-TEXT = RUNTIME.parent / "osc2tx_text"
-CLASSES = RUNTIME.parent / "osc2tx_classes"
-CACHE = RUNTIME.parent / "osc2tx_cache"
-OTHERS = {"osc2tx_classes", "osc2tx_rules", "osc2tx_text", "py_trees"}
+SHARED = RUNTIME.parent / "osc2tx_shared"
+OTHERS = {"osc2tx_shared", "py_trees"}
 ONLY_IN = {
     "carla": "simulators/carla/client",
     "lxml": "opendrive",
     "numpy": "kpis",
-    "osc2tx_cache": "opendrive",
 }
 
-LEAVES = {"clock", "enums", "errors"}
-GROUND = {"opendrive", "world", "language"} | LEAVES
+
+def table(text: str) -> dict[str, set[str]]:
+    """Return the sets of names after `name:`; indented lines continue the one above."""
+    rows = (row.partition(":") for row in text.replace("\n    ", " ").strip().splitlines())
+    return {name: set(imported.split()) for name, _, imported in rows}
+
 
 # Part of the runtime -> what else of it that imports, from the ground up. The floor of the domain
 # model is told by its folders.
-MAY_IMPORT: dict[str, set[str]] = {
-    # leaves
-    "clock": set(),
-    "enums": set(),
-    "errors": set(),
-    "interrupts": set(),
-    "plain_numbers": set(),
-    "units": set(),
-    # the map, the world on it, the language
-    "opendrive": {"enums", "plain_numbers"},
-    "world": {"clock", "enums", "errors", "opendrive"},
-    "language": {"clock", "errors", "units", "world"},
-    # the domain model
-    "domain.points_and_poses": {"errors"},
-    "domain.shapes": {"enums", "errors", "language", "world"},
-    "domain.paths": {"domain.points_and_poses"} | GROUND - {"clock", "language"},
-    "domain.routes": {"domain.paths", "domain.points_and_poses"} | GROUND - {"clock"},
-    "domain.signals": {"domain.points_and_poses", "domain.routes"} | GROUND - {"clock"},
-    "domain.measuring": {"domain.paths", "domain.points_and_poses", "domain.routes"}
-    | GROUND - {"clock"},
-    "domain.objects": {"domain.measuring", "domain.points_and_poses"}
-    | GROUND - {"clock", "opendrive"},
-    "domain.modifiers": {"domain.objects", "domain.paths", "domain.points_and_poses"}
-    | {"domain.routes", "domain.shapes"}
-    | GROUND - {"clock", "opendrive"},
-    "domain.methods": {"domain.measuring", "domain.modifiers", "domain.objects", "domain.paths"}
-    | {"domain.points_and_poses", "domain.routes", "domain.signals"}
-    | GROUND - {"clock", "errors", "opendrive"},
-    "domain.actors": {"domain.measuring", "domain.methods", "domain.objects", "domain.paths"}
-    | {"domain.points_and_poses", "domain.routes", "domain.signals"}
-    | GROUND - {"clock"},
-    "domain.placing": {"domain.actors", "domain.modifiers", "domain.paths"}
-    | {"domain.points_and_poses", "domain.routes", "domain.signals"}
-    | GROUND - {"clock", "enums"},
-    "domain.planning": {"domain.actors", "domain.modifiers", "domain.paths", "domain.placing"}
-    | {"domain.points_and_poses", "domain.routes", "domain.shapes"}
-    | GROUND - {"clock"},
-    "domain.actions": {"domain.actors", "domain.measuring", "domain.modifiers", "domain.paths"}
-    | {"domain.objects", "domain.placing", "domain.planning", "domain.points_and_poses"}
-    | {"domain.routes", "domain.signals"}
-    | GROUND - {"clock"},
-    "domain.scenario": {"domain.actors", "domain.modifiers", "domain.routes"}
-    | {"errors", "language"},
-    "domain.capability_tables": {"domain.actors", "domain.measuring", "domain.objects"}
-    | {
-        "domain.paths",
-        "domain.points_and_poses",
-        "domain.routes",
-        "domain.shapes",
-        "domain.signals",
-        "world",
-    },
-    "domain.capabilities": {"domain.actions", "domain.actors", "domain.capability_tables"}
-    | {"domain.modifiers", "enums", "language", "units"},
-    # what carries a scenario out, and what generated modules import
-    "worlds": {"errors", "opendrive", "world"},
-    "simulators": {"enums", "errors", "opendrive", "plain_numbers", "world", "worlds"},
-    "report": {"language"},
-    "running": {"domain.placing", "domain.routes", "domain.scenario", "report"}
-    | {"errors", "interrupts", "language", "opendrive", "plain_numbers", "world", "worlds"},
-    "kpis": {"errors", "language", "opendrive", "running", "world"},
-    "campaigns": {"domain.routes", "domain.scenario", "errors", "kpis", "language", "opendrive"}
-    | {"plain_numbers", "running"},
-    "modifiers": {"domain.modifiers"},
-    "": {"domain.actions", "domain.actors", "domain.measuring", "domain.modifiers"}
-    | {
-        "domain.objects",
-        "domain.paths",
-        "domain.points_and_poses",
-        "domain.routes",
-        "domain.scenario",
-        "domain.shapes",
-    }
-    | {"domain.signals", "errors", "interrupts", "language", "running", "world"},
-}
+MAY_IMPORT = table("""
+clock:
+enums:
+errors:
+interrupts:
+plain_numbers:
+units:
+opendrive: enums plain_numbers
+world: clock enums errors opendrive
+language: clock errors units world
+domain.points_and_poses: errors
+domain.shapes: enums errors language world
+domain.map: domain.points_and_poses enums errors language opendrive world
+domain.paths: domain.points_and_poses enums errors opendrive world
+domain.routes: domain.map domain.paths domain.points_and_poses enums errors language opendrive
+    world
+domain.signals: domain.map domain.points_and_poses enums errors language opendrive world
+domain.measuring: domain.map domain.paths domain.points_and_poses domain.routes enums errors
+    language opendrive world
+domain.objects: domain.measuring domain.points_and_poses enums errors language world
+domain.modifiers: domain.map domain.objects domain.paths domain.points_and_poses domain.shapes
+    enums errors language world
+domain.methods: domain.map domain.measuring domain.modifiers domain.objects domain.paths
+    domain.points_and_poses domain.signals enums language world
+domain.actors: domain.map domain.measuring domain.methods domain.objects domain.paths
+    domain.points_and_poses domain.routes domain.signals enums errors language opendrive world
+domain.capability_tables: domain.actors domain.map domain.measuring domain.objects domain.paths
+    domain.points_and_poses domain.shapes domain.signals world
+domain.placing: domain.actors domain.map domain.modifiers domain.paths domain.points_and_poses
+    domain.routes domain.signals errors language opendrive world
+domain.scenario: domain.actors domain.map domain.modifiers errors language
+domain.planning: domain.actors domain.map domain.modifiers domain.paths domain.placing
+    domain.points_and_poses domain.routes domain.shapes enums errors language opendrive world
+domain.actions: domain.actors domain.map domain.measuring domain.modifiers domain.objects
+    domain.paths domain.placing domain.planning domain.points_and_poses domain.routes
+    domain.signals enums errors language opendrive world
+domain.capabilities: domain.actions domain.actors domain.capability_tables domain.modifiers enums
+    language units
+worlds: errors opendrive world
+simulators: enums errors opendrive plain_numbers world worlds
+report: language
+running: domain.map domain.placing domain.scenario errors interrupts language opendrive
+    plain_numbers report world worlds
+kpis: errors language opendrive running world
+campaigns: domain.map domain.scenario errors kpis language opendrive plain_numbers running
+modifiers: domain.modifiers
+__init__: domain.actions domain.actors domain.map domain.measuring domain.modifiers domain.objects
+    domain.paths domain.points_and_poses domain.scenario domain.shapes domain.signals errors
+    interrupts language running world
+""")
+
+# The same inside `world`: its folders and modules, from the ground up.
+IN_WORLD = table("""
+actor_dimensions:
+surroundings:
+state: actor_dimensions
+geometry: actor_dimensions state
+step_inputs: actor_dimensions state surroundings
+commands: geometry
+grip: actor_dimensions geometry state
+measuring: actor_dimensions geometry state step_inputs
+protocol: actor_dimensions commands geometry grip measuring state surroundings
+checks: commands protocol
+lateral: actor_dimensions commands geometry measuring protocol state step_inputs
+longitudinal: actor_dimensions commands geometry measuring protocol state step_inputs surroundings
+tracking: commands geometry lateral longitudinal measuring protocol state step_inputs
+motion: actor_dimensions commands geometry grip lateral longitudinal measuring protocol state
+    step_inputs tracking
+plant: actor_dimensions checks geometry grip measuring motion protocol state surroundings tracking
+drivers: actor_dimensions checks geometry grip measuring plant protocol state surroundings
+embedded: actor_dimensions checks commands geometry grip longitudinal measuring motion plant
+    protocol state surroundings
+""")
 
 FILES = files_of(RUNTIME)
-FOUND_EVERYWHERE = files_of(RULES) + files_of(TEXT) + files_of(CLASSES) + files_of(CACHE)
 
 
 def part_of(module: str) -> str:
-    """Return the part that a module belongs to; `""` for the package itself."""
-    first, *rest = [*module.split(".")[1:], ""]
-    return f"{first}.{rest[0]}".rstrip(".") if first == "domain" else first
+    """Return the part that a module belongs to."""
+    first, *rest = [*module.split(".")[1:], "", ""]
+    return f"{first}.{rest[0]}".rstrip(".") if first == "domain" else first or "__init__"
 
 
-def imports_by_part() -> dict[str, set[str]]:
+def part_of_world(module: str) -> str:
+    """Return the folder or module of `world` that a module belongs to; `""` for any other."""
+    part, *rest = [*module.split(".")[1:], "", ""]
+    return rest[0] if part == "world" else ""
+
+
+def imports_by_part(part: Callable[[str], str]) -> dict[str, set[str]]:
     """Return which other parts each part imports."""
     found: dict[str, set[str]] = {}
     for module, imported in graph_of(RUNTIME).items():
-        parts = {part_of(other) for other in imported} - {part_of(module)}
-        found.setdefault(part_of(module), set()).update(parts)
-    del found["domain"]  # the empty package
-    return found
+        found.setdefault(part(module), set()).update(map(part, imported))
+    return {importer: parts - {importer} for importer, parts in found.items()}
 
 
 def test_the_table_is_what_the_parts_import() -> None:
     """Both ways: an entry that no import needs any more goes."""
-    found = imports_by_part()
-    assert set(found) == set(MAY_IMPORT)
-    wrong = {
-        (part, other): "is imported" if other in found[part] else "is not imported"
-        for part, allowed in MAY_IMPORT.items()
-        for other in allowed ^ found[part]
-    }
-    assert not wrong
+    found = imports_by_part(part_of)
+    del found["domain"]  # the empty package
+    assert found == MAY_IMPORT
 
 
-def test_the_table_has_no_circle() -> None:
-    assert not circles(MAY_IMPORT)
+def test_the_table_of_the_world_is_what_its_parts_import() -> None:
+    found = imports_by_part(part_of_world)
+    del found[""]
+    assert {part: imported - {""} for part, imported in found.items()} == IN_WORLD
+
+
+@pytest.mark.parametrize("table", [MAY_IMPORT, IN_WORLD], ids=["runtime", "world"])
+def test_the_tables_have_no_circle(table: dict[str, set[str]]) -> None:
+    assert not circles(table)
 
 
 def test_no_circle_between_modules() -> None:
@@ -166,10 +170,8 @@ def allowed_in(path: Path) -> set[str]:
     return {name for name, folder in ONLY_IN.items() if path.is_relative_to(RUNTIME / folder)}
 
 
-@pytest.mark.parametrize("path", FOUND_EVERYWHERE, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", files_of(SHARED), ids=lambda path: path.stem)
 def test_what_the_compiler_shares_needs_nothing(path: Path) -> None:
     """It is imported for each check."""
-    package = path.parent
-    for name in imported_names(path, package):
-        first = name.partition(".")[0]
-        assert first in {package.name, "osc2tx_classes", *sys.stdlib_module_names}, name
+    for name in imported_names(path, SHARED):
+        assert name.partition(".")[0] in {SHARED.name, *sys.stdlib_module_names}, name

@@ -14,12 +14,16 @@ import pytest
 from osc2tx_runtime.campaigns import Condition, Executor, Row
 from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.kpis import MEASURES, measures_by_name
-from osc2tx_runtime.kpis.encroachment import MinEncroachment
 from osc2tx_runtime.kpis.measure import Measure, Moving, Scene
-from osc2tx_runtime.kpis.motion import MaxDeceleration, MaxJerk, MaxLateralAcceleration
 from osc2tx_runtime.kpis.pairs import MinGap, MinTimeGap, MinTimeToCollision, box_distance
+from osc2tx_runtime.kpis.registry import (
+    MaxDeceleration,
+    MaxJerk,
+    MaxLateralAcceleration,
+    MinEncroachment,
+)
 from osc2tx_runtime.world.actor_dimensions import Shape
-from osc2tx_runtime.world.collision import Box, box_of
+from osc2tx_runtime.world.measuring.collision import Box, box_of
 from osc2tx_runtime.world.state import ActorState
 from tests.campaigns.kit import DRIVES, plan_of
 

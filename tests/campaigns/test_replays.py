@@ -10,8 +10,8 @@ import pytest
 from osc2tx.campaigns.engine import LocalEngine
 from osc2tx.campaigns.replay import replay_row
 from osc2tx.campaigns.store import Store
-from osc2tx.testing_campaigns import plan_of
-from osc2tx_classes import replace
+from osc2tx.testing.campaigns import plan_of
+from osc2tx_shared.classes import replace
 from tests.campaigns.kit import run
 from tests.end_to_end.harness import SCENARIOS
 

@@ -6,10 +6,10 @@ import sys
 
 import pytest
 
-from osc2tx_classes import replace
 from osc2tx_runtime import RunSettings
 from osc2tx_runtime.language.resting import Resting
 from osc2tx_runtime.report.trace_reader import read_run
+from osc2tx_shared.classes import replace
 from tests.capabilities.conftest import SETTINGS, Load
 from tests.capabilities.kit import CAPABILITIES, Line, Perform, Performance
 from tests.end_to_end.harness import (

@@ -12,7 +12,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from osc2tx_text import say
+from osc2tx_shared.text import say
 
 from .stand_in.process import ROOT, StandInProcess
 

@@ -14,13 +14,11 @@ from osc2tx_runtime.simulators.carla.capabilities import IN_CARLA
 from osc2tx_runtime.simulators.carla.frames import measurement_from, pose_from, transform_of
 from osc2tx_runtime.simulators.carla.gains import CAR
 from osc2tx_runtime.simulators.carla.level import with_spawn_points
+from osc2tx_runtime.simulators.carla.surroundings import FLAGS, lamps_for, state_for, weather_of
 from osc2tx_runtime.simulators.carla.tracking import SpeedControl
-from osc2tx_runtime.simulators.carla.traffic_lights import lamps_for, state_for
-from osc2tx_runtime.simulators.carla.vehicle_lights import FLAGS
-from osc2tx_runtime.simulators.carla.weather import weather_of
 from osc2tx_runtime.world.actor_dimensions import limits_of, shape_of
 from osc2tx_runtime.world.protocol import ActorSpec
-from osc2tx_runtime.world.traffic_light_lamps import BOXES
+from osc2tx_runtime.world.surroundings.traffic_light_lamps import BOXES
 
 from .conftest import OWN_MAPS
 from .runs import modules

@@ -17,7 +17,7 @@ from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import Span
 from osc2tx.options import XML_VERSIONS, XmlVersion
 from osc2tx.reference import Entry, entries
-from osc2tx.reference.shown import TABLE
+from osc2tx.reference.entries import TABLE
 from osc2tx.syntax import ast
 from osc2tx_runtime.simulators.carla.capabilities import how
 from tests.coverage.sources import Source, scenarios, walk

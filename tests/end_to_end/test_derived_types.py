@@ -8,7 +8,7 @@ import pytest
 from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
-from osc2tx.semantics.library import shared_library
+from osc2tx.semantics.declarations.library import shared_library
 from osc2tx.semantics.symbols import ActorSymbol, StructSymbol
 from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_runtime.errors import UnsupportedError

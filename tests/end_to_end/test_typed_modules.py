@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from osc2tx_runtime import Environment, Map, Person, TrafficLightController, Trailer, Vehicle
-from osc2tx_runtime.language.registry import methods
+from osc2tx_runtime.language.actions.registry import methods
 from tests.end_to_end.harness import REPOSITORY
 from tests.processes import HANGING
 

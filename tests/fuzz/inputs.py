@@ -24,7 +24,7 @@ from osc2tx_runtime.language.source_map import parse_source_map
 from osc2tx_runtime.opendrive import MapError, RoadMap, read_map_text, signal_places
 from osc2tx_runtime.report.page import render_report
 from osc2tx_runtime.running.options import OPTIONS, read_options
-from osc2tx_text import visible
+from osc2tx_shared.text import visible
 from tests.fuzz.mutations import SPICE
 
 MAPS = Path(__file__).parents[2] / "runtime_lib/osc2tx_runtime/maps"

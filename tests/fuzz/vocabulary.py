@@ -8,7 +8,7 @@ from functools import cache
 from random import Random
 from typing import TypeVar
 
-from osc2tx.semantics.library import shared_library
+from osc2tx.semantics.declarations.library import shared_library
 from osc2tx.semantics.scope import Scope
 
 T = TypeVar("T")

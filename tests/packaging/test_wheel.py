@@ -122,8 +122,8 @@ def files_of(package: Path) -> set[str]:
 def test_the_wheel_of_the_runtime_holds_its_packages(wheels: Path) -> None:
     held = contents(wheel_of(wheels, "osc2tx_runtime"))
     packages = (
-        *("osc2tx_cache", "osc2tx_classes", "osc2tx_rules"),
-        *("osc2tx_runtime", "osc2tx_text"),
+        *("osc2tx_shared.cache", "osc2tx_shared.classes", "osc2tx_shared.rules"),
+        *("osc2tx_runtime", "osc2tx_shared.text"),
     )
     assert held == set[str]().union(*(files_of(REPOSITORY / "runtime_lib" / n) for n in packages))
     kinds = {Path(name).suffix for name in held if Path(name).name != "LICENSE"}

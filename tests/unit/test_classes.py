@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
-from osc2tx_classes import dataclass as light
-from osc2tx_classes import replace as quick_replace
+from osc2tx_shared.classes import dataclass as light
+from osc2tx_shared.classes import replace as quick_replace
 
 Decorator = Callable[..., Any]
 

@@ -18,10 +18,11 @@ from osc2tx.backends.py_trees.code import (
     name_expression,
     self_attribute,
 )
-from osc2tx.backends.py_trees.naming import NameTable, identifier
-from osc2tx.backends.py_trees.node_names import (
+from osc2tx.backends.py_trees.naming import (
     InvocationName,
+    NameTable,
     composition_names,
+    identifier,
     invocation_names,
     method_name,
 )
@@ -34,7 +35,7 @@ from osc2tx.backends.py_trees.view import (
     StatementView,
     signature,
 )
-from osc2tx_classes import replace
+from osc2tx_shared.classes import replace
 
 # Compositions nested deeper than this inside one method get a method of their own: far below
 # CPython's limits (200 brackets, 99 indents), and about what a reader can follow.

@@ -10,7 +10,7 @@ from osc2tx.backends.py_trees.argument_rules import Given, GivenArguments, by_na
 from osc2tx.backends.py_trees.combinations import CombinationCheck
 from osc2tx.catalogue import Catalogue, ModifierEntry, ObjectTables
 from osc2tx.diagnostics import DiagnosticSink, Span
-from osc2tx_rules import Rule, violations
+from osc2tx_shared.rules import Rule, violations
 
 # What no world has more of, either way, in SI: light is as fast, and no road leads further.
 LARGEST = {"speed": 299_792_458.0, "acceleration": 1e9, "length": 1e9}

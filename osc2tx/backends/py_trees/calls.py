@@ -18,7 +18,7 @@ from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
 from osc2tx.backends.py_trees.naming import identifier
 from osc2tx.backends.py_trees.view import ArgumentView, CallView
-from osc2tx_classes import replace
+from osc2tx_shared.classes import replace
 
 
 def comments(lines: tuple[str, ...]) -> tuple[PyComment, ...]:

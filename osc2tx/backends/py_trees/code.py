@@ -10,8 +10,8 @@ import keyword
 import math
 from decimal import Decimal
 
-from osc2tx_classes import dataclass
-from osc2tx_text import visible
+from osc2tx_shared.classes import dataclass
+from osc2tx_shared.text import visible
 
 LONGEST_DIGITS = 10  # a number that takes more characters is written with an exponent
 

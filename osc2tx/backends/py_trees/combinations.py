@@ -8,8 +8,8 @@ from osc2tx import ir
 from osc2tx.backends.py_trees.argument_rules import GivenArguments, by_name, word
 from osc2tx.catalogue import Catalogue, ObjectTables
 from osc2tx.diagnostics import DiagnosticSink, Label
-from osc2tx_classes import dataclass
-from osc2tx_rules import Clash, Timing, clashes, is_across
+from osc2tx_shared.classes import dataclass
+from osc2tx_shared.rules import Clash, Timing, clashes, is_across
 
 
 @dataclass(frozen=True, slots=True, eq=False)

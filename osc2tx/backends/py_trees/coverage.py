@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Sequence
+from typing import Any
+
 from osc2tx import ir
 from osc2tx.backends.py_trees.calls import CallWriter, code
 from osc2tx.backends.py_trees.code import (
@@ -13,6 +17,8 @@ from osc2tx.backends.py_trees.code import (
     self_attribute,
 )
 from osc2tx.backends.py_trees.view import ArgumentView, CallView
+
+__all__ = ["FORMAT", "render_coverage_model"]
 
 
 class CoverageWriter:
@@ -75,3 +81,46 @@ def unit_call(calls: CallWriter, unit: ir.Unit) -> PyExpr:
 def _tuple(parts: tuple[PyExpr, ...]) -> PyExpr:
     inner = ", ".join(str(part) for part in parts)
     return PyExpr(f"({inner},)" if len(parts) == 1 else f"({inner})", Level.ATOM)
+
+
+FORMAT = 1
+
+
+def render_coverage_model(source: str, scenarios: Sequence[ir.Scenario]) -> str | None:
+    """Return the model as JSON, a line for each item; None if nothing is sampled."""
+    sampling = [scenario for scenario in scenarios if scenario.coverage]
+    if not sampling:
+        return None
+    parts = []
+    for scenario in sampling:
+        items = ",\n".join(f"   {json.dumps(_item(each))}" for each in scenario.coverage)
+        parts.append(f"  {json.dumps(scenario.name)}: [\n{items}\n  ]")
+    body = ",\n".join(parts)
+    head = f' "format": {FORMAT},\n "source": {json.dumps(source)},'
+    return f'{{\n{head}\n "scenarios": {{\n{body}\n }}\n}}\n'
+
+
+def _item(item: ir.Coverage) -> dict[str, Any]:
+    """Return what an item says; keys that say nothing are left out."""
+    event = item.event.value if isinstance(item.event, ir.Moment) else item.event.name
+    said: dict[str, Any] = {"name": item.name, "kind": item.kind, "group": event}
+    if item.items:
+        said["items"] = list(item.items)
+    if item.unit is not None:
+        said["unit"] = item.unit.name
+    if item.target is not None:
+        said["target"] = item.target
+    if item.text:
+        said["text"] = item.text
+    if item.graded:
+        said["buckets"] = [_bucket(each) for each in item.graded]
+    if item.impossible:
+        said["impossible"] = [list(cell) for cell in item.impossible]
+    return said
+
+
+def _bucket(bucket: ir.Bucket) -> dict[str, Any]:
+    if bucket.value is not None:
+        return {"value": bucket.value}
+    said: dict[str, Any] = {"low": bucket.low, "high": bucket.high}
+    return {**said, "label": bucket.label} if bucket.label else said

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr
-from osc2tx.backends.py_trees.coverage_model import render_coverage_model
+from osc2tx.backends.py_trees.coverage import render_coverage_model
 from osc2tx.backends.py_trees.environment import environment
 from osc2tx.backends.py_trees.formatting import format_module
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
@@ -38,7 +38,7 @@ from osc2tx.backends.py_trees.view import (
     UserActionView,
     UserModifierView,
 )
-from osc2tx_classes import dataclass, replace
+from osc2tx_shared.classes import dataclass, replace
 
 DefinitionT = TypeVar("DefinitionT", TypeView, UserActionView, UserModifierView, ScenarioView)
 

@@ -19,7 +19,7 @@ from osc2tx.backends.py_trees.modifier_calls import parameter_name
 from osc2tx.backends.py_trees.naming import NameTable, identifier
 from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES
 from osc2tx.backends.py_trees.type_methods import TypeMethods
-from osc2tx_classes import replace
+from osc2tx_shared.classes import replace
 
 COMPARISONS = {"==": "==", "!=": "!=", "<": "<", "<=": "<=", ">": ">", ">=": ">="}
 ARITHMETIC = {"+": Level.SUM, "-": Level.SUM, "*": Level.TERM, "/": Level.TERM, "%": Level.TERM}

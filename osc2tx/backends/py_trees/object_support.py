@@ -15,7 +15,7 @@ from osc2tx.backends.py_trees.runtime_api import (
 from osc2tx.backends.py_trees.type_table import ROOT
 from osc2tx.catalogue import ObjectTables
 from osc2tx.diagnostics import DiagnosticSink, Span
-from osc2tx_classes import dataclass, replace
+from osc2tx_shared.classes import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True)

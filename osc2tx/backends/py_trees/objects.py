@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
 from osc2tx import ir
 from osc2tx.backends.py_trees.calls import comments
-from osc2tx.backends.py_trees.code import name_expression
+from osc2tx.backends.py_trees.code import Level, PyExpr, PyName, name_expression
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
-from osc2tx.backends.py_trees.list_elements import write_elements
+from osc2tx.backends.py_trees.naming import identifier
 from osc2tx.backends.py_trees.runtime_api import (
     constructor_path,
     list_element,
@@ -15,7 +17,7 @@ from osc2tx.backends.py_trees.runtime_api import (
 )
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.view import ArgumentView, CallView
-from osc2tx_classes import replace
+from osc2tx_shared.classes import replace
 
 
 class ObjectWriter:
@@ -77,3 +79,32 @@ class ObjectWriter:
             return self._types.lineage(field.type.name) if is_object else None
         library = nested_object(lineage, member)
         return None if library is None else (library,)
+
+
+def write_elements(
+    class_: PyName | None,
+    values: Sequence[ir.FieldValue],
+    write: Callable[[ir.Expression], PyExpr],
+) -> ArgumentView:
+    """Write what constraints fix about elements, by their numbers.
+
+    Args:
+        class_: Class of the elements; `None` if they are plain values.
+        values: What is fixed; paths are of the list, the number and the member.
+        write: Writes an expression.
+    """
+    whole: dict[int, str] = {}
+    members: dict[int, list[str]] = {}
+    for value in values:
+        _, number, *path = value.path
+        written = write(value.value).within(Level.CONDITIONAL)
+        if path:
+            name = ".".join(str(PyName(identifier(member))) for member in path)
+            members.setdefault(int(number), []).append(f"{name}={written}")
+        else:
+            whole[int(number)] = written
+    made = {place: f"{class_}({', '.join(parts)})" for place, parts in members.items()}
+    entries = [f"{place}: {text}" for place, text in sorted({**made, **whole}.items())]
+    said = tuple(line for value in values for line in value.comments)
+    text = PyExpr(f"{{{', '.join(entries)}}}", Level.ATOM)
+    return ArgumentView(code=text, comments=comments(said))

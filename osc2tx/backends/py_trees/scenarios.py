@@ -31,7 +31,7 @@ from osc2tx.backends.py_trees.view import (
     StatementView,
     signature,
 )
-from osc2tx_classes import replace
+from osc2tx_shared.classes import replace
 
 
 class ScenarioWriter:

@@ -18,7 +18,7 @@ from osc2tx.backends.py_trees.own_names import Declared, declarations, is_own, k
 from osc2tx.backends.py_trees.type_methods import TypeMethods
 from osc2tx.backends.py_trees.uses import isort_key
 from osc2tx.backends.py_trees.view import ImportView
-from osc2tx_classes import dataclass, replace
+from osc2tx_shared.classes import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True)

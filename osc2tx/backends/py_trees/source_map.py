@@ -10,8 +10,8 @@ import json
 from dataclasses import asdict, field
 
 from osc2tx.diagnostics import Span
-from osc2tx_classes import dataclass
-from osc2tx_text import in_json
+from osc2tx_shared.classes import dataclass
+from osc2tx_shared.text import in_json
 
 VERSION = 3
 

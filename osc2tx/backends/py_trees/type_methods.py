@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.support import has_support
-from osc2tx_classes import replace
+from osc2tx_shared.classes import replace
 
 OF_THE_SCENARIO = (ir.FieldRef, ir.InvokedValue, ir.EventArgument, ir.UserShape)
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr, PyName
 from osc2tx.backends.py_trees.formatting import LINE_LENGTH
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True)

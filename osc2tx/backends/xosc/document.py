@@ -13,7 +13,7 @@ from osc2tx.backends.xosc.entities.entities import scenario_objects
 from osc2tx.backends.xosc.entities.init_actions import initial_actions
 from osc2tx.backends.xosc.facts.maps import DEFAULT_MAP
 from osc2tx.backends.xosc.flattening.flatten import Flattener
-from osc2tx.backends.xosc.flattening.storyboard import StoryboardWriter
+from osc2tx.backends.xosc.flattening.storyboard.storyboard import StoryboardWriter
 from osc2tx.backends.xosc.logical.parameters import declaration
 from osc2tx.backends.xosc.xml.adapting import adapted
 from osc2tx.backends.xosc.xml.tree import Element, element

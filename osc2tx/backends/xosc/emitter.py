@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from importlib import import_module
 from pathlib import Path, PurePosixPath
-from pkgutil import iter_modules
+from pkgutil import walk_packages
 
 from osc2tx import ir
 from osc2tx.backends.xosc import actions
@@ -22,10 +22,12 @@ from osc2tx.backends.xosc.xml.names import Names
 from osc2tx.backends.xosc.xml.tree import Element, serialize
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
-for _module in iter_modules(actions.__path__):  # they register the forms that they write
-    import_module(f"{actions.__name__}.{_module.name}")
+for _module in walk_packages(
+    actions.__path__, f"{actions.__name__}."
+):  # they register the forms that they write
+    import_module(_module.name)
 
 
 @dataclass(frozen=True, slots=True)

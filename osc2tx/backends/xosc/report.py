@@ -13,7 +13,7 @@ from math import ceil, floor, inf, log10
 from osc2tx.backends.xosc.xml.profiles import PROFILES, ToolProfile
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions
-from osc2tx_classes import dataclass, replace
+from osc2tx_shared.classes import dataclass, replace
 
 
 class Grade(Enum):

@@ -13,7 +13,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.report import Entry, Grade, LossReport
 from osc2tx.diagnostics import Span
 from osc2tx.ir.source_text import one_line
-from osc2tx_text import in_json
+from osc2tx_shared.text import in_json
 
 FORMAT = 4
 

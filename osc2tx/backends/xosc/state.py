@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
-from osc2tx_classes import dataclass, replace
+from osc2tx_shared.classes import dataclass, replace
 
 LONGITUDINAL, LATERAL, WAY = "longitudinal", "lateral", "way"
 """Domains that actions control; `way` is the motion of those off the lanes, which just goes on."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 from osc2tx.diagnostics.codes import CODES
 from osc2tx.diagnostics.model import Diagnostic
 from osc2tx.diagnostics.report import Report, display_name
-from osc2tx_text import visible, without_commands
+from osc2tx_shared.text import visible, without_commands
 
 
 def render_github(report: Report) -> str:

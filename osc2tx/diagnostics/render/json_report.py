@@ -14,7 +14,7 @@ from osc2tx.diagnostics.codes import CODES
 from osc2tx.diagnostics.model import Diagnostic
 from osc2tx.diagnostics.report import Report, display_name
 from osc2tx.diagnostics.source import Span
-from osc2tx_text import in_json
+from osc2tx_shared.text import in_json
 
 SCHEMA_VERSION = 1
 

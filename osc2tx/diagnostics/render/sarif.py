@@ -20,7 +20,7 @@ from osc2tx.diagnostics.model import Diagnostic
 from osc2tx.diagnostics.render.explanation import code_block
 from osc2tx.diagnostics.report import Report, display_name
 from osc2tx.diagnostics.source import SourceFile, Span
-from osc2tx_text import in_json, visible
+from osc2tx_shared.text import in_json, visible
 
 FINGERPRINT = "osc2tx/v1"  # of the code, the file, the text of the line, and which one of those
 SCHEMA = (

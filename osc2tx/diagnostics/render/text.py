@@ -15,7 +15,7 @@ from osc2tx.diagnostics.codes import CODES
 from osc2tx.diagnostics.model import Diagnostic, Severity
 from osc2tx.diagnostics.report import display_name
 from osc2tx.diagnostics.source import SourceFile, Span
-from osc2tx_text import visible
+from osc2tx_shared.text import visible
 
 TAB_WIDTH = 4
 MAX_CHARACTERS = 160  # of a source line; of longer ones only the part around the span is shown

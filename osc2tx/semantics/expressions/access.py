@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from osc2tx.diagnostics.suggestions import did_you_mean
-from osc2tx.semantics.aliases import member_alias, standard_member, write_instead
-from osc2tx.semantics.binding import find_parameter
+from osc2tx.semantics.bodies.binding import find_parameter
 from osc2tx.semantics.builtins import COMPOSITION, LIST_METHODS, RANGE_METHODS
 from osc2tx.semantics.conversions import INTEGERS, are_related, can_cast, symbol_of
+from osc2tx.semantics.declarations.resolve_types import resolve_type
 from osc2tx.semantics.dialects import PRELUDE_MEMBERS
-from osc2tx.semantics.everyday_words import MEMBERS, plain_word
 from osc2tx.semantics.expressions.names import value_type
-from osc2tx.semantics.member_lookup import find_member, member_names
+from osc2tx.semantics.names.aliases import member_alias, standard_member, write_instead
+from osc2tx.semantics.names.everyday_words import MEMBERS, plain_word
+from osc2tx.semantics.names.member_lookup import find_member, member_names
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
-from osc2tx.semantics.resolve_types import resolve_type
 from osc2tx.semantics.scope import supertypes
 from osc2tx.semantics.symbols import LabelSymbol, Member, Symbol, TypeSymbol
 from osc2tx.semantics.types import BOOL, ERROR, EVENT, OBJECT, ListType, RangeType, Type

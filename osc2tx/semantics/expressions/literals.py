@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from osc2tx.diagnostics.suggestions import did_you_mean
-from osc2tx.semantics.aliases import unit_alias, write_instead
 from osc2tx.semantics.conversions import common_type, is_numeric
+from osc2tx.semantics.declarations.redeclarations import report_disputed
 from osc2tx.semantics.dialects import UNIT_ALIASES
-from osc2tx.semantics.everyday_words import UNITS, plain_word
-from osc2tx.semantics.literal_numbers import constant_number
-from osc2tx.semantics.redeclarations import report_disputed
+from osc2tx.semantics.names.aliases import unit_alias, write_instead
+from osc2tx.semantics.names.everyday_words import UNITS, plain_word
+from osc2tx.semantics.names.unknown_names import report_unimported
 from osc2tx.semantics.resolution import Environment, Resolution
 from osc2tx.semantics.types import ERROR, ListType, RangeType, Type
-from osc2tx.semantics.unimported import report_unimported
+from osc2tx.semantics.units import constant_number
 from osc2tx.syntax import ast
 
 

@@ -6,7 +6,7 @@ from typing import assert_never
 
 from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.semantics.assignability import check_condition
-from osc2tx.semantics.binding import bind_call, type_arguments
+from osc2tx.semantics.bodies.binding import bind_call, type_arguments
 from osc2tx.semantics.builtins import (
     LIST_METHODS,
     RANGE_METHODS,
@@ -14,13 +14,13 @@ from osc2tx.semantics.builtins import (
     range_method_result,
 )
 from osc2tx.semantics.conversions import symbol_of
-from osc2tx.semantics.everyday_words import CONDITIONS, LIST_WORDS, plain_word
+from osc2tx.semantics.declarations.resolve_types import type_of_symbol
 from osc2tx.semantics.expressions.access import note_prelude_member, report_unknown_member
 from osc2tx.semantics.expressions.type_receivers import implied_object
-from osc2tx.semantics.member_lookup import find_member, lookup_value, visible_names
 from osc2tx.semantics.model import Binding
+from osc2tx.semantics.names.everyday_words import CONDITIONS, LIST_WORDS, plain_word
+from osc2tx.semantics.names.member_lookup import find_member, lookup_value, visible_names
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
-from osc2tx.semantics.resolve_types import type_of_symbol
 from osc2tx.semantics.scope import supertypes
 from osc2tx.semantics.symbols import (
     ActorSymbol,

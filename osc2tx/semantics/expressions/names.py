@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from osc2tx.diagnostics.suggestions import did_you_mean, nearest, one_of
-from osc2tx.semantics.actors_by_name import actor_of_caller
-from osc2tx.semantics.aliases import enum_member_alias, write_instead
 from osc2tx.semantics.conversions import converts, stand_in, symbol_of, type_of_owner
+from osc2tx.semantics.declarations.resolve_types import choose, resolve_type_name
 from osc2tx.semantics.dialects import ENUM_MEMBER_ALIASES
-from osc2tx.semantics.everyday_words import ENUM_MEMBERS, NAMES, NOTHING, plain_word
 from osc2tx.semantics.expressions.type_receivers import type_as_receiver
-from osc2tx.semantics.member_lookup import find_member, lookup_value, visible_names
+from osc2tx.semantics.names.actors_by_name import actor_of_caller
+from osc2tx.semantics.names.aliases import enum_member_alias, write_instead
+from osc2tx.semantics.names.everyday_words import ENUM_MEMBERS, NAMES, NOTHING, plain_word
+from osc2tx.semantics.names.member_lookup import find_member, lookup_value, visible_names
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
-from osc2tx.semantics.resolve_types import choose, resolve_type_name
 from osc2tx.semantics.symbols import (
     EnumMemberSymbol,
     EnumSymbol,

@@ -9,8 +9,8 @@ from osc2tx.semantics.conversions import (
     dimension_of,
     is_numeric,
 )
-from osc2tx.semantics.everyday_words import QUOTIENTS
-from osc2tx.semantics.member_lookup import lookup_value
+from osc2tx.semantics.names.everyday_words import QUOTIENTS
+from osc2tx.semantics.names.member_lookup import lookup_value
 from osc2tx.semantics.resolution import Environment, Resolution
 from osc2tx.semantics.types import (
     BOOL,

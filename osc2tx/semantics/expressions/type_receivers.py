@@ -7,7 +7,7 @@ about the one object of the type.
 from __future__ import annotations
 
 from osc2tx.semantics.conversions import type_of_owner
-from osc2tx.semantics.member_lookup import actor_field
+from osc2tx.semantics.names.member_lookup import actor_field
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.scope import is_subtype, supertypes
 from osc2tx.semantics.symbols import ActorSymbol, FieldSymbol, StructSymbol

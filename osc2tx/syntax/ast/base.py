@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import field
 
 from osc2tx.diagnostics import Span
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

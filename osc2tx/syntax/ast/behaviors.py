@@ -13,7 +13,7 @@ from osc2tx.syntax.ast.members import (
     ModifierApplication,
     RemoveDefault,
 )
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 class CompositionOperator(Enum):

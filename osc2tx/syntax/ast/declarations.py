@@ -8,7 +8,7 @@ from osc2tx.syntax.ast.base import BehaviorName, Name, Node, Statement
 from osc2tx.syntax.ast.behaviors import BehaviorSpecification
 from osc2tx.syntax.ast.expressions import BoolLiteral, EnumLiteral, NameExpression
 from osc2tx.syntax.ast.members import MethodDeclaration, ParameterDeclaration, StructMember
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

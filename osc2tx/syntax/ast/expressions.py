@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 from osc2tx.syntax.ast.base import Name, Node
 from osc2tx.syntax.ast.types import TypeName
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 class BinaryOperator(Enum):

@@ -8,7 +8,7 @@ from typing import TypeAlias
 from osc2tx.syntax.ast.base import Name, Node, Statement
 from osc2tx.syntax.ast.expressions import Argument, Expression
 from osc2tx.syntax.ast.types import TypeName
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

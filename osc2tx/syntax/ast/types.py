@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from osc2tx.syntax.ast.base import BehaviorName, Node
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -9,8 +9,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from osc2tx_classes import replace
-from osc2tx_runtime.domain.routes.map_search import find_map
+from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.domain.scenario import Scenario
 from osc2tx_runtime.errors import ScenarioError, told
 from osc2tx_runtime.kpis import Measuring, measures_by_name
@@ -19,6 +18,7 @@ from osc2tx_runtime.language.trace import to_json
 from osc2tx_runtime.language.tree.coverage import Recording
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.running.runner import RunResult, run_scenario
+from osc2tx_shared.classes import replace
 
 from .modules import Modules, scenario_in
 from .points import Point

@@ -6,7 +6,7 @@ import random
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 __all__ = ["Column", "Point"]
 

@@ -14,8 +14,8 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from threading import Lock
 
-from osc2tx_classes import dataclass, replace
 from osc2tx_runtime.errors import ScenarioError, told
+from osc2tx_shared.classes import dataclass, replace
 
 from .executor import Executor
 from .rows import Plan, Row, RowResult

@@ -7,10 +7,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import field
 from typing import Any
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.plain_numbers import to_float
+from osc2tx_shared.classes import dataclass
 
 __all__ = ["CRASHED", "Condition", "Plan", "Row", "RowResult"]
 

@@ -8,8 +8,8 @@ import signal
 from multiprocessing.connection import Connection, wait
 from threading import Thread
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import ScenarioError, told
+from osc2tx_shared.classes import dataclass
 
 from .executor import Executor
 from .rows import Plan, Row

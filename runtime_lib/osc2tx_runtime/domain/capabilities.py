@@ -11,15 +11,15 @@ from collections.abc import Callable, Sequence
 from types import FunctionType
 from typing import Any, get_args, get_type_hints
 
-from osc2tx_rules import Rule
 from osc2tx_runtime import enums, units
-from osc2tx_runtime.domain.actions.modifiable import ModifiableAction
+from osc2tx_runtime.domain.actions.movement.modifiable import ModifiableAction
 from osc2tx_runtime.domain.actors import Actor
 from osc2tx_runtime.domain.capability_tables import FIELDS, MANDATORY, METHODS, OBJECTS, UNKNOWN
 from osc2tx_runtime.domain.modifiers import MODIFIERS, MapModifier, Modifier, MovementModifier
-from osc2tx_runtime.language.action import Action
+from osc2tx_runtime.language.actions.action import Action
+from osc2tx_runtime.language.actions.registry import RegisteredMethod, methods
 from osc2tx_runtime.language.declared import DeclaredObject
-from osc2tx_runtime.language.registry import RegisteredMethod, methods
+from osc2tx_shared.rules import Rule
 
 __all__ = ["actions", "modifiers", "objects"]
 

@@ -7,12 +7,12 @@ from typing import Any
 
 from osc2tx_runtime.domain import actors, points_and_poses, shapes
 from osc2tx_runtime.domain.actors import road_network
+from osc2tx_runtime.domain.map import crossings, roads_and_lanes
 from osc2tx_runtime.domain.measuring import object_position, weather
 from osc2tx_runtime.domain.objects import parts
 from osc2tx_runtime.domain.paths import path_values
-from osc2tx_runtime.domain.routes import crossings, roads_and_lanes
 from osc2tx_runtime.domain.signals import stop_lines, traffic_lights
-from osc2tx_runtime.world import velocities
+from osc2tx_runtime.world.measuring import velocities
 
 __all__ = ["FIELDS", "MANDATORY", "METHODS", "OBJECTS", "UNKNOWN"]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import Literal
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import PlacementError, ScenarioError
+from osc2tx_shared.classes import dataclass
 
 __all__ = [
     "AnyPoint",

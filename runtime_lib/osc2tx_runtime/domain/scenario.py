@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from osc2tx_runtime.domain.actors import Actor, Map
+from osc2tx_runtime.domain.map.objects import MapObject
 from osc2tx_runtime.domain.modifiers import MapModifier, SetMapFile
-from osc2tx_runtime.domain.routes.map_objects import MapObject
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.scenario import BaseScenario

@@ -12,12 +12,11 @@ import math
 from collections.abc import Callable
 from typing import Any, ClassVar, Generic, TypeVar
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.enums import DynamicProfile
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
-from osc2tx_runtime.world.function_profiles import Computed
-from osc2tx_runtime.world.profiles import (
+from osc2tx_runtime.world.geometry.function_profiles import Computed
+from osc2tx_runtime.world.geometry.profiles import (
     QUINTIC_PEAK,
     Cosine,
     Linear,
@@ -25,6 +24,7 @@ from osc2tx_runtime.world.profiles import (
     Quintic,
     cosine_duration,
 )
+from osc2tx_shared.classes import dataclass
 
 __all__ = [
     "AnyAccelerationShape",

@@ -1,8 +1,8 @@
 """Measures of a run, taken in the loop of steps: how near actors came, how hard they braked.
 
-`measure` says what a measure is, `pairs` has those of two actors, `encroachment` the time between
-two of them at one place, `motion` those of one actor, `rules` collisions, lanes and lights,
-`registry` finds them by name, those of installed packages too, `measuring` takes them in a run.
+`measure` says what a measure is, `pairs` has those of two actors, `rules` collisions, lanes and
+lights, `registry` all others; it finds them by name, those of installed packages too. `measuring`
+takes them in a run.
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple, Protocol
 
 from osc2tx_runtime.language.context import ExecutionContext
-from osc2tx_runtime.world.collision import Box, box_of
+from osc2tx_runtime.world.measuring.collision import Box, box_of
 from osc2tx_runtime.world.state import ActorState
 
 __all__ = ["Measure", "Moving", "Scene", "pairs_of", "scene_of"]

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from osc2tx_runtime.world.collision import Box, contact_interval
+from osc2tx_runtime.world.measuring.collision import Box, contact_interval
 
 from .measure import Moving, Scene, pairs_of
 

@@ -23,9 +23,9 @@ from osc2tx_runtime.language.resting import Resting
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.slots import Effect, Effects, Owner, Slots
 from osc2tx_runtime.language.trace import TraceWriter
-from osc2tx_runtime.world.command_checks import command_problem
+from osc2tx_runtime.world.checks.commands import command_problem
 from osc2tx_runtime.world.commands import Command
-from osc2tx_runtime.world.plant import EXACT
+from osc2tx_runtime.world.plant.plant import EXACT
 from osc2tx_runtime.world.protocol import LATERAL, LONGITUDINAL, World
 
 __all__ = ["MAX_PASSES", "ExecutionContext"]

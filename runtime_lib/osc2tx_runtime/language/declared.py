@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
-__all__ = ["BaseActor", "DeclaredObject", "not_given"]
+from osc2tx_runtime.errors import ScenarioError
+
+__all__ = ["BaseActor", "DeclaredObject", "as_type", "not_given"]
 
 
 class _NotGiven:
@@ -47,3 +49,19 @@ class BaseActor(DeclaredObject):
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.id})"
+
+
+ObjectT = TypeVar("ObjectT")
+
+
+def as_type(value: object, kind: type[ObjectT]) -> ObjectT:
+    """Return an actor or a struct as one of a more special type.
+
+    Raises:
+        ScenarioError: If it is none.
+    """
+    if isinstance(value, kind):
+        return value
+    if isinstance(value, BaseActor) and issubclass(kind, BaseActor):
+        raise ScenarioError(f"{value.id} is no {kind.kinds[0]}", value.source)
+    raise ScenarioError(f"a {type(value).__name__} is no {kind.__name__}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Mapping
 
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 __all__ = ["NodeRuns"]
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from osc2tx_classes import dataclass
-from osc2tx_runtime.language.base_action import BaseAction
+from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.tree import Behaviour, OneOf, Parallel, Serial, Until, Wait
 from osc2tx_runtime.language.tree.compositions import Composition
 from osc2tx_runtime.language.tree.events import describe
+from osc2tx_shared.classes import dataclass
 
 __all__ = ["OutlineNode", "outline"]
 

@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
+from osc2tx_runtime.language.actions.modifier import Modifier
+from osc2tx_runtime.language.actions.placement import Placement
 from osc2tx_runtime.language.declared import BaseActor
-from osc2tx_runtime.language.modifier import Modifier
-from osc2tx_runtime.language.placement import Placement
 from osc2tx_runtime.language.scenario_members import check_arguments, check_settings, name_members
 from osc2tx_runtime.language.scenario_parts import Caller, ScenarioParts
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.tree.assembly import assemble, invoked_placements, number_nodes
 from osc2tx_runtime.language.tree.base import Behaviour, split_label
-from osc2tx_runtime.language.tree.broken_values import NO_RESULT, not_computed
 from osc2tx_runtime.language.tree.duration_limits import Duration
 from osc2tx_runtime.language.tree.events import Event, Guard, Trigger
 from osc2tx_runtime.language.tree.invocation import (
@@ -24,6 +23,7 @@ from osc2tx_runtime.language.tree.invocation import (
 )
 from osc2tx_runtime.language.tree.override import Mode
 from osc2tx_runtime.language.tree.variables import MISSING, Boundary, Sampled
+from osc2tx_runtime.language.values.broken_values import NO_RESULT, not_computed
 
 __all__ = ["BaseScenario"]
 

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, ClassVar, TypeVar
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.actions.placement import Placement
 from osc2tx_runtime.language.declared import BaseActor, DeclaredObject
-from osc2tx_runtime.language.placement import Placement
-from osc2tx_runtime.language.scenario_values import ScenarioValues
 from osc2tx_runtime.language.settings import RunSettings, near
 from osc2tx_runtime.language.source_map import read_source_map
 from osc2tx_runtime.language.tree.events import Event
 from osc2tx_runtime.language.tree.override import Mode
 from osc2tx_runtime.language.tree.variables import Sampled
+from osc2tx_runtime.language.values.scenario_values import ScenarioValues
+from osc2tx_shared.classes import dataclass
 
 __all__ = ["Caller", "ScenarioParts"]
 

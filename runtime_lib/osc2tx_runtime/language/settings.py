@@ -10,9 +10,9 @@ from dataclasses import field
 from pathlib import Path
 from typing import Any
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.world.protocol import ControlMode
+from osc2tx_shared.classes import dataclass
 
 MOST_STEPS = 100_000_000
 """What a run may take at most: hours of computing."""

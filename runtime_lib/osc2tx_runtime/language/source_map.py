@@ -12,8 +12,8 @@ from dataclasses import field
 from pathlib import Path
 from typing import Any, TypeGuard
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import SourcePlace
+from osc2tx_shared.classes import dataclass
 
 __all__ = ["SourceMap", "read_source_map"]
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from osc2tx_runtime.language.node_runs import NodeRuns
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.world.deviation import Deviation
+    from osc2tx_runtime.world.measuring.deviation import Deviation
     from osc2tx_runtime.world.state import ActorState
 
 __all__ = ["TRACE_VERSION", "OnSample", "TraceWriter", "number", "to_json"]

@@ -8,7 +8,7 @@ from typing import Protocol
 
 from lxml import etree
 
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 from .polynomials import ZERO, Piecewise, Row
 from .xml_reader import Attributes

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from lxml import etree
 
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 from .errors import MapError
 from .model import Road, road_order

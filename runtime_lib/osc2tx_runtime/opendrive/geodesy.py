@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.plain_numbers import to_float
+from osc2tx_shared.classes import dataclass
 
 __all__ = ["GeoReference", "GeoReferenceError", "TransverseMercator"]
 

@@ -22,7 +22,14 @@ __all__ = [
     "Spiral",
     "hermite",
     "make_spiral",
+    "wrap",
 ]
+
+
+def wrap(angle: float) -> float:
+    """An angle in (-pi, pi]."""
+    return math.pi - (math.pi - angle) % math.tau
+
 
 Point = tuple[float, float, float, float]
 """x (m), y (m), heading (rad, not wrapped), curvature (1/m)."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from .angles import wrap
+from .geometry import wrap
 from .lane_distances import Route
 from .lane_line import lane_line
 from .model import Advance, Lane, LanePosition

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-from .angles import wrap
 from .arc_length import LaneLine
+from .geometry import wrap
 from .lane_advance import lane_heading
 from .lane_line import lane_line
 from .model import Lane, LaneBends

@@ -12,9 +12,8 @@ from bisect import bisect_right
 from collections.abc import Callable
 from typing import NamedTuple
 
-from .angles import wrap
 from .arc_length import SLOWEST_RATE, LaneLine
-from .geometry import Segment
+from .geometry import Segment, wrap
 from .lane_line import lane_line
 from .model import Lane, LanePosition, Pose, new_tuple
 from .poses import lane_pose

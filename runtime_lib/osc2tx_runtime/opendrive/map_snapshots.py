@@ -9,7 +9,7 @@ import stat
 from dataclasses import replace
 from pathlib import Path
 
-from osc2tx_cache import Snapshots, forget_the_oldest
+from osc2tx_shared.cache import Snapshots, forget_the_oldest
 
 from .packed_map import PackingError, pack, unpack
 from .reader import MapContent, read_content

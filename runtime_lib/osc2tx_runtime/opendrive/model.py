@@ -6,7 +6,7 @@ from bisect import bisect_right
 from dataclasses import field
 from typing import TYPE_CHECKING, NamedTuple
 
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 from .polynomials import ZERO, Piecewise, combine
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from .angles import wrap
+from .geometry import wrap
 from .model import Lane, Pose, Road
 
 __all__ = ["lane_pose", "surface_pose"]

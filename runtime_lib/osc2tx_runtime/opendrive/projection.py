@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
-from .angles import wrap
+from .geometry import wrap
 from .lane_advance import lane_heading
 from .model import Lane, LanePosition, Road
 from .road_index import RoadIndex

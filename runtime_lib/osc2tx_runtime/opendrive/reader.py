@@ -14,7 +14,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 from .cross_sections import read_cross_section
 from .crosswalks import Crosswalk, read_crosswalks

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 from .model import LaneSection, Road
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 
-from osc2tx_classes import dataclass, replace
+from osc2tx_shared.classes import dataclass, replace
 
-from .angles import wrap
+from .geometry import wrap
 from .model import DRIVING, Lane, Pose, Road
 from .poses import lane_pose
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 __all__ = ["Controller", "Signal", "SignalReference"]
 

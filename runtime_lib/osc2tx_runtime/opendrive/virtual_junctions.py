@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from copy import copy
 from itertools import pairwise
 
-from osc2tx_classes import replace
+from osc2tx_shared.classes import replace
 
 from .model import Lane, LaneSection, Road
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 from .html import fill, resource
 from .json_values import Json, number, plain, text

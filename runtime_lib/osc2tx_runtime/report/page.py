@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Protocol
 
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 from .html import fill, resource
 from .json_values import Json
@@ -15,7 +15,19 @@ from .surroundings import SignalSource
 from .trace_reader import read_run
 from .tracks import DIGITS
 
-__all__ = ["Trace", "render_report", "render_runs", "write_report"]
+__all__ = ["Trace", "render_campaign", "render_report", "render_runs", "write_report"]
+
+
+def render_campaign(data: Json) -> str:
+    """Return the page as text; the same data give the same text.
+
+    Args:
+        data: A summary, coverage, and columns of rows, as `osc2tx campaign report` collects them.
+    """
+    script = "\n".join(resource(name) for name in ("base.js", "campaign.js", "parallel.js"))
+    style = "\n".join(resource(name) for name in ("report.css", "campaign.css"))
+    return fill(resource("campaign.html"), style, script, data)
+
 
 _VENDOR_SCRIPT, _VENDOR_STYLE, _VENDOR_LICENCE = (
     f"vendor/{name}" for name in ("uplot.js", "uplot.css", "LICENSE")

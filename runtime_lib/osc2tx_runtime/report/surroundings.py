@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import field
 from typing import Protocol
 
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 from .json_values import Json, number, short, text
 

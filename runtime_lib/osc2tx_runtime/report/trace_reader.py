@@ -6,16 +6,100 @@ import json
 from collections.abc import Sequence
 from dataclasses import field
 
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
-from .action_log import ActionLog
 from .json_values import Json, is_flat, number, plain, short, text
 from .marks import mark_name
-from .node_list import node_list
 from .surroundings import Surroundings
 from .tracks import Track
 
-__all__ = ["Run", "read_run"]
+__all__ = ["ActionLog", "Run", "node_list", "read_run"]
+
+_Key = tuple[str, str, str]
+
+
+@dataclass
+class _Action:
+    """One action from its start to its end (s); `end` is None while it runs."""
+
+    actor: str
+    name: str
+    source: str
+    start: float
+    end: float | None = None
+    status: str = "running"
+    reason: str = ""
+
+    def as_json(self) -> Json:
+        """The form the page reads."""
+        return {
+            "actor": self.actor,
+            "name": self.name,
+            "source": self.source,
+            "start": short(self.start, 4),
+            "end": None if self.end is None else short(self.end, 4),
+            "status": self.status,
+            "reason": self.reason,
+        }
+
+
+@dataclass
+class ActionLog:
+    """Collects action lines; equal actions are paired first in, first out."""
+
+    _actions: list[_Action] = field(default_factory=list)
+    _running: dict[_Key, list[_Action]] = field(default_factory=dict)
+
+    def add(self, time: float, line: Json) -> None:
+        """Take one line of kind "action" at `time` (s)."""
+        actor, name, source = (
+            text(line.get("actor")),
+            text(line.get("name")),
+            text(line.get("source")),
+        )
+        status = text(line.get("status"))
+        waiting = self._running.setdefault((actor, name, source), [])
+        if status == "start":
+            waiting.append(self._begin(actor, name, source, time))
+            return
+        # An end without a start happens when a trace is cut: shown as an instant.
+        action = waiting.pop(0) if waiting else self._begin(actor, name, source, time)
+        action.end, action.status = time, status or "end"
+        action.reason = text(line.get("reason"))
+
+    def _begin(self, actor: str, name: str, source: str, time: float) -> _Action:
+        action = _Action(actor, name, source, time)
+        self._actions.append(action)
+        return action
+
+    def as_json(self) -> list[Json]:
+        """All actions in order of their starts."""
+        ordered = sorted(self._actions, key=lambda action: action.start)
+        return [action.as_json() for action in ordered]
+
+
+def node_list(value: object) -> list[Json]:
+    """Return the nodes with what can be drawn of them; what is no node is left out."""
+    nodes = value if isinstance(value, list) else []
+    return [_node(each) for each in nodes if isinstance(each, dict)]
+
+
+def _node(value: Json) -> Json:
+    words = {key: text(value.get(key)) for key in ("kind", "text", "label", "source")}
+    runs = value.get("runs")
+    spans = [_span(run) for run in runs if _is_span(run)] if isinstance(runs, list) else []
+    return {"depth": int(number(value.get("depth")) or 0), **words, "runs": spans}
+
+
+def _is_span(run: object) -> bool:
+    return isinstance(run, list) and len(run) == 3 and number(run[0]) is not None
+
+
+def _span(run: list[object]) -> list[object]:
+    """Start (s), end (s, None while it runs), and how it was left."""
+    start, end = number(run[0]), number(run[1])
+    return [short(start or 0.0, 4), None if end is None else short(end, 4), text(run[2])]
+
 
 _FIXED_KINDS = ("stationary", "environment", "map", "traffic_light", "trafficlight")
 _SIZES = {"length": 1.0, "width": 1.0}

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from xml.etree import ElementTree
 
-from osc2tx_classes import replace
 from osc2tx_runtime.language.outline import OutlineNode, outline
 from osc2tx_runtime.language.tree import Behaviour
-from osc2tx_text import visible
+from osc2tx_shared.classes import replace
+from osc2tx_shared.text import visible
 
 __all__ = ["tree_svg", "tree_text"]
 

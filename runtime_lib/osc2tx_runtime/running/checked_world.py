@@ -6,9 +6,9 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, cast
 
 from osc2tx_runtime.opendrive import RoadMap
-from osc2tx_runtime.world.checked_calls import CheckedCalls
+from osc2tx_runtime.world.checks.values import CheckedCalls
 from osc2tx_runtime.world.embedded import EmbeddedWorld
-from osc2tx_runtime.world.kinematics import Kinematics
+from osc2tx_runtime.world.measuring.kinematics import Kinematics
 from osc2tx_runtime.world.protocol import LightState, Progress, World
 from osc2tx_runtime.world.state import ActorState
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from osc2tx_runtime.errors import ScenarioError, SettingsError
 from osc2tx_runtime.language.context import ExecutionContext, PostedEvent
@@ -26,12 +26,25 @@ from osc2tx_runtime.language.tree.failure_reasons import (
     timeout_reason,
 )
 from osc2tx_runtime.running.criteria import Criteria
-from osc2tx_runtime.running.observer import Observer
 
 if TYPE_CHECKING:
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["OnProgress", "Outcome", "overloads", "run_tree", "settle"]
+__all__ = ["Observer", "OnProgress", "Outcome", "overloads", "run_tree", "settle"]
+
+
+class Observer(Protocol):
+    """Is told of a run as it goes on; what it raises ends the run."""
+
+    def begin(self, context: ExecutionContext) -> None:
+        """See the actors where they start, before the first step."""
+
+    def observe(self, step: int) -> None:
+        """See what the way to a step has brought about."""
+
+    def sampled(self, kind: str, values: Mapping[str, Any]) -> None:
+        """Take the value of a coverage item, `cover` or `record`, as the trace has it."""
+
 
 OnProgress = Callable[[float, float], None]
 """Takes the time of the run and the time at which it has to end, in seconds."""

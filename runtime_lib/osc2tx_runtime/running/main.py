@@ -13,7 +13,7 @@ from osc2tx_runtime.interrupts import INTERRUPTED, as_usual
 from osc2tx_runtime.running.options import OPTIONS, read_options
 from osc2tx_runtime.running.runner import RunResult, run_scenario
 from osc2tx_runtime.worlds import EMBEDDED, Option, WorldType, find_world
-from osc2tx_text import (
+from osc2tx_shared.text import (
     OutputError,
     clear_status,
     complain,

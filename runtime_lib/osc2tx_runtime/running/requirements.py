@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.errors import CapabilityError
-from osc2tx_runtime.language.action import Action
-from osc2tx_runtime.language.base_action import BaseAction
+from osc2tx_runtime.language.actions.action import Action
+from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.world.protocol import EXTERNAL
 

@@ -8,21 +8,20 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from osc2tx_classes import dataclass, replace
-from osc2tx_runtime.domain.routes.map_search import find_map
+from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.errors import BeyondMapError, OwnCode, SettingsError, SimulatorError
-from osc2tx_runtime.language.base_action import BaseAction
+from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.settings import RunSettings, check_known
 from osc2tx_runtime.language.trace import TraceWriter
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.running.checked_world import checked_world
-from osc2tx_runtime.running.loop import OnProgress, overloads, run_tree
+from osc2tx_runtime.running.loop import Observer, OnProgress, overloads, run_tree
 from osc2tx_runtime.running.map_warnings import map_warnings
-from osc2tx_runtime.running.observer import Observer
 from osc2tx_runtime.running.output_files import check_outputs, write_output
 from osc2tx_runtime.running.requirements import check_requirements
 from osc2tx_runtime.worlds import WorldRequest, find_world
+from osc2tx_shared.classes import dataclass, replace
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.scenario import Scenario
@@ -200,8 +199,8 @@ def make_context(
 
 def place_actors(scenario: Scenario, context: ExecutionContext) -> None:
     """Put the actors where the scenario wants them."""
+    from osc2tx_runtime.domain.map.geodetic_points import check_globe
     from osc2tx_runtime.domain.placing.initializer import ScenarioInitializer
-    from osc2tx_runtime.domain.routes.geodetic_points import check_globe
     from osc2tx_runtime.domain.scenario import bind_all
 
     bind_all(scenario, context)

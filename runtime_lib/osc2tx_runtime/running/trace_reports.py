@@ -6,7 +6,7 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from osc2tx_runtime.domain.routes.map_search import find_map
+from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.errors import InputError
 from osc2tx_runtime.opendrive import MapError, RoadMap, read_map
 from osc2tx_runtime.report.index_page import RunRow, render_index

@@ -1,16 +1,14 @@
 """The world in which a scenario runs.
 
-Input: placed actors and one command per actor and slot. Output: states, collisions. Begin at
-`protocol` (what every world offers); `embedded` is the one there is, and `plant` what moves its
-actors: a simulator, or nothing. In order of control flow: `commands`, `actor_motion` (the commands
-of one actor) and `actor_step` (one actor over one step) with `longitudinal` and `lateral` (commands
-at work) on the closed forms of `profiles` and `function_profiles` give the wished states; `cruise`
-gives those of who just goes on; `scene` hands them to the plant with `reference_path` beyond them,
-`measurement` is what comes back, `anchoring` puts the actors there, `tracking` says whether they
-have done what they were to do.
-`driving`, `drivers` and `single_track` let somebody else drive, `expectations` measure that.
-`attitude`, `collision`, `distances`, `feasibility` serve all; `state` and `actor_dimensions` are
-plain values.
+Input: placed actors and one command per actor and slot. Output: states, collisions. Start reading
+at `protocol` (what every world offers); `embedded` implements it. Folders, in the order of a step:
+
+- `commands` are given by actions, `checks` examine those of foreign code.
+- `motion` moves one actor over one step, with `longitudinal`, `lateral`, `geometry` and `grip`.
+- `plant` hands the commanded states to what moves the actors (a simulator, or nothing) and takes
+  its measurements back; `tracking` decides from them whether goals are reached; `drivers` let an
+  external driver steer instead.
+- `measuring` computes distances, velocities and contacts; `surroundings` traffic lights and sky.
 
 Invariants: fixed step, sequences and ordered dicts only, no clock, no random numbers. Commands
 given at step k act from k to k+1; everything one can read is the state of step k.
@@ -18,14 +16,14 @@ given at step k act from k to k+1; everything one can read is the state of step 
 
 from __future__ import annotations
 
+from osc2tx_runtime.world.measuring.measurement import Measurement
+from osc2tx_runtime.world.plant.plant import Plant
+from osc2tx_runtime.world.plant.scene import Scene, Setpoint
+
 from .actor_dimensions import Limits, Shape
 from .commands import Command
 from .embedded import EmbeddedWorld
-from .features import FEATURES
-from .measurement import Measurement
-from .plant import Plant
-from .protocol import ActorSpec, LightState, Progress, World
-from .scene import Scene, Setpoint
+from .protocol import FEATURES, ActorSpec, LightState, Progress, World
 from .state import ActorState
 
 __all__ = [

@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 from typing import cast
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.enums import VehicleCategory
+from osc2tx_shared.classes import dataclass
 
 __all__ = [
     "CATEGORIES",

@@ -4,47 +4,47 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 
-from osc2tx_classes import replace
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Route
+from osc2tx_runtime.world.checks.values import in_words, problem_of
+from osc2tx_runtime.world.geometry.attitude import LEVEL, Tilt
+from osc2tx_runtime.world.grip.friction import GRAVITY, adhesion_of, grip
+from osc2tx_runtime.world.grip.overload import Overload
+from osc2tx_runtime.world.longitudinal.bends_ahead import BendsAhead
+from osc2tx_runtime.world.measuring.contacts import Contacts
+from osc2tx_runtime.world.measuring.deviation import Deviation
+from osc2tx_runtime.world.measuring.distances import along_lanes, lateral_on_road
+from osc2tx_runtime.world.measuring.kinematics import Motion, Track
+from osc2tx_runtime.world.measuring.obstacles import nearest_ahead
+from osc2tx_runtime.world.measuring.projected_motion import projected
+from osc2tx_runtime.world.motion.actor_motion import CommandedActor
+from osc2tx_runtime.world.motion.couplings import Couplings
+from osc2tx_runtime.world.motion.feasibility import FrictionWatch
+from osc2tx_runtime.world.motion.starts import Start, placed
+from osc2tx_runtime.world.motion.state_changes import StateChange
+from osc2tx_runtime.world.plant.anchoring import arrive
+from osc2tx_runtime.world.plant.checked_plant import CheckedPlant
+from osc2tx_runtime.world.plant.plant import Identity, Plant
+from osc2tx_runtime.world.plant.scene import Scene
+from osc2tx_runtime.world.plant.weather_effects import Lights, Surroundings
+from osc2tx_runtime.world.surroundings.stop_lines_ahead import StopLine, StopLines
+from osc2tx_runtime.world.surroundings.sun_and_moon import Sky
+from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
+from osc2tx_shared.classes import replace
 
 from .actor_dimensions import Limits
-from .actor_motion import CommandedActor
-from .anchoring import arrive
-from .attitude import LEVEL, Tilt
-from .bends_ahead import BendsAhead
-from .checked_plant import CheckedPlant
 from .commands import Command, Standstill
-from .contacts import Contacts
-from .couplings import Couplings
-from .deviation import Deviation
-from .distances import along_lanes, lateral_on_road
-from .feasibility import FrictionWatch
-from .features import Feature
-from .friction import GRAVITY, adhesion_of, grip
-from .kinematics import Motion, Track
-from .obstacles import nearest_ahead
-from .overload import Overload
-from .plant import Identity, Plant
-from .projected_motion import projected
 from .protocol import (
     EXTERNAL,
     ActorSpec,
     ControlMode,
+    Feature,
     LightMode,
     LightState,
     Note,
     Progress,
 )
-from .scene import Scene
-from .starts import Start, placed
 from .state import ActorState
-from .state_changes import StateChange
-from .stop_lines_ahead import StopLine, StopLines
-from .sun_and_moon import Sky
-from .traffic_light_states import Signals
-from .value_checks import in_words, problem_of
-from .weather_effects import Lights, Surroundings
 
 __all__ = ["EmbeddedWorld"]
 

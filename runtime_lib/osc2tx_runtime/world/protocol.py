@@ -3,25 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import Any, Literal, Protocol
+from typing import Any, Literal, Protocol, get_args
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Route
+from osc2tx_runtime.world.geometry.attitude import LEVEL, Tilt
+from osc2tx_runtime.world.grip.overload import Overload
+from osc2tx_runtime.world.measuring.deviation import Deviation
+from osc2tx_runtime.world.measuring.kinematics import Motion
+from osc2tx_runtime.world.surroundings.stop_lines_ahead import StopLine
+from osc2tx_runtime.world.surroundings.sun_and_moon import Sky
+from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
+from osc2tx_shared.classes import dataclass
 
 from .actor_dimensions import Limits, Shape
-from .attitude import LEVEL, Tilt
 from .commands import Command
-from .deviation import Deviation
-from .features import Feature
-from .kinematics import Motion
-from .overload import Overload
 from .state import ActorState
-from .stop_lines_ahead import StopLine
-from .sun_and_moon import Sky
-from .traffic_light_states import Signals
 
 __all__ = [
     "EXTERNAL",
+    "FEATURES",
     "FOG_LIGHT_RANGE",
     "LATERAL",
     "LONGITUDINAL",
@@ -30,6 +30,7 @@ __all__ = [
     "REACHED",
     "ActorSpec",
     "ControlMode",
+    "Feature",
     "LightMode",
     "LightState",
     "Note",
@@ -37,7 +38,13 @@ __all__ = [
     "World",
 ]
 
-# The same words as in `osc2tx_runtime.language.registry`; a world does not know the registry.
+Feature = Literal["lanes", "lights", "map", "towing", "traffic_lights", "weather"]
+"""What an action or modifier may need of a world."""
+
+FEATURES: frozenset[Feature] = frozenset(get_args(Feature))
+
+
+# The same words as in `language.actions.registry`; a world does not know the registry.
 LONGITUDINAL = "longitudinal"
 LATERAL = "lateral"
 

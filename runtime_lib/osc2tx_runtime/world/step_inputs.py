@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Protocol
 
 from osc2tx_runtime.opendrive import Route
+from osc2tx_runtime.world.surroundings.stop_lines_ahead import StopLine
 
 from .actor_dimensions import Limits
 from .state import ActorState
-from .stop_lines_ahead import StopLine
 
 __all__ = ["StepInputs"]
 

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from importlib import import_module
 
 from osc2tx_runtime.errors import OwnCode, ScenarioError, SettingsError
-from osc2tx_runtime.world.drivers import DriversPlant
-from osc2tx_runtime.world.driving import Driver
+from osc2tx_runtime.world.drivers.drivers import DriversPlant
+from osc2tx_runtime.world.drivers.driving import Driver
 from osc2tx_runtime.world.embedded import EmbeddedWorld
 
 from .option import Option, parse_pair

@@ -6,8 +6,8 @@ import re
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import SettingsError
+from osc2tx_shared.classes import dataclass
 
 __all__ = ["Option", "parse_pair", "parse_seconds"]
 

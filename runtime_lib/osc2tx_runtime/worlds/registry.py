@@ -6,8 +6,8 @@ import re
 from typing import Any
 
 from osc2tx_runtime.errors import OwnCode, ScenarioError, SettingsError
+from osc2tx_runtime.world.checks.values import problem_of
 from osc2tx_runtime.world.protocol import ControlMode
-from osc2tx_runtime.world.value_checks import problem_of
 
 from .embedded import EMBEDDED
 from .option import Option

@@ -7,10 +7,10 @@ from dataclasses import field
 from pathlib import Path
 from typing import Any
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import InputError
 from osc2tx_runtime.opendrive import MapError, RoadMap, read_map
 from osc2tx_runtime.world.protocol import ControlMode, World
+from osc2tx_shared.classes import dataclass
 
 from .option import Option
 

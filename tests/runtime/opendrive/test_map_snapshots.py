@@ -10,11 +10,11 @@ from typing import Any
 
 import pytest
 
-from osc2tx_cache import snapshots
 from osc2tx_runtime.opendrive import MapError, RoadMap, map_snapshots, read_map, read_map_text
 from osc2tx_runtime.opendrive.map_snapshots import MOST_KEPT, SMALLEST
 from osc2tx_runtime.opendrive.packed_map import PackingError, pack, unpack
 from osc2tx_runtime.opendrive.reader import MapContent, read_content_text
+from osc2tx_shared.cache import snapshots
 from tests.runtime.opendrive.conftest import OWN_MAPS
 from tests.runtime.opendrive.small_maps import map_text, road_text, shape
 

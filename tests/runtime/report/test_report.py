@@ -11,10 +11,9 @@ import pytest
 
 import osc2tx_runtime.report
 from osc2tx_runtime.report import write_report
-from osc2tx_runtime.report.columns import pack
 from osc2tx_runtime.report.index_page import RunRow, render_index
 from osc2tx_runtime.report.page import Trace, render_report, render_runs
-from osc2tx_runtime.report.tracks import MAX_SAMPLES
+from osc2tx_runtime.report.tracks import MAX_SAMPLES, pack
 from tests.runtime.report.conftest import TraceMaker, highway, wandering
 
 DOCUMENT = Path(__file__).parents[3] / "docs" / "trace.md"

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
-from osc2tx_runtime.language.action import Action
+from osc2tx_runtime.language.actions.action import Action
+from osc2tx_runtime.language.actions.method import Method
 from osc2tx_runtime.language.context import ExecutionContext
-from osc2tx_runtime.language.method import Method
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.trace import TraceWriter
 from osc2tx_runtime.language.tree import Behaviour, Event, Status

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from osc2tx_runtime.clock import whole_steps
-from osc2tx_runtime.world.measured import Measured
+from osc2tx_runtime.world.measuring.measured import Measured
 
 DTS = ("0.01", "0.02", "0.025", "0.05", "0.1", "0.03", "0.0625")
 

@@ -24,7 +24,7 @@ from osc2tx_runtime.language.tree import (
     elapsed,
     rise,
 )
-from osc2tx_runtime.language.tree.parameters import within
+from osc2tx_runtime.language.values.parameters import within
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.running.runner import run_scenario
 from tests.traces import whatever_the_order

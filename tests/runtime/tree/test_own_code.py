@@ -21,7 +21,7 @@ from osc2tx_runtime import (
     Vehicle,
     run_scenario,
 )
-from osc2tx_runtime.language.method import Method
+from osc2tx_runtime.language.actions.method import Method
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.opendrive import LanePosition, Pose
 from osc2tx_runtime.running.main import main
@@ -37,7 +37,7 @@ from osc2tx_runtime.world.commands import (
     Turn,
 )
 from osc2tx_runtime.world.embedded import EmbeddedWorld
-from osc2tx_runtime.world.plant import Identity, Measurement
+from osc2tx_runtime.world.plant.plant import Identity, Measurement
 from osc2tx_runtime.worlds import EMBEDDED, WorldRequest
 
 Hook = Callable[[Any], Any]
@@ -212,7 +212,7 @@ def run_in(world: Any) -> None:
 
 def world_of(plant: Any = None) -> EmbeddedWorld:
     own = scenario()(RunSettings())
-    from osc2tx_runtime.domain.routes.map_search import find_map
+    from osc2tx_runtime.domain.map.search import find_map
 
     request = WorldRequest("highway.xodr", lambda: find_map(own.map_file(), ()))
     if plant is None:

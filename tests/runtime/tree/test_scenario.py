@@ -14,11 +14,11 @@ import pytest
 from osc2tx_runtime.domain.actors import Environment, Map, Vehicle
 from osc2tx_runtime.domain.scenario import Scenario
 from osc2tx_runtime.errors import ScenarioError, SettingsError, UnsupportedError
-from osc2tx_runtime.language.action import Action
-from osc2tx_runtime.language.registry import MethodRegistry
+from osc2tx_runtime.language.actions.action import Action
+from osc2tx_runtime.language.actions.registry import MethodRegistry
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.tree import Behaviour, Event, Parallel, Serial, Until, Wait, elapsed
-from osc2tx_runtime.language.tree.parameters import within
+from osc2tx_runtime.language.values.parameters import within
 from tests.runtime.tree.kit import Run, Task
 
 MODULE = """

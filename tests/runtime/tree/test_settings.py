@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx_runtime.domain.routes.map_search import find_map
+from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.errors import InputError, SettingsError
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.running.options import OPTIONS, read_options

@@ -12,7 +12,7 @@ import pytest
 from osc2tx_runtime.domain.objects.parts import HitchReceiver
 from osc2tx_runtime.language.trace import TraceWriter, number, to_json
 from osc2tx_runtime.language.tree import Emit, Parallel, Serial, Until, Wait, elapsed
-from osc2tx_runtime.world.velocities import OrientationRate, Velocity
+from osc2tx_runtime.world.measuring.velocities import OrientationRate, Velocity
 from tests.runtime.tree.kit import FakeActor, FakeWorld, Run, Switch, Task, event
 
 HERO: Any = FakeActor("hero")

@@ -21,7 +21,7 @@ from osc2tx_runtime import (
 )
 from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.language.tree.coverage import CoverageItem
-from osc2tx_runtime.language.tree.written_units import Unit
+from osc2tx_runtime.language.values.written_units import Unit
 
 
 class Relations(Scenario):

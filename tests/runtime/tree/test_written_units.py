@@ -11,7 +11,7 @@ from osc2tx.stdlib import TYPES, library_file
 from osc2tx.syntax import ast
 from osc2tx_runtime import Behaviour, RunSettings, Scenario, Unit, Wait, run_scenario, within
 from osc2tx_runtime.errors import SettingsError
-from osc2tx_runtime.language.tree.written_units import (
+from osc2tx_runtime.language.values.written_units import (
     UNITS_OF,
     read_value,
     shown_value,

@@ -8,11 +8,10 @@ from dataclasses import dataclass, field
 
 from osc2tx_runtime.opendrive import Pose
 from osc2tx_runtime.world import ActorSpec, Shape
-from osc2tx_runtime.world.curve import turn_between
-from osc2tx_runtime.world.features import FEATURES, Feature
-from osc2tx_runtime.world.measurement import Measurement
-from osc2tx_runtime.world.protocol import ControlMode
-from osc2tx_runtime.world.scene import Scene, Setpoint
+from osc2tx_runtime.world.geometry.curve import turn_between
+from osc2tx_runtime.world.measuring.measurement import Measurement
+from osc2tx_runtime.world.plant.scene import Scene, Setpoint
+from osc2tx_runtime.world.protocol import FEATURES, ControlMode, Feature
 
 
 @dataclass

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from itertools import combinations
 
-from osc2tx_runtime.world.collision import Box, swept, touch
+from osc2tx_runtime.world.measuring.collision import Box, swept, touch
 
 
 def swept_contacts(begin: Sequence[Box], end: Sequence[Box]) -> list[tuple[int, int]]:

@@ -19,7 +19,7 @@ from osc2tx_runtime.modifiers import (
     position,
     speed,
 )
-from osc2tx_runtime.world.guidance import rate_to_place, rate_to_place_and_speed
+from osc2tx_runtime.world.geometry.guidance import rate_to_place, rate_to_place_and_speed
 from tests.runtime.world.two_cars import TwoCars, scenario
 
 Run = Callable[..., Any]

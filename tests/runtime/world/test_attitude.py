@@ -34,7 +34,7 @@ from osc2tx_runtime.modifiers import (
     yaw,
 )
 from osc2tx_runtime.opendrive import Pose as MapPose
-from osc2tx_runtime.world.attitude import tilt_on
+from osc2tx_runtime.world.geometry.attitude import tilt_on
 
 Run = Callable[..., Any]
 JUMP = physical_movement("prefer_non_physical")

@@ -13,7 +13,7 @@ from osc2tx_runtime.opendrive import LanePosition, RoadMap, read_map
 from osc2tx_runtime.world import EmbeddedWorld
 from osc2tx_runtime.world.actor_dimensions import COMFORT, limits_of
 from osc2tx_runtime.world.commands import Careful, KeepLane, SpeedChange
-from osc2tx_runtime.world.friction import ADHESION, GRAVITY
+from osc2tx_runtime.world.grip.friction import ADHESION, GRAVITY
 from tests.runtime.opendrive.small_maps import make_map, road_text, shape
 from tests.runtime.world.motion_scan import Instant, scan
 

@@ -28,9 +28,9 @@ from osc2tx_runtime import (
     at_least,
     rise,
 )
+from osc2tx_runtime.domain.map.road_graph import graph_of
 from osc2tx_runtime.domain.placing.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.routes.lane_coordinates import place_of_route
-from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.modifiers import along, crossing_connects, speed
 from osc2tx_runtime.opendrive import RoadMap, read_map
 

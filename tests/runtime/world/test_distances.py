@@ -11,9 +11,10 @@ import pytest
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
 from osc2tx_runtime.world import ActorSpec, ActorState, EmbeddedWorld
 from osc2tx_runtime.world.actor_dimensions import Shape
-from osc2tx_runtime.world.collision import box_of, contact_interval, overlapping
 from osc2tx_runtime.world.commands import LaneOffset
-from osc2tx_runtime.world.distances import (
+from osc2tx_runtime.world.geometry.lane_neighbours import offset_from
+from osc2tx_runtime.world.measuring.collision import box_of, contact_interval, overlapping
+from osc2tx_runtime.world.measuring.distances import (
     along_lanes,
     gap_between,
     headway_between,
@@ -23,7 +24,6 @@ from osc2tx_runtime.world.distances import (
     time_to_collision,
     time_to_cover,
 )
-from osc2tx_runtime.world.lane_neighbours import offset_from
 from tests.runtime.opendrive.small_maps import one_road
 
 CAR = Shape(5.0, 2.0, 1.5, 1.0)  # front 4 m, rear 1 m from the reference point

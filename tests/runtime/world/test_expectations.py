@@ -31,10 +31,10 @@ from osc2tx_runtime.world.commands import (
     SpeedChange,
     Standstill,
 )
-from osc2tx_runtime.world.curve import Curve, Knot
-from osc2tx_runtime.world.drivers import DriversPlant
-from osc2tx_runtime.world.driving import Control, Observation
-from osc2tx_runtime.world.profiles import Linear
+from osc2tx_runtime.world.drivers.drivers import DriversPlant
+from osc2tx_runtime.world.drivers.driving import Control, Observation
+from osc2tx_runtime.world.geometry.curve import Curve, Knot
+from osc2tx_runtime.world.geometry.profiles import Linear
 from osc2tx_runtime.world.protocol import LATERAL, LONGITUDINAL, PENDING
 
 DT = 0.05

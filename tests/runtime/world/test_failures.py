@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 from osc2tx_runtime import Behaviour, OdrPoint, Parallel, Person, Point, Pose, Serial, Wait, elapsed
+from osc2tx_runtime.domain.map.roads_and_lanes import Lane, MapSegment
 from osc2tx_runtime.domain.paths.path_values import Path, RelativePathSt, Trajectory
 from osc2tx_runtime.domain.points_and_poses import RoutePoint
-from osc2tx_runtime.domain.routes.roads_and_lanes import Lane, MapSegment
 from osc2tx_runtime.modifiers import (
     along,
     change_lane,

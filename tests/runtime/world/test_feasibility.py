@@ -19,8 +19,8 @@ from osc2tx_runtime.running.main import verdict
 from osc2tx_runtime.world import EmbeddedWorld
 from osc2tx_runtime.world.actor_dimensions import limits_of
 from osc2tx_runtime.world.commands import LaneChange, SpeedChange
-from osc2tx_runtime.world.friction import ADHESION, DRY_ADHESION, GRAVITY
-from osc2tx_runtime.world.plant import Plant
+from osc2tx_runtime.world.grip.friction import ADHESION, DRY_ADHESION, GRAVITY
+from osc2tx_runtime.world.plant.plant import Plant
 from osc2tx_runtime.world.protocol import LONGITUDINAL
 from tests.runtime.opendrive.small_maps import map_text, one_road, road_text, shape
 from tests.runtime.world.following_plant import FollowingPlant

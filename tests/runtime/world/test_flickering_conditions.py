@@ -12,7 +12,7 @@ from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.tree.conditions import Edge
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world import EmbeddedWorld
-from osc2tx_runtime.world.plant import Identity
+from osc2tx_runtime.world.plant.plant import Identity
 from tests.runtime.world.following_plant import FollowingPlant
 
 

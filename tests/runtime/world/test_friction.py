@@ -13,7 +13,7 @@ from osc2tx_runtime.modifiers import acceleration, lane, position, speed
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world import EmbeddedWorld
 from osc2tx_runtime.world.commands import Accelerate, LaneChange, SpeedChange
-from osc2tx_runtime.world.friction import ADHESION, GRAVITY, road_condition
+from osc2tx_runtime.world.grip.friction import ADHESION, GRAVITY, road_condition
 
 WEATHER: dict[str, dict[str, float]] = {
     "wet": {"rain_intensity": 1e-6},

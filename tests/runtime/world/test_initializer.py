@@ -23,8 +23,8 @@ from osc2tx_runtime.domain.actors import (
 from osc2tx_runtime.domain.modifiers import Modifier
 from osc2tx_runtime.domain.placing.initializer import ScenarioInitializer
 from osc2tx_runtime.errors import ScenarioError, SettingsError
+from osc2tx_runtime.language.actions.placement import Placement
 from osc2tx_runtime.language.context import ExecutionContext
-from osc2tx_runtime.language.placement import Placement
 from osc2tx_runtime.modifiers import keep_lane, lane, location, position, speed, yaw
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.world import EmbeddedWorld

@@ -10,8 +10,8 @@ import pytest
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
 from osc2tx_runtime.world import ActorSpec, EmbeddedWorld
 from osc2tx_runtime.world.commands import LaneChange, ReplayTrajectory, SpeedChange, Turn
-from osc2tx_runtime.world.curve import Curve, Knot
-from osc2tx_runtime.world.kinematics import Kinematics
+from osc2tx_runtime.world.geometry.curve import Curve, Knot
+from osc2tx_runtime.world.measuring.kinematics import Kinematics
 from tests.runtime.opendrive.small_maps import one_road
 
 SPEED = 10.0

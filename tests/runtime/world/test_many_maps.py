@@ -11,7 +11,7 @@ import pytest
 
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.world import EmbeddedWorld
-from osc2tx_runtime.world.friction import DRY_ADHESION, GRAVITY
+from osc2tx_runtime.world.grip.friction import DRY_ADHESION, GRAVITY
 from tests.runtime.world.motion_scan import Instant, Worst, scan
 
 CARS = 40

@@ -22,8 +22,8 @@ from osc2tx_runtime import (
     at_most,
     within,
 )
+from osc2tx_runtime.domain.map.roads_and_lanes import RoadPart
 from osc2tx_runtime.domain.placing.map_solver import MapSolver, Relation
-from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.modifiers import (
     compound_lane_side,
     end_lane,

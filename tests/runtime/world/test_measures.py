@@ -11,8 +11,8 @@ from osc2tx_runtime.domain import capabilities
 from osc2tx_runtime.domain.actors import Person, StationaryObject, Vehicle
 from osc2tx_runtime.domain.modifiers import MODIFIERS
 from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.actions.registry import methods
 from osc2tx_runtime.language.context import ExecutionContext
-from osc2tx_runtime.language.registry import methods
 from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world import EmbeddedWorld

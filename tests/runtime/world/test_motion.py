@@ -11,7 +11,7 @@ import pytest
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world import ActorSpec, ActorState, EmbeddedWorld
 from osc2tx_runtime.world.commands import Command, LaneChange, LaneOffset, SpeedChange
-from osc2tx_runtime.world.lateral import HEADING_LIMIT, LANE_CHANGE_TIME
+from osc2tx_runtime.world.lateral.execution import HEADING_LIMIT, LANE_CHANGE_TIME
 
 CarWorld = Callable[..., EmbeddedWorld]
 LONGITUDINAL, LATERAL = "longitudinal", "lateral"

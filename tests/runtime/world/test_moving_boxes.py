@@ -11,8 +11,8 @@ from osc2tx_runtime.domain.actors import Vehicle
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
 from osc2tx_runtime.world import ActorSpec, ActorState, EmbeddedWorld
 from osc2tx_runtime.world.actor_dimensions import Shape
-from osc2tx_runtime.world.collision import box_of
-from osc2tx_runtime.world.distances import object_distance, time_to_collision
+from osc2tx_runtime.world.measuring.collision import box_of
+from osc2tx_runtime.world.measuring.distances import object_distance, time_to_collision
 from tests.runtime.world.pairs_of_boxes import swept_contacts
 from tests.runtime.world.test_conditions import cast, common_area, corners, some_state
 

@@ -11,8 +11,8 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world import ActorSpec, EmbeddedWorld
 from osc2tx_runtime.world.commands import KeepLane, LaneChange, LaneOffset
-from osc2tx_runtime.world.function_profiles import Computed
-from osc2tx_runtime.world.lane_neighbours import (
+from osc2tx_runtime.world.geometry.function_profiles import Computed
+from osc2tx_runtime.world.geometry.lane_neighbours import (
     lane_beside,
     lanes_to_left,
     seen_along,

@@ -28,7 +28,7 @@ from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_runtime.world import EmbeddedWorld
 from osc2tx_runtime.world.commands import FollowCourse
-from osc2tx_runtime.world.curve import Curve, Knot
+from osc2tx_runtime.world.geometry.curve import Curve, Knot
 
 
 def test_the_box_of_a_car_reaches_over_its_rear_axle() -> None:

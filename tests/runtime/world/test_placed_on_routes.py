@@ -23,8 +23,8 @@ from osc2tx_runtime import (
     Wait,
     elapsed,
 )
+from osc2tx_runtime.domain.map.road_graph import graph_of
 from osc2tx_runtime.domain.placing.map_solver import MapSolver
-from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.modifiers import (
     along,
     lane,

@@ -16,16 +16,16 @@ from osc2tx_runtime.errors import SimulatorError
 from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.opendrive import RoadMap
 from osc2tx_runtime.simulators.carla.plant import CarlaPlant
-from osc2tx_runtime.world.checked_calls import CheckedCalls
+from osc2tx_runtime.world.checks.values import CheckedCalls
 from osc2tx_runtime.world.commands import LaneChange, SpeedChange
-from osc2tx_runtime.world.measurement import Measurement
-from osc2tx_runtime.world.protocol import LATERAL, LONGITUDINAL
-from osc2tx_runtime.world.tolerances import (
+from osc2tx_runtime.world.measuring.deviation import (
     PATIENCE,
     PLACE_TOLERANCE,
     SPEED_TOLERANCE,
     STANDSTILL,
 )
+from osc2tx_runtime.world.measuring.measurement import Measurement
+from osc2tx_runtime.world.protocol import LATERAL, LONGITUDINAL
 from tests.runtime.world.following_plant import FollowingPlant
 from tests.runtime.world.plant_runs import DT, Run, Spec, driving, steps
 from tests.runtime.world.two_cars import TwoCars, scenario

@@ -14,11 +14,11 @@ import pytest
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world import EmbeddedWorld
 from osc2tx_runtime.world.commands import SpeedChange
-from osc2tx_runtime.world.friction import GRAVITY
-from osc2tx_runtime.world.measurement import Measurement
+from osc2tx_runtime.world.grip.friction import GRAVITY
+from osc2tx_runtime.world.measuring.measurement import Measurement
+from osc2tx_runtime.world.measuring.velocities import OrientationRate, TranslationalAcceleration
+from osc2tx_runtime.world.motion.towing import coupling_gap, pose_behind
 from osc2tx_runtime.world.protocol import LONGITUDINAL
-from osc2tx_runtime.world.towing import coupling_gap, pose_behind
-from osc2tx_runtime.world.velocities import OrientationRate, TranslationalAcceleration
 from tests.runtime.world.following_plant import FollowingPlant
 from tests.runtime.world.plant_runs import DT, Run, Spec, driving, steps
 from tests.runtime.world.two_cars import scenario

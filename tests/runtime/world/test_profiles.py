@@ -9,8 +9,7 @@ import pytest
 
 from osc2tx_runtime.world.actor_dimensions import Limits
 from osc2tx_runtime.world.commands import SpeedChange
-from osc2tx_runtime.world.longitudinal import excessive_rate, speed_profile
-from osc2tx_runtime.world.profiles import (
+from osc2tx_runtime.world.geometry.profiles import (
     Cosine,
     Linear,
     Profile,
@@ -19,6 +18,7 @@ from osc2tx_runtime.world.profiles import (
     cosine_duration,
     fastest_cosine,
 )
+from osc2tx_runtime.world.longitudinal.execution import excessive_rate, speed_profile
 
 CAR = Limits(4.0, 8.0)
 

@@ -9,13 +9,13 @@ from typing import Any
 
 import pytest
 
+from osc2tx_runtime.domain.map.crossing_lines import laid
+from osc2tx_runtime.domain.map.road_graph import graph_of
+from osc2tx_runtime.domain.map.segments import MapSegment
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.domain.points_and_poses import Pose
 from osc2tx_runtime.domain.routes.composed_routes import poses_of_route
-from osc2tx_runtime.domain.routes.crossing_lines import laid
-from osc2tx_runtime.domain.routes.map_segments import MapSegment
-from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.opendrive import Pose as MapPose
 

@@ -18,8 +18,8 @@ from osc2tx_runtime import (
     elapsed,
     within,
 )
+from osc2tx_runtime.domain.map.roads_and_lanes import Lane, MapSegment
 from osc2tx_runtime.domain.paths.path_values import Path
-from osc2tx_runtime.domain.routes.roads_and_lanes import Lane, MapSegment
 from osc2tx_runtime.domain.shapes import (
     CommonAccelerationShape,
     CommonLateralShape,

@@ -11,7 +11,7 @@ from osc2tx_runtime import Environment, GeodeticPosition, Vehicle
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world import EmbeddedWorld
-from osc2tx_runtime.world.sun_and_moon import Sky
+from osc2tx_runtime.world.surroundings.sun_and_moon import Sky
 
 
 def sky(latitude: float, longitude: float, *moment: int) -> dict[str, float]:

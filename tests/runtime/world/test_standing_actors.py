@@ -9,9 +9,9 @@ import pytest
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world import ActorSpec, EmbeddedWorld
 from osc2tx_runtime.world.actor_dimensions import limits_of, shape_of
-from osc2tx_runtime.world.collision import box_of
 from osc2tx_runtime.world.commands import SpeedChange
-from osc2tx_runtime.world.contacts import Contacts
+from osc2tx_runtime.world.measuring.collision import box_of
+from osc2tx_runtime.world.measuring.contacts import Contacts
 from osc2tx_runtime.world.state import ActorState
 from tests.runtime.world.pairs_of_boxes import swept_contacts
 from tests.work import calls

@@ -23,7 +23,7 @@ from osc2tx_runtime import (
     Wait,
     elapsed,
 )
-from osc2tx_runtime.world.traffic_light_lamps import (
+from osc2tx_runtime.world.surroundings.traffic_light_lamps import (
     BOXES,
     MEANINGS,
     Lamp,

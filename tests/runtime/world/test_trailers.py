@@ -27,7 +27,7 @@ from osc2tx_runtime.opendrive import Pose as WorldPose
 from osc2tx_runtime.opendrive import RoadMap
 from osc2tx_runtime.world import ActorSpec, ActorState, EmbeddedWorld
 from osc2tx_runtime.world.actor_dimensions import Shape
-from osc2tx_runtime.world.towing import drawn
+from osc2tx_runtime.world.motion.towing import drawn
 from tests.runtime.world.two_cars import TwoCars
 
 Run = Callable[..., Any]

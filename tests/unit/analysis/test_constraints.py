@@ -5,8 +5,8 @@ import sys
 import pytest
 
 from osc2tx.analysis import ConstraintAnalysis, ParameterDomain, State
-from osc2tx.analysis.constraints import analyse_constraints
-from osc2tx.analysis.domains import Choice, Interval
+from osc2tx.analysis.constraints.domains import Choice, Interval
+from osc2tx.analysis.constraints.propagation import analyse_constraints
 from osc2tx.semantics import symbols as sym
 from tests.unit.semantics.support import build_text
 from tests.work import calls

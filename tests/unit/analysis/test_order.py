@@ -6,10 +6,10 @@ from operator import eq, ge, gt, le, lt, ne
 from hypothesis import given
 from hypothesis import strategies as st
 
-from osc2tx.analysis.domains import ANY_BOOL, ANY_INT
-from osc2tx.analysis.operation_list import Key, Operation, OperationList
-from osc2tx.analysis.order_constraints import find_contradiction
-from osc2tx.analysis.solver import solve
+from osc2tx.analysis.constraints.domains import ANY_BOOL, ANY_INT
+from osc2tx.analysis.constraints.linear_equations import find_contradiction
+from osc2tx.analysis.constraints.operation_list import Key, Operation, OperationList
+from osc2tx.analysis.constraints.solver import solve
 from osc2tx.diagnostics import SourceFile, Span
 from osc2tx.semantics.symbols import FieldSymbol
 

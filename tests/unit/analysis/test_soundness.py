@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from osc2tx.analysis.constraints import analyse_constraints
-from osc2tx.analysis.domains import Choice, Domain, close
+from osc2tx.analysis.constraints.domains import Choice, Domain, close
+from osc2tx.analysis.constraints.propagation import analyse_constraints
 from tests.unit.semantics.support import build_text
 
 Assignment = Mapping[str, float | int | bool]

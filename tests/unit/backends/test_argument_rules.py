@@ -10,8 +10,16 @@ from osc2tx import ir
 from osc2tx.backends.py_trees.argument_rules import GivenArguments
 from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import SourceFile, Span
-from osc2tx_rules import Rule, above, at_least, at_least_one, at_most_one, none_of, violations
-from osc2tx_runtime.language.argument_rules import GivenValues
+from osc2tx_runtime.language.actions.argument_rules import GivenValues
+from osc2tx_shared.rules import (
+    Rule,
+    above,
+    at_least,
+    at_least_one,
+    at_most_one,
+    none_of,
+    violations,
+)
 
 SPAN = Span(SourceFile("x.osc", "x"), 0, 1)
 LIBRARY = catalogue()

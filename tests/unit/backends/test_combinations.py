@@ -11,8 +11,8 @@ from osc2tx.catalogue import catalogue, object_tables
 from osc2tx.diagnostics import DiagnosticSink, SourceFile, Span
 from osc2tx_runtime import Vehicle
 from osc2tx_runtime.domain import modifiers as runtime
-from osc2tx_runtime.domain.actions.modifier_checks import check_modifiers
-from osc2tx_runtime.domain.actions.movement import Drive
+from osc2tx_runtime.domain.actions.movement.drive import Drive
+from osc2tx_runtime.domain.actions.movement.modifier_checks import check_modifiers
 from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.domain.shapes import CommonPositionShape
 from osc2tx_runtime.errors import ScenarioError

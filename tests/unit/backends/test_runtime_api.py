@@ -18,7 +18,7 @@ from osc2tx.backends.py_trees.runtime_api import (
     STRUCT_CLASSES,
 )
 from osc2tx.catalogue import object_tables
-from osc2tx.semantics.library import shared_library
+from osc2tx.semantics.declarations.library import shared_library
 from osc2tx.semantics.symbols import ActorSymbol, EnumSymbol, FieldSymbol, StructSymbol
 from osc2tx.semantics.types import StructType
 from osc2tx_runtime.domain.capabilities import objects

@@ -5,10 +5,10 @@ from pathlib import Path
 
 from osc2tx.catalogue import catalogue
 from osc2tx.semantics import symbols as sym
-from osc2tx.semantics.library import shared_library
+from osc2tx.semantics.declarations.library import shared_library
 from osc2tx_runtime import modifiers as by_name
 from osc2tx_runtime.domain.modifiers import MODIFIERS
-from osc2tx_runtime.language.registry import methods
+from osc2tx_runtime.language.actions.registry import methods
 
 REPOSITORY = Path(__file__).parents[3]
 SCOPE = shared_library("2.2", "carla", "all").scope

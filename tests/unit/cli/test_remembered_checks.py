@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.building import checks, fingerprint, result_cache
+from osc2tx.building import fingerprint, result_cache
+from osc2tx.building import result_cache as checks
 from osc2tx.building.jobs import Job
 from osc2tx.building.results import FileResult, check_job
 from osc2tx.compilation.driver import Compilation

@@ -10,7 +10,7 @@ from osc2tx.cli import cli
 from osc2tx.cli.reporting import Session
 from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import CODES, Severity
-from osc2tx.diagnostics.explanations import Explanation
+from osc2tx.diagnostics.codes import Explanation
 from osc2tx.options import CompileOptions
 from osc2tx_runtime.errors import RUN_FAILED, ScenarioError
 

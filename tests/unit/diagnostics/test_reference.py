@@ -4,7 +4,7 @@ import runpy
 from pathlib import Path
 
 from osc2tx.diagnostics import CODES
-from osc2tx.diagnostics.code_lookup import find_code, meant_code
+from osc2tx.diagnostics.codes import find_code, meant_code
 
 REPOSITORY = Path(__file__).parents[3]
 

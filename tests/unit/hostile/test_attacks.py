@@ -26,7 +26,7 @@ from osc2tx_runtime.opendrive import MapError
 from osc2tx_runtime.opendrive.road_map import read_map_text
 from osc2tx_runtime.report.page import render_report
 from osc2tx_runtime.report.tree_pictures import tree_svg, tree_text
-from osc2tx_text import put, visible
+from osc2tx_shared.text import put, visible
 from tests.processes import forked
 from tests.unit.building.projects import drive, write
 from tests.unit.hostile.attacks import NAMES, POSITIONS, Attack, attacks

@@ -9,14 +9,14 @@ from pathlib import Path
 import pytest
 
 from osc2tx import cli
-from osc2tx_runtime.domain.routes.map_search import find_map
+from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.errors import InputError, SettingsError
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.plain_numbers import to_float, to_int
 from osc2tx_runtime.report.trace_reader import read_run
 from osc2tx_runtime.running.options import read_options
 from osc2tx_runtime.running.output_files import check_outputs, write_output
-from osc2tx_text import READER_HAS_GONE
+from osc2tx_shared.text import READER_HAS_GONE
 from tests.processes import Ended, forked
 from tests.unit.building.projects import drive, write
 

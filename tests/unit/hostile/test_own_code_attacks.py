@@ -26,7 +26,7 @@ from osc2tx_runtime import Control, Scenario, ScenarioError
 from osc2tx_runtime.running.main import main
 from osc2tx_runtime.simulators.carla.sensors import read_stack
 from osc2tx_runtime.world.embedded import EmbeddedWorld
-from osc2tx_runtime.world.plant import Identity
+from osc2tx_runtime.world.plant.plant import Identity
 from osc2tx_runtime.worlds import Option, WorldRequest, WorldType
 from tests.end_to_end.harness import REPOSITORY
 from tests.fuzz.inputs import INPUTS

@@ -12,7 +12,7 @@ from osc2tx import cli
 from osc2tx.backends.py_trees.naming import module_name
 from osc2tx.building.build import BuildOptions, BuildResult, build
 from osc2tx.config import GivenOptions
-from osc2tx.support.portable_names import is_portable
+from osc2tx.support.paths import is_portable
 from osc2tx.support.python_modules import is_taken
 from tests.processes import forked
 from tests.unit.building.projects import DRIVE, contents, drive, listing, write

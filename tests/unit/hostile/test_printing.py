@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from osc2tx_text import complain, in_json, in_xml, put, say, visible
+from osc2tx_shared.text import complain, in_json, in_xml, put, say, visible
 from tests.unit.hostile.texts import MULTILINE, TEXTS
 
 COMMANDS = ["::error::x", "  ::set-output name=a::b", "\u3000::add-mask::x", "a ##[error]b"]

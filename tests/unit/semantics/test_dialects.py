@@ -12,6 +12,7 @@ from osc2tx.diagnostics import Severity, SourceFile
 from osc2tx.diagnostics.render import render_text
 from osc2tx.options import CompileOptions
 from osc2tx.semantics import dump_model
+from osc2tx.semantics.declarations.library import shared_library
 from osc2tx.semantics.dialects import (
     BEHAVIOR_ALIASES,
     ENUM_MEMBER_ALIASES,
@@ -23,8 +24,7 @@ from osc2tx.semantics.dialects import (
     TYPE_ALIASES,
     UNIT_ALIASES,
 )
-from osc2tx.semantics.library import shared_library
-from osc2tx.semantics.member_lookup import member_names
+from osc2tx.semantics.names.member_lookup import member_names
 from osc2tx.semantics.symbols import (
     ActionSymbol,
     ActorSymbol,

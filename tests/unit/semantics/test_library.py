@@ -5,8 +5,8 @@ import re
 import pytest
 
 from osc2tx.options import STANDARDS, Standard
+from osc2tx.semantics.declarations.library import shared_library
 from osc2tx.semantics.dialects import DIALECTS
-from osc2tx.semantics.library import shared_library
 from osc2tx.semantics.symbols import ActionSymbol, EnumSymbol, TypeSymbol
 from osc2tx.stdlib import DOMAIN, library_source
 from tests.unit.semantics.support import build_text, codes

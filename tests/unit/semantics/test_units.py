@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from osc2tx.semantics import SemanticModel
-from osc2tx.semantics.library import shared_library
+from osc2tx.semantics.declarations.library import shared_library
 from osc2tx.semantics.symbols import UnitSymbol
 from osc2tx.semantics.units import to_si, to_si_with_pint
 from osc2tx.syntax import ast

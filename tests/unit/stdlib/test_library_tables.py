@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.semantics.library import shared_library
+from osc2tx.semantics.declarations.library import shared_library
 from osc2tx.semantics.scope import Scope
 from osc2tx.semantics.symbols import (
     ActionSymbol,

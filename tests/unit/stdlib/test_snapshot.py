@@ -14,13 +14,14 @@ import pytest
 
 from osc2tx import stdlib
 from osc2tx.diagnostics import SourceFile
-from osc2tx.semantics import DIALECTS, ModelBuilder, dump_model, library
+from osc2tx.semantics import DIALECTS, ModelBuilder, dump_model
 from osc2tx.semantics.builder import DiagnosticSink
+from osc2tx.semantics.declarations import library
 from osc2tx.stdlib import DOMAIN, TYPES, library_source, parse_library_file, snapshot
 from osc2tx.stdlib.snapshot import load_snapshot, save_snapshot
 from osc2tx.syntax import ast, dump_ast, parse
 from osc2tx.syntax.packed_ast import PackingError, pack, unpack
-from osc2tx_cache import Snapshots, cache_folder, snapshots
+from osc2tx_shared.cache import Snapshots, cache_folder, snapshots
 
 ROOT = Path(__file__).resolve().parents[3]
 OWN = sorted(ROOT.glob("scenarios/*.osc")) + sorted(ROOT.glob("tests/golden/ast/*/input.osc"))

@@ -14,9 +14,8 @@ from osc2tx.backends.xosc.actions.leaf import Arguments
 from osc2tx.backends.xosc.actions.registry import global_action
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.actors import ADHESION, road_condition
-from osc2tx.backends.xosc.flattening.adjacent_members import is_first, runs_beside
-from osc2tx.backends.xosc.flattening.member_names import event_name
-from osc2tx.backends.xosc.flattening.tree_queries import actors_of
+from osc2tx.backends.xosc.flattening.storyboard.member_names import event_name
+from osc2tx.backends.xosc.flattening.tree_queries import actors_of, is_first, runs_beside
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.xml.tree import Element, element
 

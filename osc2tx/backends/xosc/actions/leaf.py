@@ -17,7 +17,7 @@ from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import ActorState
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
 from osc2tx.backends.xosc.xml.tree import Element, element
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 Ending: TypeAlias = Literal["goal", "open", "instant"]
 

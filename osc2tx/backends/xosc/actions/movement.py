@@ -6,14 +6,19 @@ and the like add theirs in files of their own (`registry`).
 
 from __future__ import annotations
 
-from osc2tx.backends.xosc.actions.apply_modifiers import apply_modifiers
-from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Ending, Leaf, Performance
-from osc2tx.backends.xosc.actions.registry import action
-from osc2tx.backends.xosc.actions.speed_changes import change_speed, jump_to
-from osc2tx.backends.xosc.actions.speed_elements import hold_speed
-from osc2tx.backends.xosc.actions.speed_modifiers import time_to_cover
-from osc2tx.backends.xosc.actions.steady_speeds import note_open_speed
-from osc2tx.backends.xosc.actions.walkers import change_pace, stand, walk_on
+from osc2tx.backends.xosc.actions.leaf import (
+    Arguments,
+    Change,
+    Ending,
+    Leaf,
+    Performance,
+)
+from osc2tx.backends.xosc.actions.position.walkers import change_pace, stand, walk_on
+from osc2tx.backends.xosc.actions.registry import action, apply_modifiers
+from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to
+from osc2tx.backends.xosc.actions.speed.speed_elements import hold_speed
+from osc2tx.backends.xosc.actions.speed.speed_modifiers import time_to_cover
+from osc2tx.backends.xosc.actions.speed.steady_speeds import note_open_speed
 from osc2tx.backends.xosc.facts.actors import course_of_speed
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL, known

@@ -9,7 +9,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Literal
 
-from osc2tx.backends.xosc.actions.leaf import Modify, Perform, PerformGlobal
+from osc2tx.backends.xosc.actions.leaf import (
+    Arguments,
+    Change,
+    Leaf,
+    Modify,
+    Perform,
+    PerformGlobal,
+)
+from osc2tx.backends.xosc.report import Inexpressible
 
 ACTIONS: dict[str, Perform] = {}
 GLOBAL_ACTIONS: dict[str, PerformGlobal] = {}
@@ -84,3 +92,22 @@ def without_form(what: What, name: str, reason: str) -> None:
 def with_form(what: What) -> set[str]:
     """Return the actions or modifiers that have a form."""
     return {*ACTIONS, *GLOBAL_ACTIONS} if what == "action" else {*MODIFIERS, *AT_START}
+
+
+def apply_modifiers(leaf: Leaf) -> tuple[Change, ...]:
+    """Return what the modifiers of an invocation change."""
+    changes: list[Change] = []
+    for call in leaf.node.modifiers:
+        handler = MODIFIERS.get(call.name)
+        if handler is None:
+            reason = f"`{call.name}` has no counterpart here"
+            reason = WITHOUT_FORM["modifier"].get(call.name, reason)
+            leaf.ctx.report.cannot(f"modifier {call.name}", call.span, reason)
+            continue
+        with leaf.ctx.report_as(f"modifier {call.name}", call.span):
+            if call.at == "start" and call.name != "speed":
+                raise Inexpressible("what has to hold at the start is not checked in the XML")
+            arguments = Arguments(leaf.ctx, call.arguments, call)
+            changes.extend(handler(leaf, call, arguments))
+            arguments.finish()
+    return tuple(changes)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action
-from osc2tx.backends.xosc.actions.speed_changes import within_limits
+from osc2tx.backends.xosc.actions.speed.speed_changes import within_limits
 from osc2tx.backends.xosc.entities.towing import only_trailer
 from osc2tx.backends.xosc.facts.actors import held_by, road_condition
 from osc2tx.backends.xosc.report import Inexpressible

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TypeGuard
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.traffic_lights import shows
+from osc2tx.backends.xosc.actions.signals.traffic_lights import shows
 from osc2tx.backends.xosc.conditions.comparisons import Comparison, Groups, relative_speed
 from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Test
 from osc2tx.backends.xosc.conditions.measures import FINITE, MEASURES
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.flattening.event_parameters import parameter_condition
+from osc2tx.backends.xosc.flattening.events.event_parameters import parameter_condition
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Constant, Named
 

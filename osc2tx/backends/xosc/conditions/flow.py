@@ -10,7 +10,7 @@ from itertools import product
 from typing import Literal, TypeAlias
 
 from osc2tx.backends.xosc.xml.tree import Element, element
-from osc2tx_classes import dataclass, replace
+from osc2tx_shared.classes import dataclass, replace
 
 ElementKind: TypeAlias = Literal["act", "action", "event", "maneuver", "maneuverGroup", "story"]
 Edge: TypeAlias = Literal["none", "rising", "falling"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from osc2tx.backends.xosc.actions.points_and_lines import xml_position
+from osc2tx.backends.xosc.actions.position.points_and_lines import xml_position
 from osc2tx.backends.xosc.conditions.comparisons import Comparison, Groups, of_entity
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.report import Inexpressible

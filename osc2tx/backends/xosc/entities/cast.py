@@ -9,7 +9,7 @@ from osc2tx.backends.xosc.facts.actors import CATEGORIES, Limits, Shape, limits_
 from osc2tx.backends.xosc.values.constants import Constant, Member
 from osc2tx.backends.xosc.values.folding import Values
 from osc2tx.backends.xosc.xml.names import plain
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 VEHICLE, PEDESTRIAN, MISC = "Vehicle", "Pedestrian", "MiscObject"
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from osc2tx.backends.xosc.actions.speed_elements import speed_action
+from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.placing import InitialPlacing
 from osc2tx.backends.xosc.entities.start_orientations import note_turn

@@ -13,7 +13,7 @@ from osc2tx.backends.xosc.facts.start_places import Placed, StartRoom, box_at, t
 from osc2tx.backends.xosc.report import Inexpressible, NoPlace
 from osc2tx.backends.xosc.state import ActorState, known
 from osc2tx.backends.xosc.xml.tree import Element
-from osc2tx_classes import replace
+from osc2tx_shared.classes import replace
 
 
 class InitialPlacing(StartRoom[Start]):

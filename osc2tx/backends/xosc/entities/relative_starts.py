@@ -20,7 +20,7 @@ from osc2tx.backends.xosc.facts.start_places import LaneNumber, lane_beside, pla
 from osc2tx.backends.xosc.report import Inexpressible, NoPlace
 from osc2tx.backends.xosc.state import ActorState, known
 from osc2tx.backends.xosc.xml.tree import Element, element
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 NEAR = 1e-3
 """Metres between two places that count as one."""

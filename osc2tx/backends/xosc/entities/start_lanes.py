@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from osc2tx.backends.xosc.actions.lateral_offsets import left_of, offset_in_lane
+from osc2tx.backends.xosc.actions.lateral.lateral_offsets import left_of, offset_in_lane
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.start_orientations import orientation_in_lane, turned
 from osc2tx.backends.xosc.entities.start_statements import Start

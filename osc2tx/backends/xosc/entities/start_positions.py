@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from osc2tx.backends.xosc.actions.leaf import Arguments
-from osc2tx.backends.xosc.actions.points_and_lines import points_along
+from osc2tx.backends.xosc.actions.position.points_and_lines import points_along
 from osc2tx.backends.xosc.actions.registry import at_start
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment_of

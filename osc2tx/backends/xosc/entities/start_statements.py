@@ -13,7 +13,7 @@ from osc2tx.backends.xosc.facts.run_options import read_spawn
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope
 from osc2tx.diagnostics import Span
-from osc2tx_classes import dataclass, replace
+from osc2tx_shared.classes import dataclass, replace
 
 
 @dataclass(slots=True)

@@ -12,7 +12,6 @@ from typing import Protocol
 
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_runtime.enums import DynamicProfile
-from osc2tx_runtime.world.acceleration import acceleration_profile
 from osc2tx_runtime.world.actor_dimensions import (
     CATEGORIES,
     COMFORT,
@@ -24,15 +23,23 @@ from osc2tx_runtime.world.actor_dimensions import (
     shape_of,
 )
 from osc2tx_runtime.world.commands import AccelerationChange, SpeedChange
-from osc2tx_runtime.world.friction import ADHESION, held_by, road_condition
-from osc2tx_runtime.world.lateral import shift_profile
-from osc2tx_runtime.world.lateral_limits import SIDEWAYS
-from osc2tx_runtime.world.longitudinal import speed_profile
-from osc2tx_runtime.world.moving_body import ALIGNED
-from osc2tx_runtime.world.moving_body import CRUISE as SPEEDS_AT_START
-from osc2tx_runtime.world.profiles import COSINE_PEAK, Cosine, Linear, Profile, Quintic, SCurve
-from osc2tx_runtime.world.towing import DRAWBAR
-from osc2tx_runtime.world.weather_effects import Surroundings
+from osc2tx_runtime.world.geometry.profiles import (
+    COSINE_PEAK,
+    Cosine,
+    Linear,
+    Profile,
+    Quintic,
+    SCurve,
+)
+from osc2tx_runtime.world.grip.friction import ADHESION, held_by, road_condition
+from osc2tx_runtime.world.lateral.execution import shift_profile
+from osc2tx_runtime.world.lateral.feedback import SIDEWAYS
+from osc2tx_runtime.world.longitudinal.acceleration import acceleration_profile
+from osc2tx_runtime.world.longitudinal.execution import speed_profile
+from osc2tx_runtime.world.motion.moving_body import ALIGNED
+from osc2tx_runtime.world.motion.moving_body import CRUISE as SPEEDS_AT_START
+from osc2tx_runtime.world.motion.towing import DRAWBAR
+from osc2tx_runtime.world.plant.weather_effects import Surroundings
 
 __all__ = [
     "ADHESION",

@@ -12,7 +12,7 @@ from osc2tx_runtime.domain.paths.path_curves import PathError, interval_between_
 from osc2tx_runtime.domain.paths.path_values import Path as Way
 from osc2tx_runtime.domain.paths.path_values import Trajectory
 from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
-from osc2tx_runtime.world.curve import Curve
+from osc2tx_runtime.world.geometry.curve import Curve
 
 __all__ = ["Waypoint", "curve_through", "sample_curve", "thinned"]
 

@@ -12,7 +12,7 @@ from osc2tx_runtime.domain.paths.path_curves import interval_between_offsets
 from osc2tx_runtime.opendrive import Pose
 from osc2tx_runtime.world.actor_dimensions import Limits, Shape
 from osc2tx_runtime.world.commands import FollowCourse
-from osc2tx_runtime.world.curve_following import Course, course_of
+from osc2tx_runtime.world.lateral.curve_following import Course, course_of
 from osc2tx_runtime.world.state import ActorState
 
 __all__ = ["off_the_line"]

@@ -9,15 +9,9 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar, get_args
 from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx_runtime.domain.modifiers import MODIFIERS, MapModifier
-from osc2tx_runtime.domain.paths.path_values import Path as Way
-from osc2tx_runtime.domain.placing.map_solver import MapSolver, Relation
-from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
-from osc2tx_runtime.domain.routes.composed_routes import poses_of_route
-from osc2tx_runtime.domain.routes.crossings import Crossing, CrossingType
-from osc2tx_runtime.domain.routes.map_segments import MapSegment
-from osc2tx_runtime.domain.routes.road_graph import graph_of
-from osc2tx_runtime.domain.routes.roads_and_lanes import (
+from osc2tx_runtime.domain.map.crossings import Crossing, CrossingType
+from osc2tx_runtime.domain.map.road_graph import graph_of
+from osc2tx_runtime.domain.map.roads_and_lanes import (
     CompoundLane,
     CompoundRoute,
     Junction,
@@ -28,9 +22,15 @@ from osc2tx_runtime.domain.routes.roads_and_lanes import (
     RoadPath,
     Route,
 )
+from osc2tx_runtime.domain.map.segments import MapSegment
+from osc2tx_runtime.domain.modifiers import MODIFIERS, MapModifier
+from osc2tx_runtime.domain.paths.path_values import Path as Way
+from osc2tx_runtime.domain.placing.map_solver import MapSolver, Relation
+from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
+from osc2tx_runtime.domain.routes.composed_routes import poses_of_route
 from osc2tx_runtime.enums import ConnectRoutePoints
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
-from osc2tx_runtime.language.tree.parameters import Range
+from osc2tx_runtime.language.values.parameters import Range
 
 __all__ = [
     "PARTS",

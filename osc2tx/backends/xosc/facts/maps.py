@@ -9,23 +9,23 @@ from typing import Literal, cast
 
 from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx_runtime.domain.map.search import DEFAULT_MAP, SUFFIXES, find_map
 from osc2tx_runtime.domain.routes.lane_coordinates import road_entry
-from osc2tx_runtime.domain.routes.map_search import DEFAULT_MAP, SUFFIXES, find_map
 from osc2tx_runtime.domain.routes.road_paths import way_through
 from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import InputError, ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, MapError, Pose, RoadMap, read_map
 from osc2tx_runtime.opendrive.geodesy import GeoReferenceError
-from osc2tx_runtime.world.bends_ahead import BendsAhead
-from osc2tx_runtime.world.lane_neighbours import (
+from osc2tx_runtime.world.geometry.lane_neighbours import (
     are_opposed,
     lane_beside,
     lane_with_number,
     lanes_to_left,
     offset_from,
 )
-from osc2tx_runtime.world.traffic_light_lamps import Lamp, lamps_that_mean, meaning_of
-from osc2tx_runtime.world.traffic_light_states import Signals
+from osc2tx_runtime.world.longitudinal.bends_ahead import BendsAhead
+from osc2tx_runtime.world.surroundings.traffic_light_lamps import Lamp, lamps_that_mean, meaning_of
+from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
 
 __all__ = ["DEFAULT_MAP", "Lamp", "LanePosition", "Pose", "Roads", "map_places", "roads_of"]
 

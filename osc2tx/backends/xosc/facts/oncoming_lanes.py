@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.opendrive.model import LaneKey
-from osc2tx_runtime.world.lane_neighbours import actual_lane, lane_beside
+from osc2tx_runtime.world.geometry.lane_neighbours import actual_lane, lane_beside
 
 __all__ = ["is_oncoming", "number_of_oncoming"]
 

@@ -14,9 +14,9 @@ from osc2tx_runtime.domain.placing.default_starts import StartPlaces
 from osc2tx_runtime.domain.placing.start_room import Placed, StartRoom
 from osc2tx_runtime.domain.routes.lane_coordinates import place_at_distance
 from osc2tx_runtime.errors import PlacementError
-from osc2tx_runtime.world.collision import Box, box_of
+from osc2tx_runtime.world.measuring.collision import Box, box_of
+from osc2tx_runtime.world.motion.towing import pose_behind
 from osc2tx_runtime.world.state import ActorState
-from osc2tx_runtime.world.towing import pose_behind
 
 __all__ = [
     "Box",

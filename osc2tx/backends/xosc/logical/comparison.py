@@ -8,7 +8,7 @@ from math import isclose
 from typing import NamedTuple, TypeAlias
 
 from osc2tx.backends.xosc.xml.tree import Element
-from osc2tx_classes import replace
+from osc2tx_shared.classes import replace
 
 Shown: TypeAlias = Mapping[str, float]
 """Values of the parameters of a document, by their names there."""

@@ -15,9 +15,16 @@ from typing import TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.logical.columns import MOST_COLUMNS, Column, columns_of, with_columns
 from osc2tx.backends.xosc.logical.comparison import Place, differences
-from osc2tx.backends.xosc.logical.distributions import needs_table, single, table
+from osc2tx.backends.xosc.logical.distributions import (
+    MOST_COLUMNS,
+    Column,
+    columns_of,
+    needs_table,
+    single,
+    table,
+    with_columns,
+)
 from osc2tx.backends.xosc.logical.parameter_choices import Choosing
 from osc2tx.backends.xosc.logical.parameters import (
     INSIDE,
@@ -29,7 +36,7 @@ from osc2tx.backends.xosc.logical.parameters import (
 from osc2tx.backends.xosc.logical.sampling import Domain, Row, inward
 from osc2tx.backends.xosc.xml.tree import Element
 from osc2tx.options import XmlVersion
-from osc2tx_classes import dataclass, replace
+from osc2tx_shared.classes import dataclass, replace
 
 Write: TypeAlias = Callable[[Choosing], tuple[Context, Element | None]]
 """Writes the scenario down with a choice of its open parameters."""

@@ -20,7 +20,7 @@ from osc2tx.backends.xosc.xml.names import Names, plain
 from osc2tx.backends.xosc.xml.tree import Element, element, text_of
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlVersion
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 STEPS = 4
 """Steps from end to end of a range of which a few values are listed."""

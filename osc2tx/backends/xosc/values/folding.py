@@ -12,9 +12,15 @@ from copy import copy
 
 from osc2tx import ir
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.values.constants import Bounds, Constant, Member, MethodResult, Named
+from osc2tx.backends.xosc.values.constants import (
+    Bounds,
+    Constant,
+    Member,
+    MethodResult,
+    Named,
+    UserTypes,
+)
 from osc2tx.backends.xosc.values.symbolic_numbers import Symbol
-from osc2tx.backends.xosc.values.user_types import UserTypes
 
 MAKERS = frozenset(
     {

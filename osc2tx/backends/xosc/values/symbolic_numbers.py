@@ -11,7 +11,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Callable
 
-from osc2tx.backends.xosc.xml.numbers import number_text
+from osc2tx.backends.xosc.xml.names import number_text
 from osc2tx.diagnostics import InternalCompilerError
 
 LONGEST = 160

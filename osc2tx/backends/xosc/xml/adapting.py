@@ -19,10 +19,10 @@ from osc2tx.backends.xosc.conditions.flow import (
     state_of,
 )
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.flattening.storyboard import Act, Event
+from osc2tx.backends.xosc.flattening.storyboard.storyboard import Act, Event
 from osc2tx.backends.xosc.report import GENERIC
 from osc2tx.backends.xosc.xml.tree import Element
-from osc2tx_classes import replace
+from osc2tx_shared.classes import replace
 
 
 def adapted(ctx: Context, acts: Sequence[Act], end: Flow) -> tuple[tuple[Act, ...], Flow]:

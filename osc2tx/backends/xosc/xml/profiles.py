@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from osc2tx.options import XML_VERSIONS, XmlProfile, XmlVersion
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -13,8 +13,7 @@ from lxml import etree
 
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.symbolic_numbers import Symbol
-from osc2tx.backends.xosc.xml.layout import lay_out
-from osc2tx.backends.xosc.xml.numbers import number_text
+from osc2tx.backends.xosc.xml.names import number_text
 from osc2tx.backends.xosc.xml.schema import (
     ROOT_TYPE,
     attribute_order,
@@ -26,8 +25,59 @@ from osc2tx.backends.xosc.xml.schema import (
 )
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.options import XmlVersion
-from osc2tx_classes import dataclass
-from osc2tx_text import in_xml
+from osc2tx_shared.classes import dataclass
+from osc2tx_shared.text import in_xml
+
+LISTS = frozenset(
+    {
+        "OpenSCENARIO",
+        "ParameterDeclarations",
+        "VariableDeclarations",
+        "MonitorDeclarations",
+        "Entities",
+        "Storyboard",
+        "Init",
+        "Actions",
+        "Private",
+        "Story",
+        "Act",
+        "ManeuverGroup",
+        "Maneuver",
+        "ParameterValueDistribution",
+        "Deterministic",
+        "ValueSetDistribution",
+    }
+)
+"""Elements that list others: each of those begins a line, and the end tag does."""
+
+ALTERNATIVES = frozenset({"StartTrigger", "StopTrigger", "ConditionGroup"})
+"""Elements that are lists where they have more than one child."""
+
+PARTS = frozenset({"Event", "Vehicle", "Pedestrian", "MiscObject"})
+"""Elements whose first child stands on their line; each of the others begins a line."""
+
+
+def lay_out(node: etree._Element, line: str = "\n") -> None:
+    """Put white space between the elements below a node; there is none yet.
+
+    Args:
+        node: The node.
+        line: What begins the line that it stands on.
+    """
+    inner = f"{line}  "
+    is_list = node.tag in LISTS or (node.tag in ALTERNATIVES and len(node) > 1)
+    previous: etree._Element | None = None
+    for child in node:
+        begins = is_list or (node.tag in PARTS and previous is not None)
+        if begins and previous is None:
+            node.text = inner
+        elif begins and previous is not None:
+            previous.tail = inner
+        lay_out(child, inner if begins else line)
+        previous = child
+    if is_list and previous is not None:
+        previous.tail = line
+
 
 Value: TypeAlias = str | int | float | bool
 

@@ -17,7 +17,7 @@ from osc2tx_runtime.domain.measuring.weather import (
 from osc2tx_runtime.domain.methods import EnvironmentMethods
 from osc2tx_runtime.domain.objects.base import Actor
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.world.sun_and_moon import Sky
+from osc2tx_runtime.world.surroundings.sun_and_moon import Sky
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext

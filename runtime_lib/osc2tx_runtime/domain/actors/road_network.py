@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from osc2tx_runtime.domain.map.road_graph import graph_of
+from osc2tx_runtime.domain.map.roads_and_lanes import Junction, PartT, Road, Route
+from osc2tx_runtime.domain.map.segments import MapSegment
 from osc2tx_runtime.domain.paths.path_values import (
     NetworkPath,
     NetworkTrajectory,
@@ -29,10 +32,7 @@ from osc2tx_runtime.domain.routes.lane_coordinates import (
     place_of_route,
     route_point_at,
 )
-from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.domain.routes.network_paths import path_in_world
-from osc2tx_runtime.domain.routes.road_graph import graph_of
-from osc2tx_runtime.domain.routes.roads_and_lanes import Junction, PartT, Road, Route
 from osc2tx_runtime.domain.signals.traffic_lights import TrafficLightGroup
 from osc2tx_runtime.enums import (
     ConnectRoutePoints,

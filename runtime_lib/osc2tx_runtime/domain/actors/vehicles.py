@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Unpack
 
-from osc2tx_classes import replace
 from osc2tx_runtime.domain.methods import VehicleMethods
 from osc2tx_runtime.domain.objects.part_defaults import (
     default_axles,
@@ -18,6 +17,7 @@ from osc2tx_runtime.domain.objects.parts import Axle, HitchCoupler, HitchReceive
 from osc2tx_runtime.enums import TrailerCategory, VehicleCategory
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.actor_dimensions import VEHICLE_CATEGORIES, Shape, category_of
+from osc2tx_shared.classes import replace
 
 from .movable_objects import ParticipantFields, TrafficParticipant
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from osc2tx_runtime.domain.map.roads_and_lanes import RoadPart
 from osc2tx_runtime.domain.measuring.object_position import MeasuredObject, RoutePosition
 from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.domain.points_and_poses import (
@@ -16,7 +17,6 @@ from osc2tx_runtime.domain.points_and_poses import (
 )
 from osc2tx_runtime.domain.routes.lane_coordinates import place_of_odr, place_of_route
 from osc2tx_runtime.domain.routes.place_on_route import place_on_route
-from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.domain.routes.route_coordinates import between_on_crossing, place_in_route
 from osc2tx_runtime.enums import (
     DistanceDirection,
@@ -29,7 +29,7 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_runtime.world.actor_dimensions import Shape
-from osc2tx_runtime.world.distances import (
+from osc2tx_runtime.world.measuring.distances import (
     along_lanes,
     gap_between,
     headway_between,
@@ -39,9 +39,9 @@ from osc2tx_runtime.world.distances import (
     time_to_collision,
     time_to_cover,
 )
-from osc2tx_runtime.world.measured import Measured
+from osc2tx_runtime.world.measuring.measured import Measured
+from osc2tx_runtime.world.measuring.velocities import Acceleration, Velocity
 from osc2tx_runtime.world.state import ActorState
-from osc2tx_runtime.world.velocities import Acceleration, Velocity
 
 __all__ = ["Measures"]
 

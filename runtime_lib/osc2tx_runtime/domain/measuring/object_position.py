@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.points_and_poses import Point
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.world.distances import along_lanes, lateral_on_road
-from osc2tx_runtime.world.measured import Measured
+from osc2tx_runtime.world.measuring.distances import along_lanes, lateral_on_road
+from osc2tx_runtime.world.measuring.measured import Measured
 from osc2tx_runtime.world.state import ActorState
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Literal
 
-from osc2tx_classes import dataclass
-from osc2tx_runtime.world.measured import Measured
+from osc2tx_runtime.world.measuring.measured import Measured
+from osc2tx_shared.classes import dataclass
 
 __all__ = [
     "Air",

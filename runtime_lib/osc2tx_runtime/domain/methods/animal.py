@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.language.registry import carried_out
+from osc2tx_runtime.language.actions.registry import carried_out
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.modifiers.conduct import AvoidCollisions, PhysicalMovement
     from osc2tx_runtime.domain.modifiers.groups import PathModifier, StartModifier, TurnModifier
-    from osc2tx_runtime.domain.modifiers.position import Distance, KeepPosition
-    from osc2tx_runtime.domain.modifiers.speed import Acceleration, ChangeSpeed, KeepSpeed
+    from osc2tx_runtime.domain.modifiers.movement.conduct import AvoidCollisions, PhysicalMovement
+    from osc2tx_runtime.domain.modifiers.movement.position import Distance, KeepPosition
+    from osc2tx_runtime.domain.modifiers.movement.speed import Acceleration, ChangeSpeed, KeepSpeed
     from osc2tx_runtime.language.tree.base import Behaviour
     from osc2tx_runtime.language.tree.duration_limits import Duration
 

@@ -7,13 +7,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.language.registry import carried_out
+from osc2tx_runtime.language.actions.registry import carried_out
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from osc2tx_runtime.domain.modifiers import Value
-    from osc2tx_runtime.domain.modifiers.conduct import PhysicalMovement
     from osc2tx_runtime.domain.modifiers.groups import (
         PathModifier,
         SideModifier,
@@ -21,9 +20,10 @@ if TYPE_CHECKING:
         StartModifier,
         TurnModifier,
     )
-    from osc2tx_runtime.domain.modifiers.lane import Lane
-    from osc2tx_runtime.domain.modifiers.position import Distance, KeepPosition, Position
-    from osc2tx_runtime.domain.modifiers.speed import Speed
+    from osc2tx_runtime.domain.modifiers.movement.conduct import PhysicalMovement
+    from osc2tx_runtime.domain.modifiers.movement.lane import Lane
+    from osc2tx_runtime.domain.modifiers.movement.position import Distance, KeepPosition, Position
+    from osc2tx_runtime.domain.modifiers.movement.speed import Speed
     from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
     from osc2tx_runtime.domain.paths.path_values import (
         Path,

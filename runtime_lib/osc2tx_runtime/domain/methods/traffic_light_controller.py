@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.language.registry import carried_out
+from osc2tx_runtime.language.actions.registry import carried_out
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

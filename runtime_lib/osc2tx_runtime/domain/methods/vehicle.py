@@ -7,11 +7,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.language.registry import carried_out
+from osc2tx_runtime.language.actions.registry import carried_out
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from osc2tx_runtime.domain.map.roads_and_lanes import Lane
     from osc2tx_runtime.domain.modifiers import Value
     from osc2tx_runtime.domain.modifiers.groups import (
         PathModifier,
@@ -19,10 +20,9 @@ if TYPE_CHECKING:
         SpeedModifier,
         StartModifier,
     )
-    from osc2tx_runtime.domain.modifiers.position import Distance, KeepPosition
+    from osc2tx_runtime.domain.modifiers.movement.position import Distance, KeepPosition
     from osc2tx_runtime.domain.objects.parts import Towable
     from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
-    from osc2tx_runtime.domain.routes.roads_and_lanes import Lane
     from osc2tx_runtime.enums import (
         DynamicProfile,
         GapDirection,
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     )
     from osc2tx_runtime.language.tree.base import Behaviour
     from osc2tx_runtime.language.tree.duration_limits import Duration
-    from osc2tx_runtime.language.tree.parameters import Range
+    from osc2tx_runtime.language.values.parameters import Range
     from osc2tx_runtime.world.protocol import LightMode
 
 __all__ = ["VehicleMethods"]

@@ -8,23 +8,24 @@ the DSL; `osc2tx_runtime.modifiers` has them by these names, as scenarios import
 from __future__ import annotations
 
 from importlib import import_module
-from pkgutil import iter_modules
+from pkgutil import walk_packages
+
+from osc2tx_runtime.domain.modifiers.map.base import MapModifier as MapModifier
+from osc2tx_runtime.domain.modifiers.map.crossings import *  # noqa: F403
+from osc2tx_runtime.domain.modifiers.map.files import *  # noqa: F403
+from osc2tx_runtime.domain.modifiers.map.lanes import *  # noqa: F403
+from osc2tx_runtime.domain.modifiers.map.routes import *  # noqa: F403
+from osc2tx_runtime.domain.modifiers.movement.conduct import *  # noqa: F403
+from osc2tx_runtime.domain.modifiers.movement.lane import *  # noqa: F403
+from osc2tx_runtime.domain.modifiers.movement.orientation import *  # noqa: F403
+from osc2tx_runtime.domain.modifiers.movement.position import *  # noqa: F403
+from osc2tx_runtime.domain.modifiers.movement.speed import *  # noqa: F403
 
 from .base import Modifier as Modifier
 from .base import MovementModifier as MovementModifier
 from .base import Value as Value
 from .base import value_of as value_of
-from .conduct import *  # noqa: F403
-from .lane import *  # noqa: F403
-from .map_base import MapModifier as MapModifier
-from .map_crossings import *  # noqa: F403
-from .map_files import *  # noqa: F403
-from .map_lanes import *  # noqa: F403
-from .map_routes import *  # noqa: F403
-from .orientation import *  # noqa: F403
-from .position import *  # noqa: F403
 from .registry import MODIFIERS as MODIFIERS
-from .speed import *  # noqa: F403
 
-for _module in iter_modules(__path__):  # noqa: F405 (they register their modifiers)
-    import_module(f"{__name__}.{_module.name}")
+for _module in walk_packages(__path__, f"{__name__}."):  # noqa: F405 (they register)
+    import_module(_module.name)

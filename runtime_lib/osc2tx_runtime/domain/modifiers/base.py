@@ -6,16 +6,16 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar, TypeAlias, TypeVar
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.domain.shapes import AnyShape, CommonShape, OwnShape
 from osc2tx_runtime.enums import At, DynamicProfile, MovementMode, Track
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.language.modifier import Modifier
+from osc2tx_runtime.language.actions.modifier import Modifier
 from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
+from osc2tx_shared.classes import dataclass
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.language.tree.parameters import Range
-    from osc2tx_runtime.world.function_profiles import Computed
+    from osc2tx_runtime.language.values.parameters import Range
+    from osc2tx_runtime.world.geometry.function_profiles import Computed
 
 __all__ = [
     "Late",

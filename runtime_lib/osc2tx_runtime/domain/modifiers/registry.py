@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
-from osc2tx_rules import ModifierRules, Rule, Sort
-from osc2tx_runtime.language.modifier_facts import ModifierFacts
-from osc2tx_runtime.world.features import Feature
+from osc2tx_runtime.language.actions.modifier import ModifierFacts
+from osc2tx_runtime.world.protocol import Feature
+from osc2tx_shared.rules import ModifierRules, Rule, Sort
 
 from .base import Modifier, MovementModifier
 

@@ -17,7 +17,7 @@ from osc2tx_runtime.enums import (
     TrailerCategory,
 )
 from osc2tx_runtime.world.actor_dimensions import MAX_STEERING, Shape
-from osc2tx_runtime.world.towing import DRAWBAR
+from osc2tx_runtime.world.motion.towing import DRAWBAR
 
 __all__ = [
     "default_axles",

@@ -11,10 +11,10 @@ from collections.abc import Callable
 from dataclasses import field, fields
 from typing import Protocol, TypeVar
 
-from osc2tx_classes import dataclass, replace
 from osc2tx_runtime.domain.points_and_poses import Point
 from osc2tx_runtime.enums import HitchType
 from osc2tx_runtime.errors import UnsupportedError
+from osc2tx_shared.classes import dataclass, replace
 
 __all__ = [
     "UNSAID",

@@ -18,7 +18,7 @@ from osc2tx_runtime.enums import (
     VehicleCategory,
 )
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
-from osc2tx_runtime.language.registry import LONGITUDINAL
+from osc2tx_runtime.language.actions.registry import LONGITUDINAL
 from osc2tx_runtime.world.actor_dimensions import MODELS, Shape, limits_of, shape_of
 from osc2tx_runtime.world.commands import Careful
 from osc2tx_runtime.world.protocol import ActorSpec

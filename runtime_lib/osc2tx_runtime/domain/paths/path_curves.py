@@ -9,7 +9,7 @@ from itertools import pairwise
 from osc2tx_runtime.domain.points_and_poses import Pose
 from osc2tx_runtime.enums import PathInterpolation
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.world.curve import Curve, Knot
+from osc2tx_runtime.world.geometry.curve import Curve, Knot
 
 __all__ = ["PathError", "interval_between_offsets", "path_curve", "trajectory_curve"]
 

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import field
 from typing import ClassVar, Literal, Protocol
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.domain.paths.path_curves import path_curve, trajectory_curve
 from osc2tx_runtime.domain.points_and_poses import (
     NetworkPoint,
@@ -16,7 +15,8 @@ from osc2tx_runtime.domain.points_and_poses import (
     RoutePoint,
 )
 from osc2tx_runtime.enums import PathInterpolation
-from osc2tx_runtime.world.curve import Curve
+from osc2tx_runtime.world.geometry.curve import Curve
+from osc2tx_shared.classes import dataclass
 
 __all__ = [
     "NetworkPath",

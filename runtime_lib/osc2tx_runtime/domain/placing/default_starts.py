@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import partial
 
+from osc2tx_runtime.domain.map.segments import MapSegment
 from osc2tx_runtime.domain.modifiers import Lane, Position
 from osc2tx_runtime.domain.routes.lane_coordinates import road_entry
-from osc2tx_runtime.domain.routes.map_segments import MapSegment
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
-from osc2tx_runtime.world.lane_neighbours import lane_with_number, number_of_lane
+from osc2tx_runtime.world.geometry.lane_neighbours import lane_with_number, number_of_lane
 
 __all__ = ["StartPlaces"]
 

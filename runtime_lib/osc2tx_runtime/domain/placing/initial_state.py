@@ -10,7 +10,7 @@ from osc2tx_runtime.domain.modifiers import Location, Modifier, Speed
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind, tilt_of
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition
-from osc2tx_runtime.world.attitude import LEVEL, Tilt
+from osc2tx_runtime.world.geometry.attitude import LEVEL, Tilt
 
 if TYPE_CHECKING:
     from osc2tx_runtime.world.protocol import World

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.actors import Map, PhysicalObject
+from osc2tx_runtime.domain.map.roads_and_lanes import RoadPart
 from osc2tx_runtime.domain.modifiers import (
     MapModifier,
     SetTrafficLightsControlFile,
@@ -19,19 +20,18 @@ from osc2tx_runtime.domain.placing.start_order import (
     joined,
 )
 from osc2tx_runtime.domain.placing.start_room import Placed, StartRoom
-from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.domain.signals.control_file import read_control_file
 from osc2tx_runtime.domain.signals.stop_lines import TrafficLightStopLine
 from osc2tx_runtime.errors import InputError, PlacementError, ScenarioError, SettingsError
 from osc2tx_runtime.opendrive import LanePosition, MapError, Pose
-from osc2tx_runtime.world.collision import box_of
+from osc2tx_runtime.world.measuring.collision import box_of
+from osc2tx_runtime.world.motion.towing import pose_behind
 from osc2tx_runtime.world.state import ActorState
-from osc2tx_runtime.world.towing import pose_behind
 
 if TYPE_CHECKING:
+    from osc2tx_runtime.language.actions.placement import Placement
     from osc2tx_runtime.language.context import ExecutionContext
     from osc2tx_runtime.language.declared import DeclaredObject
-    from osc2tx_runtime.language.placement import Placement
 
 __all__ = ["ScenarioInitializer"]
 

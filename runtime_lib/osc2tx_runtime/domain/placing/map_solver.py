@@ -9,17 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from osc2tx_classes import dataclass
-from osc2tx_runtime.domain.modifiers.map_base import MapModifier
-from osc2tx_runtime.domain.modifiers.map_crossings import implied
-from osc2tx_runtime.domain.modifiers.map_members import listed_members
-from osc2tx_runtime.domain.modifiers.map_paths import differences
-from osc2tx_runtime.domain.routes.crossings import Crossing
-from osc2tx_runtime.domain.routes.map_segments import MapSegment
-from osc2tx_runtime.domain.routes.road_graph import graph_of
-from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart, RoadPath
+from osc2tx_runtime.domain.map.crossings import Crossing
+from osc2tx_runtime.domain.map.road_graph import graph_of
+from osc2tx_runtime.domain.map.roads_and_lanes import RoadPart, RoadPath
+from osc2tx_runtime.domain.map.segments import MapSegment
+from osc2tx_runtime.domain.modifiers.map.base import MapModifier
+from osc2tx_runtime.domain.modifiers.map.constraints import differences, listed_members
+from osc2tx_runtime.domain.modifiers.map.crossings import implied
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import RoadMap
+from osc2tx_shared.classes import dataclass
 
 __all__ = ["MapSolver", "Relation"]
 

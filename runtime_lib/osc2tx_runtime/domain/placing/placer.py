@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime import opendrive
+from osc2tx_runtime.domain.map.road_graph import graph_of
 from osc2tx_runtime.domain.modifiers import (
     Along,
     Lane,
@@ -30,10 +31,9 @@ from osc2tx_runtime.domain.placing.point_placement import PointPlaces
 from osc2tx_runtime.domain.placing.pose_resolution import heading_of, one_of_kind
 from osc2tx_runtime.domain.points_and_poses import RoutePoint
 from osc2tx_runtime.domain.routes.lane_coordinates import place_at_distance, road_entry
-from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition
-from osc2tx_runtime.world.lane_neighbours import offset_from
+from osc2tx_runtime.world.geometry.lane_neighbours import offset_from
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import PhysicalObject

@@ -11,8 +11,8 @@ from osc2tx_runtime.domain.placing.pose_resolution import pose_of, road_heading
 from osc2tx_runtime.domain.routes.lane_coordinates import place_of_route
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
-from osc2tx_runtime.world.lane_neighbours import lane_with_number, number_of_lane
-from osc2tx_runtime.world.moving_body import ANY_LANE
+from osc2tx_runtime.world.geometry.lane_neighbours import lane_with_number, number_of_lane
+from osc2tx_runtime.world.motion.moving_body import ANY_LANE
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import PhysicalObject

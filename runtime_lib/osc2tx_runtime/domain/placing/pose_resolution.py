@@ -10,9 +10,9 @@ from osc2tx_runtime import opendrive
 from osc2tx_runtime.domain.modifiers import Modifier, Orient, Position, Yaw
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import RoadMap
-from osc2tx_runtime.world.attitude import LEVEL, Tilt, tilt_on
-from osc2tx_runtime.world.curve import turn_between
-from osc2tx_runtime.world.moving_body import ANY_LANE
+from osc2tx_runtime.world.geometry.attitude import LEVEL, Tilt, tilt_on
+from osc2tx_runtime.world.geometry.curve import turn_between
+from osc2tx_runtime.world.motion.moving_body import ANY_LANE
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import PhysicalObject

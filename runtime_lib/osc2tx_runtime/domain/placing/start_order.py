@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from osc2tx_classes import replace
 from osc2tx_runtime.domain.actors import PhysicalObject, Vehicle
 from osc2tx_runtime.domain.modifiers import (
     Along,
@@ -17,9 +16,10 @@ from osc2tx_runtime.domain.modifiers import (
 )
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.errors import PlacementError
+from osc2tx_shared.classes import replace
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.language.placement import Placement
+    from osc2tx_runtime.language.actions.placement import Placement
 
 __all__ = ["ActorStart", "couple", "cycle_of", "joined"]
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import ClassVar, Generic, NamedTuple, Protocol, TypeVar
 
 from osc2tx_runtime.opendrive import LanePosition
-from osc2tx_runtime.world.collision import Box, overlapping
+from osc2tx_runtime.world.measuring.collision import Box, overlapping
 
 __all__ = ["Placed", "Start", "StartRoom"]
 

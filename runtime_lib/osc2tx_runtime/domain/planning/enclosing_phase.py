@@ -8,17 +8,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.language.base_action import BaseAction
+from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.tree import Parallel, Serial
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.tree import Behaviour
-    from osc2tx_runtime.language.tree.duration_limits import Limits
+    from osc2tx_runtime.language.tree.duration_limits import DurationLimits
 
 __all__ = ["phase_of"]
 
 
-def phase_of(action: BaseAction) -> Limits | None:
+def phase_of(action: BaseAction) -> DurationLimits | None:
     """The duration with which an open-ended action ends; None if nobody can tell before."""
     if action.registered.ends != "open" or action.duration is not None:
         return None

@@ -7,12 +7,13 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.planning.motion_action import Refused
-from osc2tx_runtime.world.function_profiles import turns_back
+from osc2tx_runtime.world.geometry.function_profiles import turns_back
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.modifiers.base import MovementModifier
-    from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
-    from osc2tx_runtime.world.profiles import Profile
+    from osc2tx_runtime.world.geometry.profiles import Profile
+
+    from .motion_action import ModifiedMotion
 
 __all__ = ["check_course", "check_one_way", "check_peak", "check_rates"]
 

@@ -2,33 +2,35 @@
 
 from __future__ import annotations
 
-from functools import partial
-from typing import TYPE_CHECKING
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Unpack
 
-from osc2tx_classes import replace
-from osc2tx_runtime.domain.modifiers import MovementModifier, PhysicalMovement
+from osc2tx_runtime.domain.actors import MovableObject
+from osc2tx_runtime.domain.modifiers import Modifier, MovementModifier, Orient, PhysicalMovement
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.errors import PlacementError, ScenarioError
-from osc2tx_runtime.language.action import Action
-from osc2tx_runtime.language.registry import LONGITUDINAL
+from osc2tx_runtime.language.actions.action import Action, ActionOptions
+from osc2tx_runtime.language.actions.registry import LONGITUDINAL
 from osc2tx_runtime.language.tree.base import Status
+from osc2tx_runtime.language.tree.duration_limits import DurationLimits
 from osc2tx_runtime.opendrive import MapError
 from osc2tx_runtime.world.actor_dimensions import TOP_SPEED
-from osc2tx_runtime.world.attitude import LEVEL
 from osc2tx_runtime.world.commands import Careful, Command, SpeedChange
+from osc2tx_runtime.world.geometry.attitude import LEVEL
+from osc2tx_shared.classes import replace
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.placing.initial_state import InitialState
     from osc2tx_runtime.language.context import ExecutionContext
     from osc2tx_runtime.opendrive import LanePosition
     from osc2tx_runtime.world.actor_dimensions import Limits
-    from osc2tx_runtime.world.attitude import Tilt
+    from osc2tx_runtime.world.geometry.attitude import Tilt
     from osc2tx_runtime.world.protocol import LightState, World
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["Assignment", "MotionAction", "Refused", "note_lights"]
+__all__ = ["Assignment", "ModifiedMotion", "MotionAction", "Refused", "note_lights"]
 
 
 class Refused(ScenarioError):
@@ -216,3 +218,39 @@ class Assignment(MotionAction):
 def note_lights(context: ExecutionContext, actor_id: str, lights: LightState) -> None:
     """Writes to the trace what was asked for and what shines now."""
     context.trace.other(0, "lights", actor=actor_id, mode=lights.mode, lit=lights.lit)
+
+
+class ModifiedMotion(MotionAction):
+    """An action with modifiers that say how its actor moves, and until when.
+
+    Attributes:
+        movable: The actor.
+    """
+
+    def __init__(
+        self, actor: MovableObject, *modifiers: Modifier, **options: Unpack[ActionOptions]
+    ) -> None:
+        self.movable = actor  # what the action becomes may depend on it
+        super().__init__(actor, *modifiers, **options)
+        self._phase: DurationLimits | None = None
+
+    @cached_property
+    def lasting(self) -> tuple[Modifier, ...]:
+        """The modifiers but those that only speak of the start."""
+        return tuple(modifier for modifier in self.modifiers if not modifier.is_start)
+
+    @cached_property
+    def orient(self) -> Orient | None:
+        """How a vehicle is to be tilted for some time; None if nothing is said of it."""
+        return one_of_kind(self.lasting, Orient) if self.movable.lane_bound else None
+
+    @property
+    def end_is_known(self) -> bool:
+        """Whether it is known in advance when the action ends."""
+        return self.fixed_duration() is not None or self._phase is not None
+
+    def time_left(self) -> float | None:
+        """Seconds until the end, where it is known."""
+        if self._phase is not None:
+            return self._phase.left * self.context.dt
+        return super().time_left()

@@ -13,17 +13,18 @@ from osc2tx_runtime.domain.placing.pose_resolution import (
     tilt_of,
 )
 from osc2tx_runtime.domain.planning.motion_action import Refused
-from osc2tx_runtime.world.attitude import LEVEL, Tilt
 from osc2tx_runtime.world.commands import Command, Slant, Turn
-from osc2tx_runtime.world.curve import turn_between
-from osc2tx_runtime.world.function_profiles import Mapped
-from osc2tx_runtime.world.lateral import HEADING_LIMIT
+from osc2tx_runtime.world.geometry.attitude import LEVEL, Tilt
+from osc2tx_runtime.world.geometry.curve import turn_between
+from osc2tx_runtime.world.geometry.function_profiles import Mapped
+from osc2tx_runtime.world.lateral.execution import HEADING_LIMIT
 
 from .feasibility import check_one_way
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
-    from osc2tx_runtime.world.profiles import Profile
+    from osc2tx_runtime.world.geometry.profiles import Profile
+
+    from .motion_action import ModifiedMotion
 
 __all__ = ["check_tilt", "lies_so", "tilt_again", "turn_command"]
 

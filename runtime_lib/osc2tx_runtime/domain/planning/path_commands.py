@@ -8,7 +8,7 @@ from osc2tx_runtime.domain.paths.path_curves import PathError, interval_between_
 from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
 from osc2tx_runtime.domain.points_and_poses import Pose
 from osc2tx_runtime.domain.routes.network_paths import path_in_world, trajectory_in_world
-from osc2tx_runtime.language.registry import LATERAL, LONGITUDINAL
+from osc2tx_runtime.language.actions.registry import LATERAL, LONGITUDINAL
 from osc2tx_runtime.opendrive import RoadMap
 from osc2tx_runtime.world.commands import (
     Command,
@@ -17,7 +17,7 @@ from osc2tx_runtime.world.commands import (
     ReplayCourse,
     ReplayTrajectory,
 )
-from osc2tx_runtime.world.curve import Curve, turn_between
+from osc2tx_runtime.world.geometry.curve import Curve, turn_between
 from osc2tx_runtime.world.state import ActorState
 
 __all__ = ["path_command", "trajectory_commands"]

@@ -13,22 +13,22 @@ from osc2tx_runtime.domain.modifiers import Lane, Lateral, Modifier, Orient, Pos
 from osc2tx_runtime.domain.modifiers.groups import PLACES
 from osc2tx_runtime.domain.placing.placer import Placer
 from osc2tx_runtime.domain.placing.pose_resolution import heading_of, headings_of, tilt_of
+from osc2tx_runtime.domain.planning.lateral.lateral_speed_planning import lateral_speed_bounds
+from osc2tx_runtime.domain.planning.lateral.lateral_targets import lanes_wanted
+from osc2tx_runtime.domain.planning.longitudinal.goals import way_to
+from osc2tx_runtime.domain.planning.longitudinal.longitudinal_planning import speed_at_start
 from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.domain.routes.lane_coordinates import along_lane
-from osc2tx_runtime.world.curve import turn_between
-from osc2tx_runtime.world.distances import along_lanes, lateral_on_road
-from osc2tx_runtime.world.tolerances import PLACE_TOLERANCE, SPEED_TOLERANCE
+from osc2tx_runtime.world.geometry.curve import turn_between
+from osc2tx_runtime.world.measuring.deviation import PLACE_TOLERANCE, SPEED_TOLERANCE
+from osc2tx_runtime.world.measuring.distances import along_lanes, lateral_on_road
 
-from .goals import way_to
-from .lateral_speed_planning import lateral_speed_bounds
-from .lateral_targets import lanes_wanted
-from .longitudinal_planning import speed_at_start
 from .orientation_planning import check_tilt
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from osc2tx_runtime.domain.planning.modified_motion import ModifiedMotion
+    from .motion_action import ModifiedMotion
 
 __all__ = ["PlaceWatch", "hold_or_jump"]
 

@@ -1,8 +1,6 @@
-"""The map as scenarios speak of it (DSL 8.12): roads, lanes, crossings, routes; what it offers.
+"""Routes, paths along them, and positions in their coordinates (DSL 8.5, 8.12).
 
-What a scenario declares: `roads_and_lanes` and `crossings` on `route_elements` and `map_objects`.
-What the map offers: `map_segments` in a `lane_graph` and, with `junction_passages` and
-`crossing_lines`, in a `road_graph`. Coordinates: `lane_coordinates`, `route_coordinates`,
-`place_on_route`, `route_axes`, `geodetic_points`. Ways: `road_paths`, `composed_routes`,
-`network_paths`.
+`composed_routes` joins roads, lanes, crossings and points to routes; `road_paths` and
+`network_paths` are the paths along them. `lane_coordinates` and `route_coordinates` convert
+positions, `place_on_route` measures along a route.
 """

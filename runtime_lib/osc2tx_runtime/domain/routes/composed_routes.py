@@ -12,18 +12,18 @@ import math
 from collections.abc import Iterator, Sequence
 from itertools import groupby, pairwise
 
-from osc2tx_classes import dataclass, replace
+from osc2tx_runtime.domain.map.lane_types import LANE_TYPES
+from osc2tx_runtime.domain.map.road_graph import RoadGraph, graph_of
+from osc2tx_runtime.domain.map.route_elements import Route
+from osc2tx_runtime.domain.map.segments import MapSegment
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.paths.path_values import NetworkPath, Path
 from osc2tx_runtime.domain.points_and_poses import NetworkPoint, Pose
-from osc2tx_runtime.domain.routes.lane_types import LANE_TYPES
-from osc2tx_runtime.domain.routes.map_segments import MapSegment
-from osc2tx_runtime.domain.routes.road_graph import RoadGraph, graph_of
 from osc2tx_runtime.domain.routes.road_paths import way_between
-from osc2tx_runtime.domain.routes.route_elements import Route
 from osc2tx_runtime.enums import ConnectRoutePoints
 from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap
 from osc2tx_runtime.opendrive import Pose as MapPose
+from osc2tx_shared.classes import dataclass, replace
 
 __all__ = ["Element", "MadeRoute", "poses_of_route"]
 

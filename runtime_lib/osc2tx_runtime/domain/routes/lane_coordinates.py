@@ -9,10 +9,10 @@ from __future__ import annotations
 import math
 
 from osc2tx_runtime import opendrive
+from osc2tx_runtime.domain.map.road_graph import graph_of
+from osc2tx_runtime.domain.map.roads_and_lanes import RoadPart
 from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.domain.points_and_poses import OdrPoint, RoadRoute, RoutePoint
-from osc2tx_runtime.domain.routes.road_graph import graph_of
-from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 

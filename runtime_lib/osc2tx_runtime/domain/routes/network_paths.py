@@ -9,6 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
+from osc2tx_runtime.domain.map.geodetic_points import place_of_geodetic
+from osc2tx_runtime.domain.map.road_graph import graph_of
+from osc2tx_runtime.domain.map.roads_and_lanes import Route
+from osc2tx_runtime.domain.map.segments import MapSegment
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.paths.path_values import (
     NetworkPath,
@@ -25,12 +29,8 @@ from osc2tx_runtime.domain.points_and_poses import (
     XyzPoint,
 )
 from osc2tx_runtime.domain.routes.composed_routes import Element, MadeRoute, poses_of_route
-from osc2tx_runtime.domain.routes.geodetic_points import place_of_geodetic
 from osc2tx_runtime.domain.routes.lane_coordinates import place_of_odr, place_of_route
-from osc2tx_runtime.domain.routes.map_segments import MapSegment
-from osc2tx_runtime.domain.routes.road_graph import graph_of
 from osc2tx_runtime.domain.routes.road_paths import way_through
-from osc2tx_runtime.domain.routes.roads_and_lanes import Route
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import DRIVING, LanePosition, MapError, RoadMap
 from osc2tx_runtime.opendrive import Pose as MapPose

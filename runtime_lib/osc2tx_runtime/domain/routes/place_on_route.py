@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 
+from osc2tx_runtime.domain.map.crossings import Crossing
+from osc2tx_runtime.domain.map.road_graph import RoadGraph, graph_of
+from osc2tx_runtime.domain.map.roads_and_lanes import RoadPart
+from osc2tx_runtime.domain.map.route_axes import axis_lanes, length_of
+from osc2tx_runtime.domain.map.segments import MapSegment
 from osc2tx_runtime.domain.paths.path_values import Path
-from osc2tx_runtime.domain.routes.crossings import Crossing
-from osc2tx_runtime.domain.routes.map_segments import MapSegment
-from osc2tx_runtime.domain.routes.road_graph import RoadGraph, graph_of
-from osc2tx_runtime.domain.routes.roads_and_lanes import RoadPart
-from osc2tx_runtime.domain.routes.route_axes import axis_lanes, length_of
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
-from osc2tx_runtime.world.curve import Curve
+from osc2tx_runtime.world.geometry.curve import Curve
 from osc2tx_runtime.world.state import ActorState
 
 __all__ = ["place_on_route"]

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from osc2tx_runtime.domain.map.crossings import Crossing
+from osc2tx_runtime.domain.map.road_graph import graph_of
+from osc2tx_runtime.domain.map.roads_and_lanes import LaneSection
+from osc2tx_runtime.domain.map.route_axes import axis_lanes
+from osc2tx_runtime.domain.map.segments import CrossingLine, MapSegment
 from osc2tx_runtime.domain.points_and_poses import RoadRoute, RoutePoint
-from osc2tx_runtime.domain.routes.crossings import Crossing
 from osc2tx_runtime.domain.routes.lane_coordinates import route_point_at
-from osc2tx_runtime.domain.routes.map_segments import CrossingLine, MapSegment
-from osc2tx_runtime.domain.routes.road_graph import graph_of
-from osc2tx_runtime.domain.routes.roads_and_lanes import LaneSection
-from osc2tx_runtime.domain.routes.route_axes import axis_lanes
 from osc2tx_runtime.enums import OnRouteType
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.opendrive import LanePosition, Pose

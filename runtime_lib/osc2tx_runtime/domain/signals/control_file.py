@@ -16,7 +16,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, get_args
 
-from osc2tx_runtime.domain.routes.map_search import SHIPPED
+from osc2tx_runtime.domain.map.search import SHIPPED
 from osc2tx_runtime.domain.signals.traffic_lights import (
     Bulbs,
     Shown,

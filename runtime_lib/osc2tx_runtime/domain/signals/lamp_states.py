@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.enums import BulbColor, BulbIcon, BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.world.traffic_light_lamps import Lamp, lamps_that_mean
+from osc2tx_runtime.world.surroundings.traffic_light_lamps import Lamp, lamps_that_mean
+from osc2tx_shared.classes import dataclass
 
 __all__ = ["Bulbs", "Shown", "TrafficLightBulb", "states_of"]
 

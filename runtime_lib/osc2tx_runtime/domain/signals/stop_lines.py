@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TypeVar
 
-from osc2tx_runtime.domain.routes.map_segments import MapSegment
-from osc2tx_runtime.domain.routes.road_graph import RoadGraph, graph_of
-from osc2tx_runtime.domain.routes.roads_and_lanes import LaneSection, Route
-from osc2tx_runtime.domain.routes.route_axes import axis_lanes
+from osc2tx_runtime.domain.map.road_graph import RoadGraph, graph_of
+from osc2tx_runtime.domain.map.roads_and_lanes import LaneSection, Route
+from osc2tx_runtime.domain.map.route_axes import axis_lanes
+from osc2tx_runtime.domain.map.segments import MapSegment
 from osc2tx_runtime.domain.signals.traffic_lights import TrafficLightGroup
 from osc2tx_runtime.enums import StopLineMarking
 from osc2tx_runtime.errors import PlacementError, ScenarioError, UnsupportedError
 from osc2tx_runtime.opendrive import RoadMap, signal_places
-from osc2tx_runtime.world.traffic_light_states import Signals
+from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
 
 __all__ = ["TrafficLightStopLine"]
 

@@ -10,7 +10,7 @@ from osc2tx_runtime.domain.signals.lamp_states import states_of
 from osc2tx_runtime.domain.signals.traffic_lights import TrafficLightCycle, TrafficLightPhase
 from osc2tx_runtime.enums import BulbState
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.world.traffic_light_lamps import Lamp
+from osc2tx_runtime.world.surroundings.traffic_light_lamps import Lamp
 
 __all__ = ["Moment", "check_cycle", "moment_of", "period_of", "time_of"]
 

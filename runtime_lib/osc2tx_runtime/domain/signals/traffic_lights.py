@@ -10,18 +10,18 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from osc2tx_classes import dataclass
+from osc2tx_runtime.domain.map.objects import MapObject
 from osc2tx_runtime.domain.points_and_poses import Pose
-from osc2tx_runtime.domain.routes.map_objects import MapObject
 from osc2tx_runtime.domain.signals.lamp_states import Bulbs, Shown, TrafficLightBulb, states_of
 from osc2tx_runtime.enums import SemanticTrafficLightState
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import Signal
-from osc2tx_runtime.world.traffic_light_lamps import Lamp, meaning_of
+from osc2tx_runtime.world.surroundings.traffic_light_lamps import Lamp, meaning_of
+from osc2tx_shared.classes import dataclass
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
-    from osc2tx_runtime.world.traffic_light_states import Signals
+    from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
 
 __all__ = [
     "Bulbs",

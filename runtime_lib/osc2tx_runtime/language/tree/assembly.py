@@ -8,8 +8,8 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
-from osc2tx_runtime.language.action import Action
-from osc2tx_runtime.language.base_action import BaseAction
+from osc2tx_runtime.language.actions.action import Action
+from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.declared import BaseActor
 from osc2tx_runtime.language.settings import near
 from osc2tx_runtime.language.source_map import SourceMap
@@ -25,7 +25,7 @@ from osc2tx_runtime.language.tree.parallel import Parallel
 from osc2tx_runtime.language.tree.variables import Sampling, SamplingStart
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.language.placement import Placement
+    from osc2tx_runtime.language.actions.placement import Placement
     from osc2tx_runtime.language.scenario_parts import ScenarioParts
 
 __all__ = ["assemble", "invoked_placements", "number_nodes"]

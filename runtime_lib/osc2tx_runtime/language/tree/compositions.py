@@ -22,7 +22,7 @@ from osc2tx_runtime.language.tree.base import (
     place_key,
     pulse_of,
 )
-from osc2tx_runtime.language.tree.duration_limits import Duration, Limits
+from osc2tx_runtime.language.tree.duration_limits import Duration, DurationLimits
 
 __all__ = ["Composition", "OneOf", "Serial"]
 
@@ -32,7 +32,7 @@ Member = tuple[Behaviour, Callable[[], Status]]
 class Composition(Node):
     """What the three compositions share: their members and their duration."""
 
-    _limits: Limits | None = None
+    _limits: DurationLimits | None = None
     _members: tuple[Member, ...] = ()
     _active: list[Member]  # those at work, where several are
     _is_plain = True  # only the members decide what becomes of it
@@ -65,7 +65,7 @@ class Composition(Node):
         return self._limits.judge(status, self._goes_on(), late)
 
     @property
-    def limits(self) -> Limits | None:
+    def limits(self) -> DurationLimits | None:
         """The duration at work; None without one."""
         return self._limits
 
@@ -85,7 +85,7 @@ class Composition(Node):
 
     def _limit(self, duration: Duration | None) -> None:
         self.label = self.name
-        self._limits = None if duration is None else Limits(self, duration)
+        self._limits = None if duration is None else DurationLimits(self, duration)
 
     def _is_open(self) -> bool:
         """Return whether the members never end by themselves."""

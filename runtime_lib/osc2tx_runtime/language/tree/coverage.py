@@ -8,12 +8,12 @@ from contextlib import suppress
 from itertools import pairwise
 from typing import Any, Literal, TypedDict
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Leaf, Status
 from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS, Watch
 from osc2tx_runtime.language.tree.events import Event, Occurrences, watch
-from osc2tx_runtime.language.tree.written_units import Unit
+from osc2tx_runtime.language.values.written_units import Unit
+from osc2tx_shared.classes import dataclass
 
 __all__ = ["CoverageItem", "ItemOptions", "Moment", "Recording"]
 

@@ -26,7 +26,7 @@ from osc2tx_runtime.language.tree.conditions import (
     Edge,
     Watch,
 )
-from osc2tx_runtime.language.tree.duration_limits import Limits
+from osc2tx_runtime.language.tree.duration_limits import DurationLimits
 from osc2tx_runtime.language.tree.events import Event, Guard, Trigger, describe, rest_until, watch
 from osc2tx_runtime.language.tree.module_text import function_text
 
@@ -179,7 +179,7 @@ class Until(Node, Decorator):
         self.conditions = conditions
         if isinstance(behavior, Node):
             self.label, behavior.label = behavior.label, None
-        self._limits: Limits | None = getattr(behavior, "_limits", None)
+        self._limits: DurationLimits | None = getattr(behavior, "_limits", None)
         if self._limits is not None:
             self._limits.until = self.name
         self._happened: list[Watch] = []

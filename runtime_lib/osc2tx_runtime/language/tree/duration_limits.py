@@ -13,7 +13,7 @@ from osc2tx_runtime.language.tree.failure_reasons import with_situation
 if TYPE_CHECKING:
     from osc2tx_runtime.language.tree.base import Node
 
-__all__ = ["Duration", "Limits"]
+__all__ = ["Duration", "DurationLimits"]
 
 Duration = float | tuple[float, float]
 """Seconds, or the least and the most seconds, which may be without end."""
@@ -22,7 +22,7 @@ ENDLESS = sys.maxsize
 """Steps of a duration without upper bound."""
 
 
-class Limits:
+class DurationLimits:
     """Applies a duration to the content of a node (DSL 7.6.2.1, 7.6.2.4.1).
 
     Open-ended content ends with success when the duration is over: at a time drawn from its range,

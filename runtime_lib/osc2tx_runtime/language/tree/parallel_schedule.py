@@ -18,7 +18,7 @@ import math
 from collections.abc import Sequence
 from typing import Literal
 
-from osc2tx_classes import dataclass
+from osc2tx_shared.classes import dataclass
 
 __all__ = ["Overlap", "Part", "Schedule", "Span", "Unplannable", "make_schedule", "spans_of"]
 

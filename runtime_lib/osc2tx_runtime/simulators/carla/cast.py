@@ -6,13 +6,13 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.opendrive import Pose
 from osc2tx_runtime.world.actor_dimensions import MODELS
-from osc2tx_runtime.world.measurement import Measurement
+from osc2tx_runtime.world.measuring.measurement import Measurement
+from osc2tx_runtime.world.plant.scene import Setpoint
 from osc2tx_runtime.world.protocol import ActorSpec, ControlMode
-from osc2tx_runtime.world.scene import Setpoint
 from osc2tx_runtime.world.state import ActorState
+from osc2tx_shared.classes import dataclass
 
 from .frames import measurement_from, transform_of, vector_of
 from .gains import CAR, GAINS

@@ -10,8 +10,8 @@ import math
 from collections.abc import Sequence
 
 from osc2tx_runtime.opendrive import Pose
-from osc2tx_runtime.opendrive.angles import wrap
-from osc2tx_runtime.world.measurement import Measurement
+from osc2tx_runtime.opendrive.geometry import wrap
+from osc2tx_runtime.world.measuring.measurement import Measurement
 
 __all__ = ["measurement_from", "pose_from", "transform_of", "vector_of"]
 

@@ -7,11 +7,10 @@ from typing import Any
 
 from osc2tx_runtime.errors import SettingsError, SimulatorError
 from osc2tx_runtime.world.actor_dimensions import Shape
-from osc2tx_runtime.world.features import FEATURES, Feature
-from osc2tx_runtime.world.measurement import Measurement
-from osc2tx_runtime.world.protocol import ActorSpec, ControlMode
-from osc2tx_runtime.world.scene import Scene
-from osc2tx_text import say
+from osc2tx_runtime.world.measuring.measurement import Measurement
+from osc2tx_runtime.world.plant.scene import Scene
+from osc2tx_runtime.world.protocol import FEATURES, ActorSpec, ControlMode, Feature
+from osc2tx_shared.text import say
 
 from .cast import CastMember, Command
 from .client_process import ClientProcess

@@ -16,8 +16,8 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from osc2tx_classes import dataclass
 from osc2tx_runtime.errors import InputError, SettingsError
+from osc2tx_shared.classes import dataclass
 
 from .cast import CastMember
 from .client_process import ClientProcess

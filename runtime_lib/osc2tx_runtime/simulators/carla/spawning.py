@@ -7,8 +7,8 @@ from typing import Any
 
 from osc2tx_runtime.errors import SimulatorError
 from osc2tx_runtime.opendrive import Pose
+from osc2tx_runtime.world.plant.scene import Setpoint
 from osc2tx_runtime.world.protocol import ControlMode
-from osc2tx_runtime.world.scene import Setpoint
 
 from .blueprints import attributes_of, blueprint_for
 from .cast import ABOVE, CastMember, member_of

@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from osc2tx_classes import dataclass
-from osc2tx_runtime.world.measurement import Measurement
-from osc2tx_runtime.world.scene import Setpoint
+from osc2tx_runtime.world.measuring.measurement import Measurement
+from osc2tx_runtime.world.plant.scene import Setpoint
+from osc2tx_shared.classes import dataclass
 
 from .gains import Gains
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from osc2tx.backends.xosc.actions.acceleration import Ramp
-from osc2tx.backends.xosc.actions.position_modifiers import Arrival
+from osc2tx.backends.xosc.actions.position.position_modifiers import Arrival
+from osc2tx.backends.xosc.actions.speed.acceleration import Ramp
 from osc2tx.backends.xosc.facts.actors import Linear, Quintic
 from osc2tx.backends.xosc.facts.curves import Waypoint, sample_curve
 from osc2tx.backends.xosc.report import Inexpressible

@@ -1,0 +1,1 @@
+"""Constraints of a scenario: collected, solved over domains, reported where they contradict."""

@@ -1,0 +1,341 @@
+"""The constraints that hold in a type, in the order of the text (§7.3.11, §7.6.2.3).
+
+For a type these are: the `keep`s of its body and of its bases, defaults and `with` blocks of its
+fields, arguments and `with` blocks of its invocations and modifier applications; and for fields
+and invocations of user-defined types what these demand of their own members.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TypeAlias
+
+from osc2tx.analysis.constraints.operation_list import Key, OperationList, OperationListBuilder
+from osc2tx.analysis.constraints.parameter_lookup import Place
+from osc2tx.analysis.constraints.specialisation import Special
+from osc2tx.analysis.tree_walk import do_members
+from osc2tx.diagnostics import Span
+from osc2tx.semantics import SemanticModel, types
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics.conversions import symbol_of
+from osc2tx.semantics.model import Binding
+from osc2tx.semantics.scope import supertypes
+from osc2tx.syntax import ast
+from osc2tx_shared.classes import dataclass, replace
+
+Op = ast.BinaryOperator
+
+DEEPEST_MEMBER = 4  # levels of user-defined structs below a field
+
+Instance: TypeAlias = ast.Invocation | ast.ModifierApplication
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Constraint:
+    """One constraint as it applies to one instance.
+
+    Attributes:
+        node: The `keep`, the default value or the argument.
+        span: What to show of it.
+        origin: `"keep"`, `"default value"` or `"argument"`.
+        is_default: Whether a later one may replace it.
+        subject: The parameter alone on its left side, if it is an equality or a range.
+        value: What the subject is set to, or the range or list that it is in.
+        operations: The whole of it.
+        place: Where the names in `value` are looked up.
+    """
+
+    node: ast.Node
+    span: Span
+    origin: str
+    is_default: bool
+    subject: Key | None
+    value: ast.Expression | None
+    operations: OperationList
+    place: Place
+
+    @property
+    def is_range(self) -> bool:
+        """Whether the value is a set of values rather than the value itself."""
+        return self.operations.root.name in ("in range", "in list")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Removal:
+    """`remove_default(parameter)`."""
+
+    subject: Key
+
+
+Entry: TypeAlias = Constraint | Removal
+
+
+class Collector:
+    """Collects the constraints of types."""
+
+    def __init__(
+        self, model: SemanticModel, special: Mapping[Key, tuple[Special, ...]] | None = None
+    ) -> None:
+        """Take the checked program, and the conditional types that objects are known to be of."""
+        self._model = model
+        self._writer = OperationListBuilder(model)
+        self._special = special or {}
+        self.objects: dict[Key, sym.TypeSymbol] = {}
+
+    def collect(self, owner: sym.TypeSymbol) -> list[Entry]:
+        """Return what constrains an instance of a type, in the order of the text."""
+        it = None if isinstance(owner, sym.ModifierSymbol) else ()
+        place = Place(model=self._model, owner=owner, prefix=(), it=it)
+        own = [*self._of_own_actor(owner), *self._of_type(place, owner, depth=0)]
+        return [*self._of_globals(own), *own]
+
+    def _of_own_actor(self, owner: sym.TypeSymbol) -> Iterator[Entry]:
+        """Yield what modifiers say that are members of the type of a behavior's actor."""
+        actor = owner.actor if isinstance(owner, sym.ScenarioSymbol | sym.ActionSymbol) else None
+        for ancestor in () if actor is None else supertypes(actor):
+            place = Place(model=self._model, owner=ancestor, prefix=(), it=None)
+            for statement in ancestor.statements:
+                if isinstance(statement, ast.ModifierApplication):
+                    yield from self._of_instance(place, statement, statement.arguments)
+
+    def collect_global(self, parameter: sym.FieldSymbol) -> list[Entry]:
+        """Return what constrains a global parameter, and those that it depends on."""
+        place = Place(model=self._model, owner=None, prefix=(), it=None)
+        own: list[Entry] = []
+        if isinstance(parameter.node, ast.ParameterDeclaration):
+            own = list(self._of_field(place, parameter, parameter.node, depth=0))
+        others = [e for e in self._of_globals(own) if e not in own]
+        return [*others, *own]
+
+    def collect_globals(self) -> list[Entry]:
+        """Return what constrains the global parameters of the program."""
+        place = Place(model=self._model, owner=None, prefix=(), it=None)
+        return [
+            entry
+            for symbol in self._model.global_parameters
+            if isinstance(symbol.node, ast.ParameterDeclaration)
+            for entry in self._of_field(place, symbol, symbol.node, depth=0)
+        ]
+
+    def _of_globals(self, entries: list[Entry]) -> list[Entry]:
+        """Return what constrains the global parameters that some constraints mention."""
+        place = Place(model=self._model, owner=None, prefix=(), it=None)
+        found: list[Entry] = []
+        seen: set[Key] = set()
+        while entries:
+            keys = {
+                (k[0],) for e in entries if isinstance(e, Constraint) for k in e.operations.keys
+            }
+            entries = []
+            for key in sorted(keys - seen, key=lambda k: k[0].span.start):
+                seen.add(key)
+                match key[0]:
+                    case sym.FieldSymbol(owner=None, node=ast.ParameterDeclaration() as node):
+                        entries += self._of_field(place, key[0], node, depth=0)
+            found = [*entries, *found]
+        return found
+
+    def _of_type(self, place: Place, owner: sym.TypeSymbol, depth: int) -> Iterator[Entry]:
+        for ancestor in reversed(list(supertypes(owner))):
+            yield from self._of_condition(place, ancestor)
+            for statement in ancestor.statements:
+                yield from self._of_statement(place, ancestor, statement, depth)
+
+    def _of_condition(self, place: Place, type_: sym.TypeSymbol) -> Iterator[Entry]:
+        """Yield what holds for all instances of a type with conditional inheritance."""
+        match type_:
+            case (
+                sym.StructSymbol(condition=ast.InheritanceCondition() as condition)
+                | sym.ActorSymbol(condition=ast.InheritanceCondition() as condition)
+                | sym.ScenarioSymbol(condition=ast.InheritanceCondition() as condition)
+                | sym.ActionSymbol(condition=ast.InheritanceCondition() as condition)
+            ):
+                field = self._model.symbol_of(condition.field)
+                if isinstance(field, sym.FieldSymbol):
+                    key = (*place.prefix, field)
+                    yield self._setting(place, key, field.type, condition.value, "condition")
+
+    def _of_statement(
+        self, place: Place, ancestor: sym.TypeSymbol, statement: ast.Statement, depth: int
+    ) -> Iterator[Entry]:
+        match statement:
+            case ast.ParameterDeclaration():
+                for member in (m for name in statement.names for m in ancestor.named(name.text)):
+                    if isinstance(member, sym.FieldSymbol) and member.node is statement:
+                        yield from self._of_field(place, member, statement, depth)
+            case ast.KeepConstraint() | ast.RemoveDefault():
+                yield from self._of_rule(place, statement)
+            case ast.ModifierApplication():
+                yield from self._of_instance(place, statement, statement.arguments)
+            case ast.DoDirective() if depth == 0:
+                yield from self._of_tree(place, statement)
+
+    def _of_field(
+        self, place: Place, field: sym.FieldSymbol, node: ast.ParameterDeclaration, depth: int
+    ) -> Iterator[Entry]:
+        key = (*place.prefix, field)
+        type_ = symbol_of(field.type)
+        if key in place.handed_in:
+            yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
+            return
+        if isinstance(type_, sym.ActorSymbol) and isinstance(node.default, ast.NameExpression):
+            # Another actor, of which its own declaration says all.
+            yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
+            return
+        is_ours = isinstance(type_, sym.StructSymbol | sym.ActorSymbol) and any(
+            t.origin != "library" for t in supertypes(type_)
+        )
+        for element in self._model.elements.get(field, ()) if len(key) == 1 else ():
+            yield from self._of_element(place, element, depth)
+        if type_ is not None and is_ours and depth < DEEPEST_MEMBER:
+            inner = replace(place, owner=type_, prefix=key, it=key)
+            yield from self._of_type(inner, type_, depth + 1)
+        if isinstance(type_, sym.StructSymbol | sym.ActorSymbol):
+            self.objects[key] = type_
+        for special in self._special.get(key, ()):
+            inner = replace(place, owner=special, prefix=key, it=key)
+            for statement in special.statements:
+                yield from self._of_statement(inner, special, statement, depth + 1)
+        if node.default is not None and node.default not in self._model.quantities:
+            yield self._setting(place, key, field.type, node.default, "default value")
+        yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
+
+    def _of_element(self, place: Place, element: sym.FieldSymbol, depth: int) -> Iterator[Entry]:
+        """Yield what the type of an element of a list demands of it."""
+        type_, key = symbol_of(element.type), (element,)
+        if isinstance(type_, sym.StructSymbol | sym.ActorSymbol):
+            self.objects[key] = type_
+        if type_ is not None and any(each.origin != "library" for each in supertypes(type_)):
+            inner = replace(place, owner=type_, prefix=key, it=key)
+            yield from self._of_type(inner, type_, depth + 1)
+
+    def _of_with_field(self, inside: Place, node: ast.ParameterDeclaration) -> Iterator[Entry]:
+        for rule in node.constraints:
+            if isinstance(rule, ast.KeepConstraint | ast.RemoveDefault):
+                yield from self._of_rule(inside, rule)
+
+    def _of_rule(
+        self, place: Place, rule: ast.KeepConstraint | ast.RemoveDefault
+    ) -> Iterator[Entry]:
+        if isinstance(rule, ast.RemoveDefault):
+            removed = place.locate(rule.parameter)
+            if removed is not None:
+                yield Removal(removed)
+            return
+        expression = rule.expression
+        subject, value = None, None
+        if isinstance(expression, ast.Binary) and expression.operator in (Op.EQUAL, Op.IN):
+            subject = place.locate(expression.left)
+            value = expression.right if subject is not None else None
+        yield Constraint(
+            node=rule,
+            span=expression.span,
+            origin="keep",
+            is_default=rule.strength is ast.KeepStrength.DEFAULT,
+            subject=subject,
+            value=value,
+            operations=self._writer.write(expression, place.locate),
+            place=place,
+        )
+
+    def _setting(
+        self, place: Place, key: Key, type_: types.Type, value: ast.Expression, origin: str
+    ) -> Constraint:
+        """Return `key == value`, or `key in value` for a range given to a number."""
+        operations = OperationList()
+        left = self._writer.append_variable(operations, key, type_, value)
+        if isinstance(value, ast.RangeLiteral) and not isinstance(type_, types.RangeType):
+            lower = self._writer.append(operations, value.lower, place.locate)
+            upper = self._writer.append(operations, value.upper, place.locate)
+            self._writer.append_comparison(operations, "in range", left, [lower, upper], value)
+        else:
+            right = self._writer.append(operations, value, place.locate)
+            self._writer.append_comparison(operations, "==", left, [right], value)
+        return Constraint(
+            node=value,
+            span=value.span,
+            origin=origin,
+            is_default=origin == "default value",
+            subject=key,
+            value=value,
+            operations=operations,
+            place=place,
+        )
+
+    # --- invocations ---
+
+    def _of_tree(self, place: Place, directive: ast.DoDirective) -> Iterator[Entry]:
+        for member in do_members(directive.member):
+            match member:
+                case ast.Invocation():
+                    yield from self._of_instance(place, member, member.arguments)
+                    yield from self._of_with(place, member, member.with_members)
+                case ast.Composition():
+                    yield from self._of_with(place, member, member.with_members)
+                case _:
+                    continue
+
+    def _of_with(
+        self,
+        place: Place,
+        node: ast.Invocation | ast.Composition,
+        members: tuple[ast.WithMember, ...],
+    ) -> Iterator[Entry]:
+        binding = self._model.bindings.get(node)
+        callee = binding.callee if binding is not None else None
+        it_type = callee if isinstance(callee, sym.TypeSymbol) else None
+        inside = replace(place, it=(*place.prefix, node), it_type=it_type)
+        for member in members:
+            match member:
+                case ast.KeepConstraint() | ast.RemoveDefault():
+                    yield from self._of_rule(inside, member)
+                case ast.ModifierApplication():
+                    yield from self._of_instance(inside, member, member.arguments)
+                case ast.UntilDirective():
+                    continue
+
+    def _of_instance(
+        self, place: Place, node: Instance, arguments: tuple[ast.Argument, ...]
+    ) -> Iterator[Entry]:
+        """Yield what the callee demands of its parameters, and what the arguments say."""
+        binding = self._model.bindings.get(node)
+        if binding is None or not isinstance(binding.callee, sym.BehaviorSymbol):
+            return
+        callee = binding.callee
+        prefix = (*place.prefix, node)
+        if node in place.prefix:
+            return  # a modifier that applies itself
+        if callee.origin == "user":
+            # In a modifier `it` is what that is applied to (§7.3.12).
+            it = place.it if isinstance(callee, sym.ModifierSymbol) else prefix
+            handed_in = {**place.handed_in, **dict(_objects(place, prefix, binding))}
+            inner = replace(
+                place, owner=callee, prefix=prefix, it=it, it_type=None, handed_in=handed_in
+            )
+            yield from self._of_type(inner, callee, depth=1)
+        elif not _can_be_constrained(node):
+            return
+        for parameter, value in binding.arguments:
+            if isinstance(parameter, sym.FieldSymbol):
+                key = (*prefix, parameter)
+                yield self._setting(place, key, parameter.type, value, "argument")
+
+
+def _objects(place: Place, prefix: Key, binding: Binding) -> Iterator[tuple[Key, Key]]:
+    """Yield the parameters of a callee that are objects, each with the one that it stands for."""
+    for parameter, value in binding.arguments:
+        if isinstance(parameter, sym.FieldSymbol) and isinstance(
+            symbol_of(parameter.type), sym.ActorSymbol | sym.StructSymbol
+        ):
+            key = place.locate(value)
+            if key is not None:
+                yield (*prefix, parameter), key
+
+
+def _can_be_constrained(node: Instance) -> bool:
+    """Whether some constraint can mention the parameters of a library behavior or modifier."""
+    if isinstance(node, ast.ModifierApplication):
+        return False
+    return node.label is not None or any(
+        isinstance(member, ast.KeepConstraint) for member in node.with_members
+    )

@@ -1,0 +1,1 @@
+"""Warnings about scenarios that are valid: what never happens, is never used or never ends."""

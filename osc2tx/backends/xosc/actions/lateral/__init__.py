@@ -1,0 +1,1 @@
+"""Lane changes and lateral offsets."""

@@ -1,0 +1,136 @@
+"""Lateral positions in a lane (§8.9.8), measured from edges and centers."""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx.backends.xosc.actions.lateral.lanes import (
+    NO_ONE_SIDE,
+    lanes_to_segment,
+    lateral,
+    note_drift,
+    offset_of,
+    shape_of,
+)
+from osc2tx.backends.xosc.actions.lateral.slow_shifts import note_slow
+from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
+from osc2tx.backends.xosc.actions.registry import action, apply_modifiers
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.entities.cast import CastMember
+from osc2tx.backends.xosc.entities.declared_roads import segment_of
+from osc2tx.backends.xosc.facts.actors import Linear, course_of_shift, fastest
+from osc2tx.backends.xosc.facts.maps import LanePosition
+from osc2tx.backends.xosc.facts.oncoming_lanes import is_oncoming
+from osc2tx.backends.xosc.report import Inexpressible, Metres
+from osc2tx.backends.xosc.state import LATERAL, known
+from osc2tx.backends.xosc.xml.tree import element
+from osc2tx_shared.classes import replace
+
+INSIDE = 1.2
+"""Metres from the centre that are inside of any lane: there what is cut short goes on."""
+
+
+@action("follow_lane")
+def _follow_lane(leaf: Leaf) -> Performance:
+    arguments = leaf.arguments
+    offset = arguments.number("offset") or 0.0
+    profile = arguments.member("rate_profile", "none")
+    peak = arguments.number("rate_peak")
+    target = segment_of(leaf.ctx, arguments.get("target"))
+    if target is not None and lanes_to_segment(leaf, target) != 0:
+        raise Inexpressible("it is in another lane; a change of the lane has to come before")
+    changes = apply_modifiers(leaf)
+    if leaf.state.offset == known(offset):
+        return Performance(changes, "open")
+    return Performance((offset_change(leaf, offset, profile, peak), *changes), "open")
+
+
+def offset_change(leaf: Leaf, offset: float, profile: str, peak: float | None) -> Change:
+    """Return the change of the place in the lane.
+
+    Raises:
+        Inexpressible: It is in a lane of oncoming traffic.
+    """
+    roads, lane = leaf.ctx.roads, leaf.state.lane
+    if roads is not None and lane is not None and is_oncoming(roads.map, lane):
+        raise Inexpressible(NO_ONE_SIDE, leaf.node.span)
+    way = abs(offset - offset_of(leaf.state))
+    course = course_of_shift(way, profile, peak, None, leaf.limits)
+    note_drift(leaf, way, (profile, peak, None), course)
+    note_slow(leaf, way, course)
+    shape = shape_of(leaf, course, profile)
+    if isinstance(course, Linear):
+        leaf.ctx.report.approximate(
+            leaf.construct,
+            leaf.node.span,
+            "the XML says no length for a change of the offset, and a steady one has no peak that"
+            " gives it",
+            Metres(way, "beside, until it is there"),
+        )
+    # The XML gives no time, only the peak of the lateral acceleration: that of the shape.
+    half_turn = math.pi / course.duration
+    peak_rate = 0.5 * way * half_turn * half_turn
+    action = lateral(
+        element(
+            "LaneOffsetAction",
+            element(
+                "LaneOffsetActionDynamics",
+                dynamicsShape=shape,
+                maxLateralAcc=round(peak_rate, 6),
+            ),
+            element("LaneOffsetTarget", element("AbsoluteTargetLaneOffset", value=offset)),
+            continuous=False,
+        )
+    )
+    after = replace(leaf.state, offset=known(offset)).finished(LATERAL)
+    goes_on = abs(offset) < INSIDE
+    during = replace(after, offset=None, drift=fastest(course), aside=way if goes_on else 0.0)
+    return Change(LATERAL, (action,), course.duration, during, after, goes_on=goes_on)
+
+
+EDGES = {"left": 0.5, "center": 0.0, "right": -0.5}
+"""Widths from the centre to what `lat_measure_by` names."""
+
+
+def offset_in_lane(
+    ctx: Context, arguments: Arguments, member: CastMember, place: LanePosition | None
+) -> float:
+    """Return how far (m) left of the centre of its lane `lateral` puts an actor.
+
+    Raises:
+        Inexpressible: It says no distance, or the width of the lane is not known.
+    """
+    width = None
+    if ctx.roads is not None and place is not None:
+        width = ctx.roads.map.lane_width(place.road, place.lane, place.s)
+    return left_of(arguments, member.shape.width, width)
+
+
+def left_of(arguments: Arguments, own: float, theirs: float | None) -> float:
+    """Return how far (m) left of the centre of a lane or an actor `lateral` puts an actor.
+
+    Args:
+        arguments: Of the modifier.
+        own: Width of the actor (m).
+        theirs: That of the lane or the other actor; `None` if it is not known.
+
+    Raises:
+        Inexpressible: As of `offset_in_lane`.
+    """
+    distance = arguments.number("distance")
+    if distance is None:
+        distance = arguments.number("distance_range")
+    if distance is None:
+        raise Inexpressible("it says no distance", arguments.source.span)
+    side = arguments.member("side", "left")
+    left = -distance if side == "right" else distance
+    measured = arguments.member("measure_by", "center_to_center")
+    if measured == "center_to_center":
+        return left
+    if theirs is None:
+        raise Inexpressible("how wide the lane is is only known during the run")
+    if measured == "closest":
+        reach = 0.5 * (own + theirs)
+        return left + (reach if left > 0.0 or (left == 0.0 and side == "left") else -reach)
+    edge, _, other_edge = measured.split("_")
+    return round(left + EDGES[other_edge] * theirs - EDGES[edge] * own, 6)

@@ -1,0 +1,1 @@
+"""Positions, paths, trajectories and routes."""

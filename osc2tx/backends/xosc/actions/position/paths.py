@@ -1,0 +1,280 @@
+"""Actions along paths and trajectories (§8.8.2.8 to §8.8.2.17) and the modifiers for them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from itertools import pairwise
+
+from osc2tx import ir
+from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
+from osc2tx.backends.xosc.actions.position.line_ends import note_jump, note_slant
+from osc2tx.backends.xosc.actions.position.path_steering import note_schedule, note_steering
+from osc2tx.backends.xosc.actions.position.points_and_lines import (
+    Line,
+    line_of,
+    line_of_route,
+    relative_line,
+)
+from osc2tx.backends.xosc.actions.position.routes import assign_route, lane_position
+from osc2tx.backends.xosc.actions.position.xml_positions import at_place
+from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, modifier
+from osc2tx.backends.xosc.actions.speed.speed_modifiers import may_jump
+from osc2tx.backends.xosc.entities.declared_roads import segment_of
+from osc2tx.backends.xosc.facts.actors import TOP_SPEED
+from osc2tx.backends.xosc.facts.curves import Waypoint, sample_curve
+from osc2tx.backends.xosc.facts.map_search import MapSegment, crossing_of
+from osc2tx.backends.xosc.facts.maps import Pose
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
+from osc2tx.backends.xosc.values.constants import Constant, Named
+from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx_shared.classes import replace
+
+
+@action("follow_path", "replay_path", "follow_trajectory", "replay_trajectory")
+def _on_line(leaf: Leaf) -> Performance:
+    arguments = leaf.arguments
+    offsets = (arguments.number("start_offset") or 0.0, arguments.number("end_offset") or 0.0)
+    reference = arguments.get("reference")
+    transform = arguments.get("transform")
+    if "relative" in arguments:
+        mine: Constant = Named(leaf.member.actor.name)
+        line = relative_line(leaf.ctx, arguments.get("relative"), transform, reference or mine)
+    else:
+        line = line_of(leaf.ctx, arguments.get("absolute"))
+    if leaf.duration is not None:
+        raise Inexpressible("a duration beside that of the way", leaf.node.span)
+    is_exact = leaf.node.action.startswith("replay") or may_jump(leaf)
+    changes = along_line(leaf, line, offsets, is_exact=is_exact)
+    return Performance((*changes, *apply_modifiers(leaf)), "goal")
+
+
+# What says in which lane of a route, or where in it.
+ACROSS = frozenset({"change_lane", "keep_lane", "lane", "lateral"})
+
+
+@modifier("along_trajectory")
+def _along_trajectory(
+    leaf: Leaf, call: ir.ModifierCall, arguments: Arguments
+) -> tuple[Change, ...]:
+    offsets = (arguments.number("start_offset") or 0.0, arguments.number("end_offset") or 0.0)
+    line = line_of(leaf.ctx, arguments.get("trajectory"))
+    return along_line(leaf, line, offsets, is_exact=may_jump(leaf))
+
+
+@modifier("along")
+def _along(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
+    offsets = (arguments.number("start_offset") or 0.0, arguments.number("end_offset") or 0.0)
+    route = arguments.get("route")
+    segment = segment_of(leaf.ctx, route)
+    if segment is not None and crossing_of(segment) is None:
+        beside = [m for m in leaf.node.modifiers if m.name in ACROSS and m.at != "start"]
+        if beside:
+            raise Inexpressible(f"`{beside[0].name}` on a route of the map", beside[0].span)
+        return _along_segment(leaf, segment, offsets)
+    return along_line(leaf, line_of_route(leaf.ctx, route), offsets, is_exact=may_jump(leaf))
+
+
+def _along_segment(
+    leaf: Leaf, segment: MapSegment, offsets: tuple[float, float]
+) -> tuple[Change, ...]:
+    """Return the changes that a route of the map makes: it goes on in the lanes, from wherever."""
+    if offsets[1]:
+        raise Inexpressible("a route of the map that is left before its end", leaf.node.span)
+    action, goal = assign_route(leaf, segment)
+    if leaf.duration is None:
+        there = at_place(leaf.ctx, lane_position(goal), goal, leaf.construct, leaf.node.span)
+        leaf.reached = tuple(map(leaf.on_me, there))
+    after = replace(leaf.state, lane=None).finished(LATERAL)
+    return (Change(LATERAL, (action,), None, after, after),)
+
+
+def along_line(
+    leaf: Leaf, line: Line, offsets: tuple[float, float], *, is_exact: bool
+) -> tuple[Change, ...]:
+    """Return the changes that a path or a trajectory makes."""
+    points = line.points
+    if line.is_timed and points and points[0].time > 0.0:
+        if line.frame is not None or any(offsets):
+            raise Inexpressible("a trajectory that begins later, from wherever the actor is then")
+        points = (_here(leaf), *points)
+    corners = sample_curve(
+        points, is_timed=line.is_timed, is_smooth=line.is_smooth, offsets=offsets
+    )
+    vertices = [_vertex(leaf, line, each) for each in corners]
+    if not (line.is_timed or is_exact or _is_there(leaf, corners[0])) and line.frame is None:
+        vertices = [(0.0, _own_place(leaf)), *vertices]  # it goes to the path, it does not jump
+    if line.is_timed and not is_exact:
+        note_schedule(leaf, corners)
+        if line.frame is None:
+            note_jump(leaf, corners[0])
+    elif not is_exact:
+        note_steering(leaf, line, corners, offsets)
+    action = follow(leaf, vertices, line.is_timed, is_exact)
+    end = corners[-1]
+    if line.is_timed:
+        before = corners[-2]
+        way = math.hypot(end.x - before.x, end.y - before.y)
+        speed = known(way / (end.time - before.time))
+        after = _at_end(leaf, line, corners, replace(leaf.state, speed=speed))
+        during = replace(after, speed=None, lane=None, offset=None, pose=None)
+        return (
+            Change(LONGITUDINAL, (action,), end.time, during, after),
+            Change(LATERAL, (), end.time, during, after),
+        )
+    after = _at_end(leaf, line, corners, leaf.state)
+    during = replace(after, lane=None, offset=None, pose=None)
+    return (Change(LATERAL, (action,), _time(leaf, corners), during, after),)
+
+
+def _time(leaf: Leaf, corners: Sequence[Waypoint]) -> float | None:
+    """Return how long a path takes at the present speed, if that is known."""
+    speed = leaf.state.speed
+    if speed is None or not speed.is_known or leaf.node.modifiers:
+        return None
+    if speed.low <= 0.0:
+        raise Inexpressible(
+            "it stands, and a path says no speed: give it one before", leaf.node.span
+        )
+    way = sum(math.hypot(b.x - a.x, b.y - a.y) for a, b in pairwise(corners))
+    return way / speed.low
+
+
+def _here(leaf: Leaf) -> Waypoint:
+    """Return where an actor is at the start of its action."""
+    pose = leaf.state.pose
+    if pose is None:
+        raise Inexpressible("where it starts from is only known during the run", leaf.node.span)
+    return Waypoint(0.0, pose.x, pose.y, pose.z, None)
+
+
+def _is_there(leaf: Leaf, point: Waypoint) -> bool:
+    """Whether an actor surely begins where a line does: tools set out on no line of no length."""
+    pose, lane, roads = leaf.state.pose, leaf.state.lane, leaf.ctx.roads
+    if pose is None and lane is not None and roads is not None and leaf.is_start:
+        pose = roads.pose(lane)
+    return pose is not None and math.hypot(point.x - pose.x, point.y - pose.y) < 1e-3
+
+
+def _own_place(leaf: Leaf) -> Element:
+    """Return the place of the actor itself."""
+    return element("RelativeObjectPosition", entityRef=leaf.member.name, dx=0.0, dy=0.0)
+
+
+def _at_end(leaf: Leaf, line: Line, corners: Sequence[Waypoint], state: ActorState) -> ActorState:
+    """Return what is known at the end of a way, from what is known of the speed there."""
+    end = corners[-1]
+    lane = pose = offset = None
+    if line.frame is None:
+        pose = None if leaf.state.pose is None else Pose(end.x, end.y, end.z, end.h or 0.0)
+        if pose is None and leaf.ctx.roads is not None:
+            lane = leaf.ctx.roads.locate(end.x, end.y, end.z)
+    if lane is not None:
+        offset = known(round(lane.offset, 6))
+    fastest = TOP_SPEED if state.speed is None else max(map(abs, state.speed))
+    drift = 0.0 if pose is not None else note_slant(leaf, line, corners, lane, fastest)
+    there = replace(state, lane=lane, offset=offset, pose=pose).finished(LATERAL)
+    return replace(there, drift=drift)
+
+
+# --- elements -----------------------------------------------------------------------------------
+
+
+def _vertex(leaf: Leaf, line: Line, point: Waypoint) -> tuple[float, Element]:
+    if line.frame is None:
+        h = None if point.h is None else round(point.h, 9)
+        place = element(
+            "WorldPosition",
+            x=round(point.x, 6),
+            y=round(point.y, 6),
+            z=round(point.z, 6),
+            h=h,
+        )
+        return point.time, place
+    assert line.reference is not None
+    return point.time, _FRAMES[line.frame](leaf, line.reference, point)
+
+
+def _relative(tag: str, leaf: Leaf, reference: str, point: Waypoint) -> Element:
+    return element(
+        tag,
+        entityRef=reference,
+        dx=round(point.x, 6),
+        dy=round(point.y, 6),
+        dz=round(point.z, 6) or None,
+    )
+
+
+def _road_relative(leaf: Leaf, reference: str, point: Waypoint) -> Element:
+    return element(
+        "RelativeRoadPosition", entityRef=reference, ds=round(point.x, 6), dt=round(point.y, 6)
+    )
+
+
+def _lane_relative(leaf: Leaf, reference: str, point: Waypoint) -> Element:
+    along = round(point.x, 6)
+    newer = leaf.ctx.version >= "1.1"
+    return element(
+        "RelativeLanePosition",
+        entityRef=reference,
+        dLane=0,
+        dsLane=along if newer else None,
+        ds=None if newer else along,
+        offset=round(point.y, 6),
+    )
+
+
+_FRAMES: Mapping[str, Callable[[Leaf, str, Waypoint], Element]] = {
+    "object_relative": partial(_relative, "RelativeObjectPosition"),
+    "world_relative": partial(_relative, "RelativeWorldPosition"),
+    "road_relative": _road_relative,
+    "lane_relative": _lane_relative,
+}
+
+
+def follow(
+    leaf: Leaf, vertices: Sequence[tuple[float, Element]], is_timed: bool, is_exact: bool
+) -> Element:
+    """Return the action along a polyline; a tool that ignores times cannot do a timed one."""
+    if is_timed:
+        leaf.ctx.require_support("FollowTrajectoryAction", leaf.node.span)
+    older = leaf.ctx.version == "1.0"
+    trajectory = element(
+        "Trajectory",
+        element(
+            "Shape",
+            element(
+                "Polyline",
+                *(
+                    element(
+                        "Vertex",
+                        element("Position", place),
+                        # 1.0 asks for times even where nobody reads them.
+                        time=round(time, 6) if is_timed else float(number) if older else None,
+                    )
+                    for number, (time, place) in enumerate(vertices)
+                ),
+            ),
+        ),
+        name=leaf.ctx.names.new(f"way_{leaf.event}"),
+        closed=False,
+    )
+    timing = element("Timing", domainAbsoluteRelative="relative", scale=1.0, offset=0.0)
+    return element(
+        "PrivateAction",
+        element(
+            "RoutingAction",
+            element(
+                "FollowTrajectoryAction",
+                trajectory if older else element("TrajectoryRef", trajectory),
+                element("TimeReference", timing if is_timed else element("None")),
+                element(
+                    # Between times tools that `follow` choose speeds of their own.
+                    "TrajectoryFollowingMode",
+                    followingMode="position" if is_exact or is_timed else "follow",
+                ),
+            ),
+        ),
+    )

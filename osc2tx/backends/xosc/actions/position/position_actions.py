@@ -1,0 +1,248 @@
+"""Actions that assign a position or go to one (§8.8.2.4, §8.8.2.5, §8.8.2.11)."""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
+from osc2tx.backends.xosc.actions.position.other_actors import lane_of
+from osc2tx.backends.xosc.actions.position.path_steering import note_steering
+from osc2tx.backends.xosc.actions.position.paths import follow
+from osc2tx.backends.xosc.actions.position.points_and_lines import Line, xml_position
+from osc2tx.backends.xosc.actions.position.xml_positions import (
+    XmlPosition,
+    at_place,
+    world_position,
+)
+from osc2tx.backends.xosc.actions.registry import action, apply_modifiers
+from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
+from osc2tx.backends.xosc.entities.cast import VEHICLE, CastMember
+from osc2tx.backends.xosc.facts.actors import CRUISE
+from osc2tx.backends.xosc.facts.curves import Waypoint
+from osc2tx.backends.xosc.facts.maps import Pose
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
+from osc2tx.backends.xosc.values.constants import Member, Named
+from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx_shared.classes import replace
+
+
+@action("assign_position", takes=(LATERAL,))
+def _assign_position(leaf: Leaf) -> Performance:
+    names = ("position", "route_point", "odr_point")
+    name = next((each for each in names if each in leaf.arguments), None)
+    if name is not None:
+        target = xml_position(leaf.ctx, leaf.arguments.get(name))
+        return Performance(_put(leaf, target), "goal")
+    return Performance(_put(leaf, _beside(leaf)), "goal")
+
+
+def _put(leaf: Leaf, target: XmlPosition) -> tuple[Change, ...]:
+    place = target.element
+    state = leaf.state
+    if leaf.member.walks and target.pose is not None:
+        pose = target.pose  # which looks along the road: a point has no heading
+        place, after = world_position(pose), replace(state, pose=pose, lane=None, offset=None)
+    else:
+        offset = None if target.lane is None else known(round(target.lane.offset, 6))
+        after = replace(state, lane=target.lane, offset=offset, pose=None)
+    return (Change(LATERAL, (_teleport(leaf, place),), 0.0, after, after),)
+
+
+def _beside(leaf: Leaf) -> XmlPosition:
+    """Return the place that modifiers give relative to another actor."""
+    lanes, along, left = 0, 0.0, 0.0
+    references: list[CastMember] = []
+    for call in leaf.node.modifiers:
+        with leaf.ctx.report_as(f"modifier {call.name}", call.span):
+            arguments = Arguments(leaf.ctx, call.arguments, call)
+            match call.name:
+                case "lane":
+                    lanes, other = _lanes(arguments)
+                case "position":
+                    along, other = _distance(arguments)
+                case _:
+                    raise Inexpressible(f"`{call.name}` of a place to be put to", call.span)
+            arguments.finish()
+            references.append(other)
+    if not references or len({each.name for each in references}) > 1:
+        raise Inexpressible("it is put relative to none or to several actors", leaf.node.span)
+    reference = references[0]
+    place = beside(leaf, reference, lanes, along, left)
+    lane, roads = lane_of(leaf, reference), leaf.ctx.roads
+    on = None
+    if lane is not None and roads is not None:
+        on = roads.beside(lane, lanes)
+        if on is None:
+            raise Inexpressible(f"there is no such lane beside that of {reference.name}")
+    return XmlPosition(place, on, None)
+
+
+def _lanes(arguments: Arguments) -> tuple[int, CastMember]:
+    same, side = arguments.entity("same_as"), arguments.entity("side_of")
+    if same is not None:
+        return 0, same
+    if side is None:
+        raise Inexpressible("a lane by its number, at a place that is only known during the run")
+    number = arguments.number("lane")
+    count = 1 if number is None else round(number)
+    return (count if arguments.member("side", "left") == "left" else -count), side
+
+
+def _distance(arguments: Arguments) -> tuple[float, CastMember]:
+    ahead, behind = arguments.entity("ahead_of"), arguments.entity("behind")
+    distance = arguments.number("distance")
+    reference = ahead or behind
+    if reference is None or distance is None:
+        raise Inexpressible("only a distance ahead of or behind an actor can be said")
+    return (distance if ahead is not None else -distance), reference
+
+
+def beside(leaf: Leaf, reference: CastMember, lanes: int, along: float, offset: float) -> Element:
+    """Return the place so many lanes to the left of another actor and so far ahead of it (m)."""
+    ctx = leaf.ctx
+    lane = lane_of(leaf, reference)
+    newer = ctx.version >= "1.1"
+    if not newer and (lane is None or lane.lane > 0):
+        raise Inexpressible(
+            "OpenSCENARIO XML 1.0 counts along the road, not in the direction of travel",
+            leaf.node.span,
+            Remedy(version="1.1"),
+        )
+    return element(
+        "RelativeLanePosition",
+        entityRef=reference.name,
+        dLane=lanes,
+        dsLane=along if newer else None,
+        ds=None if newer else along,
+        offset=offset,
+    )
+
+
+def _teleport(leaf: Leaf, place: Element) -> Element:
+    """Return the action that puts an actor somewhere, who may be on its way."""
+    if leaf.member.kind == VEHICLE or leaf.state.speed != known(0.0):
+        leaf.ctx.require_support("TeleportAction/moving", leaf.node.span)
+    return element("PrivateAction", element("TeleportAction", element("Position", place)))
+
+
+@action("assign_orientation")
+def _assign_orientation(leaf: Leaf) -> Performance:
+    ctx, given = leaf.ctx, leaf.arguments.get("orientation")
+    if not isinstance(given, Named):
+        raise Inexpressible("the orientation is only known during the run", leaf.node.span)
+    if not leaf.member.walks:
+        raise Inexpressible("a vehicle follows its lane, whatever its orientation")
+    angles = {}
+    for attribute, name in (("h", "yaw"), ("p", "pitch"), ("r", "roll")):
+        value = ctx.values.field(given.name, (name,))
+        angles[attribute] = float(value) if isinstance(value, (int, float)) else 0.0
+    h, pose = round(angles["h"], 9), leaf.state.pose
+    if pose is not None:
+        pose = pose._replace(h=h, pitch=round(angles["p"], 9), roll=round(angles["r"], 9))
+        place = world_position(pose)
+    else:
+        turn = element(
+            "Orientation",
+            type="absolute",
+            h=h,
+            p=round(angles["p"], 9) or None,
+            r=round(angles["r"], 9) or None,
+        )
+        place = element("RelativeObjectPosition", turn, entityRef=leaf.member.name, dx=0.0, dy=0.0)
+    after = replace(leaf.state, pose=pose)
+    return Performance((Change(LATERAL, (_teleport(leaf, place),), 0.0, after, after),), "goal")
+
+
+@action("change_position")
+def _change_position(leaf: Leaf) -> Performance:
+    arguments = leaf.arguments
+    names = ("target_position", "target_xyz", "target_st", "target_odr")
+    name = next((each for each in names if each in arguments), None)
+    if name is None:
+        raise Inexpressible("it says no place", leaf.node.span)
+    target = xml_position(leaf.ctx, arguments.get(name))
+    joined, on_network = arguments.get("interpolation"), arguments.get("on_road_network")
+    is_smooth = isinstance(joined, Member) and joined.name == "smooth"
+    if leaf.duration is not None:
+        raise Inexpressible("a duration beside that of the way", leaf.node.span)
+    if on_network if on_network is not None else not leaf.member.walks:
+        return _acquire(leaf, target)
+    if is_smooth:
+        raise Inexpressible("a curve from wherever it is then", leaf.node.span)
+    return _straight_to(leaf, target)
+
+
+def _acquire(leaf: Leaf, target: XmlPosition) -> Performance:
+    """Return the way along lanes; it is over where the place is reached, not where the route is."""
+    state = leaf.state
+    if state.speed is None or state.speed.low <= 0.0:
+        raise Inexpressible("it may stand, and a place says no speed", leaf.node.span)
+    position = element("Position", target.element)
+    acquire = element("RoutingAction", element("AcquirePositionAction", position))
+    after = replace(state, lane=target.lane, offset=known(0.0)).finished(LATERAL)
+    change = Change(
+        LATERAL, (element("PrivateAction", acquire),), None, replace(state, lane=None), after
+    )
+    there = at_place(leaf.ctx, target.element, target.lane, leaf.construct, leaf.node.span)
+    reached = tuple(map(leaf.on_me, there))
+    return Performance((change, *apply_modifiers(leaf)), "goal", reached=reached)
+
+
+def _straight_to(leaf: Leaf, target: XmlPosition) -> Performance:
+    """Return a straight way off the lanes."""
+    here, there = leaf.state.pose, target.pose
+    if there is None:
+        raise Inexpressible("where the point is needs the map, which is not at hand")
+    if here is None:
+        start = element("RelativeObjectPosition", entityRef=leaf.member.name, dx=0.0, dy=0.0)
+        goal = world_position(there)
+        time = None
+    else:
+        heading = math.atan2(there.y - here.y, there.x - here.x)
+        start = world_position(here._replace(h=heading))
+        there = Pose(there.x, there.y, there.z, heading)
+        goal = world_position(there)
+        time = math.hypot(there.x - here.x, there.y - here.y)
+    speed = leaf.state.speed
+    actions: tuple[Element, ...] = ()
+    v = speed.low if speed is not None and speed.is_known else None
+    if v == 0.0:
+        v = CRUISE
+        actions = (speed_action(v, "step", "time", 0.0),)
+    changes = apply_modifiers(leaf)
+    is_timed = time is not None and v is not None and not changes
+    length = time / v if time is not None and v is not None else None
+    _note_turn(leaf, here, there, v)
+    vertices = [(0.0, start), (length or 1.0, goal)]
+    move = follow(leaf, vertices, is_timed, False)
+    after = ActorState(
+        speed=speed if v is None else known(v),
+        offset=None,
+        pose=there,
+        rate=0.0,
+        unfinished=leaf.state.unfinished,
+    )
+    during = replace(after, pose=None)
+    return Performance(
+        (
+            Change(LATERAL, (move,), length, during, after),
+            *((Change(LONGITUDINAL, actions, 0.0, after, after),) if actions else ()),
+            *changes,
+        ),
+        "goal",
+    )
+
+
+def _note_turn(leaf: Leaf, here: Pose | None, there: Pose, speed: float | None) -> None:
+    """Report by how much the curve in which an actor turns to its place is beside the line."""
+    if here is None:
+        leaf.ctx.report.approximate(
+            leaf.construct,
+            leaf.node.span,
+            "how it looks when it sets out is only known during the run, so it turns at once",
+            "at most the circle in which it turns, and later by the time that this takes",
+        )
+        return
+    ends = [Waypoint(0.0, each.x, each.y, each.z) for each in (here, there)]
+    note_steering(leaf, Line(tuple(ends), False, False), ends, (0.0, 0.0), speed)

@@ -1,0 +1,132 @@
+"""Walkers off the lanes: trajectories straight on.
+
+Most tools move a pedestrian along the lane when they are told a speed, whatever its heading; only
+a trajectory takes it across the road.
+"""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx.backends.xosc.actions.leaf import Change, Leaf
+from osc2tx.backends.xosc.actions.position.paths import follow
+from osc2tx.backends.xosc.actions.speed.speed_changes import jump_to
+from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
+from osc2tx.backends.xosc.entities.cast import PEDESTRIAN
+from osc2tx.backends.xosc.facts.actors import Profile, course_of_speed
+from osc2tx.backends.xosc.facts.curves import Waypoint, thinned
+from osc2tx.backends.xosc.facts.maps import Pose
+from osc2tx.backends.xosc.report import Inexpressible, Metres
+from osc2tx.backends.xosc.state import WAY, known
+from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx_shared.classes import replace
+
+SAMPLES = 20
+"""Points of a change of the speed, before those that are not needed are left out."""
+
+LONG = 3600.0
+"""Seconds of the last stretch of a trajectory; something else ends it."""
+
+PIECES = 64
+"""Pieces of a change of the speed for the sum of its way."""
+
+
+def walk_on(leaf: Leaf, target: float | None) -> Change:
+    """Return the walk straight on at a speed (m/s), or at the present one."""
+    state = leaf.state
+    if state.speed is None or not state.speed.is_known or state.pose is None:
+        raise Inexpressible("where and how fast it walks is not known", leaf.node.span)
+    start = state.speed.low
+    goal = start if target is None else target
+    course = course_of_speed(start, goal, "none", None, None, leaf.limits)
+    action = _straight_on(leaf, state.pose, course)
+    during = replace(state, speed=state.speed.over(known(goal)), pose=None)
+    if leaf.duration is None:
+        return Change(WAY, (action,), None, during, during)
+    pose = _ahead(state.pose, _covered(course, leaf.duration))
+    after = replace(state, speed=known(course.value(leaf.duration)), pose=pose)
+    return Change(WAY, (action,), leaf.duration, during, after)
+
+
+def change_pace(leaf: Leaf, goal: float, course: Profile) -> Change:
+    """Return the walk straight on during which the speed comes to a goal (m/s), and on."""
+    state = leaf.state
+    assert state.pose is not None
+    action = _straight_on(leaf, state.pose, course)
+    pose = _ahead(state.pose, _covered(course, course.duration))
+    after = replace(state, speed=known(goal), pose=pose)
+    passed = known(goal) if state.speed is None else state.speed.over(known(goal))
+    during = replace(after, speed=passed, pose=None)
+    return Change(WAY, (action,), course.duration, during, after)
+
+
+def stand(leaf: Leaf) -> Change:
+    """Return the stop of a walker."""
+    state = leaf.state
+    if state.pose is None or state.speed is None or not state.speed.is_known:
+        change = jump_to(leaf, 0.0)
+        fastest = 3.0 if state.speed is None else state.speed.high
+        course = course_of_speed(fastest, 0.0, "asap", None, None, leaf.limits)
+        leaf.ctx.report.approximate(
+            f"action {leaf.node.action}",
+            leaf.node.span,
+            "where it stops is only known during the run, so it stops at once",
+            Metres(
+                _covered(course, course.duration), "before the place where it would have stopped"
+            ),
+        )
+        return change
+    course = course_of_speed(state.speed.low, 0.0, "asap", None, None, leaf.limits)
+    return change_pace(leaf, 0.0, course)
+
+
+def _straight_on(leaf: Leaf, start: Pose, course: Profile) -> Element:
+    """Return the action with which a walker goes on along its heading until something else."""
+    keeps_heading = leaf.ctx.profile.walkers_keep_heading and leaf.member.kind == PEDESTRIAN
+    if not keeps_heading:
+        return _trajectory(leaf, start, course)
+    goal = course.value(course.duration)
+    shape = "linear" if course.duration else "step"
+    return speed_action(goal, shape, "time", course.duration)
+
+
+def _trajectory(leaf: Leaf, start: Pose, course: Profile) -> Element:
+    """Return the way of a walker; its last stretch is long."""
+    times = [0.0]
+    if course.duration > 0.0:
+        times += [course.duration * index / SAMPLES for index in range(1, SAMPLES + 1)]
+    times.append(times[-1] + LONG)
+    places = ((time, _ahead(start, _covered(course, time))) for time in times)
+    points = [Waypoint(time, place.x, place.y, place.z, place.h) for time, place in places]
+    vertices = [
+        (
+            point.time,
+            element(
+                "WorldPosition",
+                x=round(point.x, 6),
+                y=round(point.y, 6),
+                z=point.z,
+                h=round(start.h, 9),
+            ),
+        )
+        for point in thinned(points, is_timed=True)
+    ]
+    return follow(leaf, vertices, is_timed=True, is_exact=True)
+
+
+def _ahead(pose: Pose, way: float) -> Pose:
+    """Return the pose so far (m) straight on."""
+    x, y = pose.x + way * math.cos(pose.h), pose.y + way * math.sin(pose.h)
+    return Pose(x, y, pose.z, pose.h)
+
+
+def _covered(course: Profile, time: float) -> float:
+    """Return the way (m) covered after a time: Simpson's rule, then the speed at the end."""
+    changing = min(time, course.duration)
+    step = changing / PIECES
+    way = (time - changing) * course.value(course.duration)
+    for index in range(PIECES):
+        left, right = index * step, (index + 1) * step
+        middle = 0.5 * (left + right)
+        way += (course.value(left) + 4.0 * course.value(middle) + course.value(right)) / 6.0 * step
+    return way

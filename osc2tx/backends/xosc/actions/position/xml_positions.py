@@ -1,0 +1,191 @@
+"""Positions of the XML: on a road, in the world, on the globe."""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.values.constants import Constant, MethodResult, Named
+from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.diagnostics import Span
+from osc2tx_shared.classes import dataclass
+
+REACHED = 1.0
+"""Metres from a place that count as being there where it cannot be said more exactly."""
+
+BEFORE = 5.0
+"""Metres before a place where another one lies: who is near the one and so far from the other has
+come to it. No step is as long."""
+
+SURE = 0.001
+"""Metres by which a distance may be short, as 1.0 cannot say `at least`."""
+
+GLOBE = "GeoPosition"
+
+UNKNOWN = "the point is only known during the run"
+
+
+@dataclass(frozen=True, slots=True)
+class XmlPosition:
+    """A position of the XML, and what is known of the place.
+
+    Attributes:
+        element: Below `Position`.
+        lane: The lane it is on; `None` if unknown, or on none.
+        pose: Where it is in the world, if that is known.
+    """
+
+    element: Element
+    lane: LanePosition | None
+    pose: Pose | None
+
+
+def at_world(ctx: Context, x: float, y: float, z: float) -> XmlPosition:
+    """Return a place in the world; whoever is there looks along the road."""
+    lane = None if ctx.roads is None else ctx.roads.locate(x, y, z)
+    heading = 0.0 if ctx.roads is None else ctx.roads.direction_at(x, y, z)
+    pose = Pose(x, y, z, heading)
+    return XmlPosition(world_position(pose), lane, pose)
+
+
+def at_place(
+    ctx: Context, place: Element, lane: LanePosition | None, construct: str, span: Span
+) -> tuple[Element, ...]:
+    """Return the conditions to have come to a place along its lane; all have to hold.
+
+    Args:
+        ctx: The context.
+        place: The place.
+        lane: The same on a lane of the map; `None` if that is not known.
+        construct: What is reported where they say it nearly only.
+        span: Where that stands.
+    """
+    before = None if lane is None or ctx.roads is None else ctx.roads.ahead(lane, -BEFORE)
+    if before is None or ctx.profile.latches_conditions:
+        bound = f"it counts as there at most {REACHED:g} m before the place"
+        ctx.report.approximate(construct, span, "a place is a circle about a point", bound)
+        return (_distance(ctx, place, REACHED, "lessThan"),)
+    there = element(
+        "LanePosition",
+        roadId=before.road,
+        laneId=before.lane,
+        s=round(before.s, 6),
+        offset=round(before.offset, 6) or 0.0,
+    )
+    return (
+        _distance(ctx, place, BEFORE, "lessThan"),
+        _distance(ctx, there, BEFORE - SURE, "greaterThan"),
+    )
+
+
+def _distance(ctx: Context, place: Element, metres: float, rule: str) -> Element:
+    return element(
+        "DistanceCondition",
+        element("Position", place),
+        value=metres,
+        freespace=False,
+        rule=rule,
+        alongRoute=False if ctx.version == "1.0" else None,
+    )
+
+
+def world_position(pose: Pose) -> Element:
+    """Return the element of a pose in the world."""
+    return element(
+        "WorldPosition",
+        x=round(pose.x, 6),
+        y=round(pose.y, 6),
+        z=round(pose.z, 6),
+        h=round(pose.h, 9),
+        p=round(pose.pitch, 9) or None,
+        r=round(pose.roll, 9) or None,
+    )
+
+
+def on_road(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
+    """Return a place on a road or in a lane, from its coordinates."""
+    road, lane = parts.get("road_id"), parts.get("lane_id")
+    s, t = number_of(parts.get("s")), number_of(parts.get("t"))
+    if not isinstance(road, str):
+        raise Inexpressible("the point names no road")
+    if not isinstance(lane, str) or lane == "":
+        return XmlPosition(element("RoadPosition", roadId=road, s=s, t=t), None, None)
+    if not lane.removeprefix("-").isdecimal():
+        raise Inexpressible(f"`{lane}` is no number of a lane")
+    number = int(lane)
+    place = element("LanePosition", roadId=road, laneId=number, s=s, offset=t)
+    if ctx.roads is None:
+        return XmlPosition(place, None, None)
+    on = ctx.roads.place(road, number, s, t)
+    return XmlPosition(place, on, ctx.roads.pose(on))
+
+
+def on_earth(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
+    """Return a place on the globe; where the map says where it lies, its place in the world too."""
+    latitude, longitude = number_of(parts.get("latitude")), number_of(parts.get("longitude"))
+    altitude = number_of(parts.get("altitude"))
+    pose = None if ctx.roads is None else ctx.roads.on_earth(latitude, longitude, altitude)
+    if pose is not None and not ctx.can(GLOBE, "1.1"):
+        return at_world(ctx, pose.x, pose.y, pose.z)
+    ctx.require("a geodetic position", "1.1")
+    ctx.require_support(GLOBE)
+    lane = None
+    if ctx.roads is not None and pose is not None:
+        lane = ctx.roads.locate(pose.x, pose.y, pose.z)
+    place = element(
+        GLOBE,
+        latitudeDeg=round(math.degrees(latitude), 9),
+        longitudeDeg=round(math.degrees(longitude), 9),
+        altitude=altitude or None,
+    )
+    if ctx.version == "1.1":
+        place = element(GLOBE, latitude=latitude, longitude=longitude, height=altitude or None)
+    return XmlPosition(place, lane, pose)
+
+
+def parts_of(ctx: Context, point: Constant | None) -> tuple[str, dict[str, Constant]]:
+    """Return the kind of a point and its coordinates."""
+    if isinstance(point, MethodResult):
+        given = dict(point.arguments)
+        if point.method in ("create_odr_point", "odr_to_route_point"):
+            return "odr_point", given
+        if point.method == "create_route_point":
+            return "route_point", given
+        if point.method == "create_xyz_point":
+            return "xyz", given
+        raise Inexpressible(f"`{point.method}` makes no place that is known before the run")
+    if not isinstance(point, Named):
+        raise Inexpressible(UNKNOWN)
+    kind = ctx.values.type_of(point.name)
+    names = {
+        "position_3d": "xyz",
+        "odr_point": ("road_id", "lane_id", "s", "t"),
+        "route_point": ("route", "s", "t"),
+        "geodetic_point": ("latitude", "longitude", "altitude"),
+        "geodetic_position_2d": ("latitude", "longitude"),
+    }
+    if kind == "xyz_point":
+        inner = ctx.values.field(point.name, ("position",))
+        if inner is not None:
+            return parts_of(ctx, inner)
+        found = {name: ctx.values.field(point.name, ("position", name)) for name in "xyz"}
+        return "xyz", {name: value for name, value in found.items() if value is not None}
+    if kind not in names:
+        raise Inexpressible(f"a `{kind}` is no place that the map alone gives")
+    fields = {name: ctx.values.field(point.name, (name,)) for name in names[kind]}
+    return kind, {name: value for name, value in fields.items() if value is not None}
+
+
+def number_of(value: Constant | None) -> float:
+    """Return a coordinate; 0 if it is left out.
+
+    Raises:
+        Inexpressible: It is not known before the run.
+    """
+    if value is None:
+        return 0.0
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise Inexpressible(UNKNOWN)
+    return float(value)

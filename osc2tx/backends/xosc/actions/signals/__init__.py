@@ -1,0 +1,1 @@
+"""Traffic lights and vehicle lights."""

@@ -1,0 +1,1 @@
+"""Speeds, accelerations, and gaps to other actors."""

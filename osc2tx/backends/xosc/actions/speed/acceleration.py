@@ -1,0 +1,211 @@
+"""Actions on the acceleration (§8.8.2.7, §8.8.2.14, §8.8.2.15) and its modifier (§8.9.7).
+
+The XML knows changes of the speed only: an acceleration that lasts is a linear change of the
+speed, one that changes is a course through points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from osc2tx import ir
+from osc2tx.backends.xosc.actions.leaf import (
+    Arguments,
+    Change,
+    Leaf,
+    Performance,
+    Uneven,
+)
+from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, modifier
+from osc2tx.backends.xosc.actions.speed.speed_changes import PROFILE_ACTION, through_points
+from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
+from osc2tx.backends.xosc.actions.speed.speed_notes import with_profiles
+from osc2tx.backends.xosc.actions.speed.user_shapes import acceleration_by, user_shape
+from osc2tx.backends.xosc.facts.actors import (
+    TOP_SPEED,
+    Linear,
+    Quintic,
+    apart,
+    course_of_acceleration,
+    way_between,
+)
+from osc2tx.backends.xosc.flattening.tree_queries import follower
+from osc2tx.backends.xosc.report import Inexpressible, Metres
+from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
+from osc2tx.backends.xosc.values.constants import Member, Named
+from osc2tx.backends.xosc.xml.tree import Element
+from osc2tx_shared.classes import dataclass, replace
+
+
+@action("assign_acceleration")
+def _assign_acceleration(leaf: Leaf) -> Performance:
+    rate = leaf.arguments.number("acceleration")
+    if rate is None:
+        raise Inexpressible("it says no acceleration", leaf.node.span)
+    after = follower(leaf.ctx.scenario.body, leaf.node)
+    if after is None or after.action != "keep_acceleration":
+        raise Inexpressible(
+            "the XML has no acceleration, only changes of the speed: `keep_acceleration` has to"
+            " follow, which says for how long",
+            leaf.node.span,
+        )
+    state = replace(leaf.state.finished(LONGITUDINAL), rate=rate)
+    return Performance((Change(LONGITUDINAL, (), 0.0, state, state),), "goal")
+
+
+@action("keep_acceleration")
+def _keep_acceleration(leaf: Leaf) -> Performance:
+    if leaf.state.rate is None:
+        raise Inexpressible("the present acceleration is only known during the run")
+    return Performance((accelerated(leaf, leaf.state.rate), *apply_modifiers(leaf)), "open")
+
+
+@action("change_acceleration")
+def _change_acceleration(leaf: Leaf) -> Performance:
+    arguments = leaf.arguments
+    target = arguments.number("target")
+    profile = arguments.member("rate_profile", "none")
+    peak = arguments.number("rate_peak")
+    if target is None or leaf.state.rate is None:
+        raise Inexpressible("the acceleration before or after is not known", leaf.node.span)
+    duration = leaf.duration if peak is None and profile != "asap" else None
+    course = course_of_acceleration(leaf.state.rate, target, profile, peak, duration, leaf.limits)
+    change = _ramp(leaf, course, course.duration)
+    return Performance((change, *apply_modifiers(leaf)), "goal")
+
+
+@modifier("acceleration")
+def _acceleration(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
+    if call.at != "all":
+        raise Inexpressible(f"an acceleration at the {call.at} only", call.span)
+    own = user_shape(arguments)
+    if own is not None:
+        return (acceleration_by(leaf, own),)
+    profile, peak, target = shape_of(leaf, arguments)
+    for name in ("acceleration", "acceleration_range"):
+        given = arguments.number(name)
+        target = given if given is not None else target
+    if target is None:
+        raise Inexpressible("it says no acceleration", call.span)
+    if any(other.name == "speed" and other.at != "start" for other in leaf.node.modifiers):
+        return ()  # it says how fast the speed is reached, see `speed`
+    if "shape" not in arguments:
+        return (accelerated(leaf, target),)
+    if leaf.duration is None:
+        raise Inexpressible("how long the acceleration lasts is only known during the run")
+    if leaf.state.rate is None:
+        raise Inexpressible("the present acceleration is only known during the run")
+    course = course_of_acceleration(leaf.state.rate, target, profile, peak, None, leaf.limits)
+    return (_ramp(leaf, course, leaf.duration),)
+
+
+def shape_of(leaf: Leaf, arguments: Arguments) -> tuple[str, float | None, float | None]:
+    """Return profile, peak and target of a `shape`; `none` without one.
+
+    Raises:
+        Inexpressible: It is a shape of the scenario's own.
+    """
+    shape = arguments.get("shape")
+    if shape is None:
+        return "none", None, None
+    values = leaf.ctx.values
+    if not isinstance(shape, Named) or not values.is_library_shape(shape.name):
+        raise Inexpressible("a shape of its own is computed during the run")
+    profile = values.field(shape.name, ("rate_profile",))
+    peak, target = (values.field(shape.name, (name,)) for name in ("rate_peak", "target"))
+    return (
+        profile.name if isinstance(profile, Member) else "none",
+        float(peak) if isinstance(peak, (int, float)) else None,
+        float(target) if isinstance(target, (int, float)) else None,
+    )
+
+
+def accelerated(leaf: Leaf, rate: float) -> Change:
+    """Return a constant acceleration (m/s^2) while the action lasts; it ends at a stand."""
+    state, duration = leaf.state, leaf.duration
+    if rate == 0.0:
+        return Change(LONGITUDINAL, (), 0.0, state, state)
+    goal = TOP_SPEED if rate > 0.0 else 0.0
+    if duration is None or state.speed is None or not state.speed.is_known:
+        # Whatever ends it cuts the change short.
+        speed = None if state.speed is None else state.speed.over(known(goal))
+        during = replace(state.finished(LONGITUDINAL), speed=speed, rate=rate)
+        after = replace(during, speed=known(goal), rate=0.0)
+        return Change(
+            LONGITUDINAL, (speed_action(goal, "linear", "rate", abs(rate)),), None, during, after
+        )
+    start = state.speed.low
+    end = start + rate * duration
+    if rate < 0.0 and end < 0.0 <= start:
+        end, duration = 0.0, -start / rate
+    after = replace(state.finished(LONGITUDINAL), speed=known(end), rate=rate if end else 0.0)
+    during = replace(after, speed=state.speed.over(known(end)))
+    leaf.course = Linear(start, end, duration)
+    return Change(
+        LONGITUDINAL, (speed_action(end, "linear", "time", duration),), duration, during, after
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Ramp:
+    """The speed while the acceleration takes a course and then stays.
+
+    Attributes:
+        start: Speed (m/s).
+        rates: Course of the acceleration (m/s^2).
+        duration: Seconds.
+    """
+
+    start: float
+    rates: Linear | Quintic
+    duration: float
+
+    def value(self, t: float) -> float:
+        """Return the speed (m/s) after some seconds; it does not go through a stand."""
+        whole = self.rates.duration
+        inside = min(t, whole)
+        steps = 40
+        step = inside / steps
+        speed = self.start + self.rates.end * (t - inside)
+        for index in range(steps):  # Simpson's rule, exact for profiles up to cubic ones
+            left = index * step
+            values = (self.rates.value(left + part * step) for part in (0.0, 0.5, 1.0))
+            speed += step / 6.0 * _simpson(values)
+        return max(speed, 0.0) if self.start >= 0.0 else speed
+
+
+def _simpson(values: Iterable[float]) -> float:
+    left, middle, right = values
+    return left + 4.0 * middle + right
+
+
+def _ramp(leaf: Leaf, course: Linear | Quintic, duration: float) -> Change:
+    """Return the change of the speed that a course of the acceleration makes."""
+    state = leaf.state
+    if state.speed is None or not state.speed.is_known:
+        raise Inexpressible("the speed at the start is only known during the run", leaf.node.span)
+    start = state.speed.low
+    ramp = Ramp(start, course, duration)
+    end = ramp.value(duration)
+    after = replace(state.finished(LONGITUDINAL), speed=known(end), rate=course.end)
+    points = [ramp.value(0.05 * index * duration) for index in range(21)]
+    during = replace(after, speed=Interval(min(points), max(points)))
+    leaf.course = ramp
+    if duration == 0.0:
+        return Change(LONGITUDINAL, (), 0.0, after, after)
+    return Change(LONGITUDINAL, (_drawn(leaf, ramp, points),), duration, during, after)
+
+
+def _drawn(leaf: Leaf, ramp: Ramp, points: list[float]) -> Element:
+    if leaf.ctx.can(PROFILE_ACTION, "1.2"):
+        return through_points(ramp)
+    even = Linear(points[0], points[-1], ramp.duration)
+    leaf.uneven = Uneven(apart(ramp, even), ramp.duration)
+    leaf.ctx.report.approximate(
+        leaf.construct,
+        leaf.node.span,
+        "a change of the acceleration needs SpeedProfileAction; the speed changes evenly instead",
+        Metres(way_between(ramp, even), "ahead or behind; the speed at its end is exact"),
+        with_profiles(leaf.ctx),
+    )
+    return speed_action(even.end, "linear", "time", ramp.duration)

@@ -1,0 +1,112 @@
+"""Gaps and headways to another actor (§8.8.3.4 to §8.8.3.11).
+
+A gap counts between facing ends or sides, as a distance with free space does in the XML; a headway
+counts between fronts, the XML between reference points. A gap that is to be kept is the one that
+there is, which the XML cannot ask for: it has to be known from what stands before.
+"""
+
+from __future__ import annotations
+
+from osc2tx import ir
+from osc2tx.backends.xosc.actions.leaf import Arguments, Leaf, Performance
+from osc2tx.backends.xosc.actions.registry import action, apply_modifiers
+from osc2tx.backends.xosc.actions.speed.gap_elements import SIDES, Gap, reach
+from osc2tx.backends.xosc.entities.cast import CastMember
+from osc2tx.backends.xosc.flattening.tree_queries import predecessor
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx_shared.classes import replace
+
+OPPOSITE = {"ahead": "behind", "behind": "ahead", "left": "right", "right": "left"}
+
+
+@action("change_space_gap", "change_time_gap", "change_space_headway", "change_time_headway")
+def _change_gap(leaf: Leaf) -> Performance:
+    gap = _asked_for(leaf, leaf.node, leaf.arguments)
+    change = reach(leaf, gap, keeps=False)
+    if leaf.node.duration is not None:
+        leaf.ctx.report.approximate(
+            leaf.construct,
+            leaf.node.duration.span,
+            "an action on a distance takes as long as the tool wants",
+            "the distance is reached, but not at that time",
+        )
+    return Performance((change, *apply_modifiers(leaf)), "goal")
+
+
+@action("keep_space_gap", "keep_time_gap", "keep_space_headway", "keep_time_headway")
+def _keep_gap(leaf: Leaf) -> Performance:
+    reference = leaf.arguments.entity("reference")
+    direction = leaf.arguments.member("direction", "longitudinal")
+    if reference is None:
+        raise Inexpressible("it names no actor", leaf.node.span)
+    is_time, is_headway = "_time_" in leaf.node.action, leaf.node.action.endswith("headway")
+    found = _reached_before(leaf, reference, direction, is_time, is_headway)
+    missing: float | None = 0.0
+    if found is None and direction == "longitudinal" and leaf.is_start:
+        found = _at_start(leaf, reference, is_time, is_headway)
+        same = leaf.state.speed == leaf.ctx.at_start[reference.name].speed
+        missing = 0.0 if same else None
+    if found is None:
+        raise Inexpressible(
+            "the present gap is not known before the run, and the XML has no action that keeps it",
+            leaf.node.span,
+        )
+    change = reach(leaf, found, keeps=True, missing=missing)
+    return Performance((change, *apply_modifiers(leaf)), "open")
+
+
+def _asked_for(leaf: Leaf, node: ir.Invoke, arguments: Arguments) -> Gap:
+    """Return the gap that a `change_…` asks for; a negative one is on the other side."""
+    target, reference = arguments.number("target"), arguments.entity("reference")
+    side = arguments.member("direction", "")
+    if side in ("inside", "outside"):
+        roads, lane = leaf.ctx.roads, leaf.state.lane
+        is_right_hand = roads is None or lane is None or roads.is_right_hand(lane.road)
+        side = "left" if (side == "inside") is is_right_hand else "right"
+    if target is None or reference is None or side not in SIDES:
+        raise Inexpressible("it needs a target, a direction and a reference", node.span)
+    if target < 0.0:
+        target, side = -target, OPPOSITE[side]
+    is_time, is_headway = "_time_" in node.action, node.action.endswith("headway")
+    return Gap(reference, side, target, is_time, is_headway)
+
+
+def _reached_before(
+    leaf: Leaf, reference: CastMember, direction: str, is_time: bool, is_headway: bool
+) -> Gap | None:
+    """Return the gap that the invocation before has made."""
+    before = predecessor(leaf.ctx.scenario.body, leaf.node)
+    if before is None or not before.action.startswith(("change_space_", "change_time_")):
+        return None
+    if before.until or before.actor is None:
+        return None
+    if leaf.ctx.values.actor(before.actor) != leaf.member.actor.name:
+        return None
+    gap = _asked_for(leaf, before, Arguments(leaf.ctx, before.arguments, before))
+    same = (gap.reference.name, gap.is_time, gap.is_lateral)
+    if same != (reference.name, is_time, direction == "lateral"):
+        return None
+    if gap.is_headway is is_headway:
+        return gap
+    if is_time:
+        return None
+    leading = (reference if gap.side == "behind" else leaf.member).shape.length
+    size = gap.size + leading if is_headway else gap.size - leading
+    return replace(gap, size=size, is_headway=is_headway)
+
+
+def _at_start(leaf: Leaf, reference: CastMember, is_time: bool, is_headway: bool) -> Gap | None:
+    """Return the gap of the initial placement."""
+    apart = leaf.ctx.init_gaps.get((leaf.member.name, reference.name))
+    if apart is None:
+        return None
+    me, other = leaf.member.shape, reference.shape
+    side = "behind" if apart > 0.0 else "ahead"
+    behind, ahead = (me, other) if side == "behind" else (other, me)
+    size = abs(apart) - behind.front + (ahead.front if is_headway else -ahead.rear)
+    if is_time:
+        trailing = leaf.state if side == "behind" else leaf.ctx.at_start[reference.name]
+        if trailing.speed is None or not trailing.speed.is_known or trailing.speed.low <= 0.0:
+            return None
+        size /= trailing.speed.low
+    return Gap(reference, side, max(size, 0.0), is_time, is_headway)

@@ -1,0 +1,119 @@
+"""Speeds as elements."""
+
+from __future__ import annotations
+
+from math import ceil
+from typing import Literal
+
+from osc2tx.backends.xosc.actions.leaf import Leaf, Performance
+from osc2tx.backends.xosc.report import GENERIC
+from osc2tx.backends.xosc.state import LONGITUDINAL
+from osc2tx.backends.xosc.values.symbolic_numbers import Symbol
+from osc2tx.backends.xosc.xml.tree import Element, element
+
+
+def speed_action(target: float, shape: str, dimension: str, value: float) -> Element:
+    """Return a `SpeedAction` to an absolute speed."""
+    return longitudinal(
+        element(
+            "SpeedAction",
+            element(
+                "SpeedActionDynamics",
+                dynamicsShape=shape,
+                dynamicsDimension=dimension,
+                value=value,
+            ),
+            element("SpeedActionTarget", element("AbsoluteTargetSpeed", value=target)),
+        )
+    )
+
+
+def relative_speed(
+    reference: str,
+    value: float = 0.0,
+    kind: Literal["delta", "factor"] = "delta",
+    *,
+    continuous: bool,
+    shape: str = "step",
+    dimension: str = "time",
+    length: float = 0.0,
+) -> Element:
+    """Return the action that gives an actor a speed relative to that of another one.
+
+    Args:
+        reference: Whose speed counts.
+        value: By which it is faster (m/s), or a factor.
+        kind: Which of both it is.
+        continuous: It has this speed at every moment from then on.
+        shape: Of the change to it.
+        dimension: Of the length of that change.
+        length: That length: seconds, or m/s^2 for a rate.
+    """
+    goal = element(
+        "RelativeTargetSpeed",
+        entityRef=reference,
+        value=value,
+        speedTargetValueType=kind,
+        continuous=continuous,
+    )
+    action = element(
+        "SpeedAction",
+        element(
+            "SpeedActionDynamics",
+            dynamicsShape=shape,
+            dynamicsDimension=dimension,
+            value=length,
+        ),
+        element("SpeedActionTarget", goal),
+    )
+    return longitudinal(action)
+
+
+def hold_speed(entity: str) -> Element:
+    """Return the action that ends a change of the speed where it is."""
+    return relative_speed(entity, continuous=False)
+
+
+def longitudinal(action: Element) -> Element:
+    """Return the private action around a longitudinal one."""
+    return element("PrivateAction", element("LongitudinalAction", action))
+
+
+RISE = 1.0
+"""m/s from one step to the next."""
+
+MOST = 20
+"""Steps of one change."""
+
+TICK = 0.05
+"""Seconds between two looks of such a tool: an action is over half of that late, on average."""
+
+
+def in_steps(leaf: Leaf, performance: Performance) -> tuple[Element, ...]:
+    """Return actions that change a speed one after the other; none where one action does it.
+
+    That is for what nothing cuts short: the steps would go on.
+    """
+    course = leaf.course
+    if not leaf.ctx.profile.takes_speeds_at_once or course is None:
+        return ()
+    if [change.domain for change in performance.changes if change.actions] != [LONGITUDINAL]:
+        return ()
+    start, end = course.value(0.0), course.value(course.duration)
+    if isinstance(start, Symbol) or isinstance(end, Symbol):  # another value has other steps
+        return ()
+    count = min(ceil(abs(end - start) / RISE), MOST)
+    length = course.duration / max(count, 1)
+    if count < 2 or length <= 2.0 * TICK:
+        return ()
+    leaf.ctx.report.approximate(
+        leaf.construct,
+        leaf.node.span,
+        f"{leaf.ctx.profile.name} takes up a speed at once, so it changes in {count} steps",
+        "off by the way that each of them takes, more where throttle and brakes are not enough",
+        GENERIC,
+    )
+    middles = [round(course.value((step + 0.5) * length), 6) for step in range(count)]
+    lasting = round(length - 0.5 * TICK, 6)
+    steps = (speed_action(speed, "linear", "time", lasting) for speed in middles)
+    return (*steps, speed_action(end, "step", "time", 0.0))

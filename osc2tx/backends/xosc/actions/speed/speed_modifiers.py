@@ -1,0 +1,293 @@
+"""Modifiers of speed and path (§8.9.4 to §8.9.6, §8.9.13, §8.9.18)."""
+
+from __future__ import annotations
+
+from math import inf
+
+from osc2tx import ir
+from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
+from osc2tx.backends.xosc.actions.registry import modifier
+from osc2tx.backends.xosc.actions.speed.acceleration import shape_of
+from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to
+from osc2tx.backends.xosc.actions.speed.speed_elements import relative_speed, speed_action
+from osc2tx.backends.xosc.actions.speed.steady_speeds import steady_speed
+from osc2tx.backends.xosc.actions.speed.user_shapes import speed_by, user_shape
+from osc2tx.backends.xosc.entities.cast import CastMember
+from osc2tx.backends.xosc.facts.actors import COMFORT, Course
+from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
+from osc2tx.backends.xosc.state import LONGITUDINAL, known
+from osc2tx.backends.xosc.values.constants import Bounds
+from osc2tx_shared.classes import replace
+
+RELATIVE = {"faster_than": 1.0, "slower_than": -1.0, "same_as": 1.0}
+"""Argument that names a reference -> sign of the difference to its speed."""
+
+
+def may_jump(leaf: Leaf) -> bool:
+    """Whether physics need not hold (§8.9.18)."""
+    for call in leaf.node.modifiers:
+        if call.name == "physical_movement":
+            arguments = Arguments(leaf.ctx, call.arguments, call)
+            return arguments.member("option", "must_be_physical") == "prefer_non_physical"
+    return False
+
+
+@modifier("physical_movement")
+def _physical(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
+    arguments.member("option", "must_be_physical")
+    return ()  # steps are written for changes that may jump, courses for all others
+
+
+@modifier("avoid_collisions", takes=())
+def _avoid(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
+    if arguments.get("avoid") is not False:
+        leaf.ctx.report.approximate(
+            f"modifier {call.name}",
+            call.span,
+            "the XML cannot ask for caution; only controllers of the tool may have it",
+            "speed and place are those of the other modifiers, without braking for others or for"
+            " red lights",
+            Remedy(
+                instead="`change_speed` at a condition says when it brakes, and how, exactly",
+                asks=("SpeedActionDynamics",),
+            ),
+        )
+    return ()
+
+
+@modifier("keep_speed", "keep_lane", takes=())
+def _keep(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
+    return ()
+
+
+@modifier("keep_position", takes=(LONGITUDINAL,))
+def _keep_position(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
+    if leaf.state.speed == known(0.0):
+        return ()
+    if may_jump(leaf):
+        return (jump_to(leaf, 0.0),)
+    return (change_speed(leaf, 0.0, "asap", None, None),)
+
+
+@modifier("speed")
+def _speed(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
+    if arguments.member("direction", "longitudinal") != "longitudinal":
+        instead = "`change_lane` or `lateral(…)` with a duration moves across the road exactly"
+        remedy = Remedy(instead=instead, asks=("LaneChangeActionDynamics",))
+        raise Inexpressible("there is no action on a speed across the road", call.span, remedy)
+    own = user_shape(arguments)
+    if own is not None and call.at == "all":
+        return (speed_by(leaf, own),)
+    profile, peak, target = shape_of(leaf, arguments)
+    if "rate_profile" in arguments or "rate_peak" in arguments:
+        profile = arguments.member("rate_profile", "none")
+        peak = arguments.number("rate_peak")
+    given = arguments.number("speed")
+    target = given if given is not None else target
+    allowed = arguments.get("speed_range")
+    if isinstance(allowed, Bounds):
+        target = _nearest(leaf, allowed)
+    reference = next((name for name in RELATIVE if name in arguments), None)
+    if reference is not None:
+        return (_relative(leaf, call, arguments, reference, target or 0.0),)
+    if target is None:
+        raise Inexpressible("it says no speed", call.span)
+    if call.at == "start" and not may_jump(leaf):
+        return _holds(leaf, call, target)
+    rate = _rate_beside(leaf)
+    if rate is not None:
+        profile, peak = "constant", rate
+    if may_jump(leaf):
+        return (jump_to(leaf, target),)
+    in_time = call.at == "end" and profile != "asap" and peak is None
+    return (change_speed(leaf, target, profile, peak, leaf.duration if in_time else None),)
+
+
+def _holds(leaf: Leaf, call: ir.ModifierCall, target: float) -> tuple[Change, ...]:
+    """Check a speed that has to be there already."""
+    speed = leaf.state.speed
+    if speed is not None and speed.low - 1e-6 <= target <= speed.high + 1e-6:
+        return ()
+    raise Inexpressible("the speed at the start is another one, and must not jump", call.span)
+
+
+def _nearest(leaf: Leaf, allowed: Bounds) -> float:
+    """Return the allowed speed nearest to the present one; the middle if that is unknown."""
+    speed = leaf.state.speed
+    if speed is None or not speed.is_known:
+        return 0.5 * (allowed.lower + allowed.upper)
+    return min(max(speed.low, allowed.lower), allowed.upper)
+
+
+def _rate_beside(leaf: Leaf) -> float | None:
+    """Return the acceleration (m/s^2) that another modifier gives the change of the speed."""
+    for call in leaf.node.modifiers:
+        if call.name == "acceleration":
+            rate = Arguments(leaf.ctx, call.arguments, call).number("acceleration")
+            return None if rate is None else abs(rate)
+    return None
+
+
+def _relative(
+    leaf: Leaf, call: ir.ModifierCall, arguments: Arguments, name: str, difference: float
+) -> Change:
+    """Return the change to a speed relative to that of another actor."""
+    reference = arguments.entity(name)
+    factor = arguments.number("factor")
+    difference *= RELATIVE[name]
+    if reference is None:
+        raise Inexpressible(f"`{name}` names no actor", call.span)
+    if factor not in (None, 1.0) and difference != 0.0:
+        raise Inexpressible("a factor and a difference at once", call.span)
+    if factor == 1.0:
+        factor = None
+    follows = call.at != "end"
+    time = inf if follows else leaf.duration
+    shape, dimension = "linear", "rate"
+    length = _rate_towards(leaf, call, reference, factor, difference)
+    if not follows and leaf.duration is not None:
+        dimension, length = "time", leaf.duration
+    elif follows and "SpeedActionDynamics/rate" in leaf.ctx.profile.unsupported:
+        shape, dimension, length = "step", "time", 0.0
+        leaf.ctx.report.approximate(
+            f"modifier {call.name}",
+            call.span,
+            f"{leaf.ctx.profile.name} takes up such a speed at once",
+            "until the speed is reached; the speed itself is exact",
+            GENERIC,
+        )
+    action = relative_speed(
+        reference.name,
+        difference if factor is None else factor,
+        "delta" if factor is None else "factor",
+        continuous=follows,
+        shape=shape,
+        dimension=dimension,
+        length=length,
+    )
+    after = replace(leaf.state, speed=None).finished(LONGITUDINAL)
+    return Change(LONGITUDINAL, (action,), time, after, after)
+
+
+def _rate_towards(
+    leaf: Leaf, call: ir.ModifierCall, reference: CastMember, factor: float | None, more: float
+) -> float:
+    """Return the rate (m/s^2) of the way to a speed relative to another one.
+
+    The world speeds up and brakes at different rates, the XML has one: that of the first change,
+    which has to do for what the other one does later.
+    """
+    limits, mine = leaf.limits, leaf.state.speed
+    faster, slower = COMFORT * limits.acceleration, COMFORT * limits.deceleration
+    states = leaf.ctx.at_start if leaf.is_start else leaf.ctx.states
+    theirs = states[reference.name].speed
+    if mine is None or theirs is None or not (mine.is_known and theirs.is_known):
+        bound = "until the speed is reached; the speed itself is exact"
+    else:
+        missing = (theirs.low * factor if factor is not None else theirs.low + more) - mine.low
+        steady = steady_speed(leaf, reference)
+        if abs(missing) < 1e-6 and steady is None:
+            return max(faster, slower)
+        if steady is not None:
+            return faster if missing > 0.0 else slower
+        bound = f"until the speed is reached, from which {abs(missing):.2g} m/s are missing"
+    leaf.ctx.report.approximate(
+        f"modifier {call.name}",
+        call.span,
+        f"how fast {leaf.member.name} takes up a speed relative to one that changes is one rate in"
+        " the XML, and another one for braking in the world",
+        bound,
+        Remedy(instead="`speed` with the speed itself is exact", asks=("SpeedActionDynamics",)),
+    )
+    return min(faster, slower)
+
+
+@modifier("change_speed")
+def _change_speed(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
+    profile, peak, target = shape_of(leaf, arguments)
+    given = arguments.number("speed")
+    difference = given if given is not None else target
+    allowed = arguments.get("speed_range")
+    if isinstance(allowed, Bounds):
+        difference = min(max(0.0, allowed.lower), allowed.upper)
+    if difference is None:
+        raise Inexpressible("it says no difference", call.span)
+    speed = leaf.state.speed
+    if speed is None or not speed.is_known:
+        raise Inexpressible(
+            "the speed at the start is only known during the run, and tools read a speed relative"
+            " to itself again and again",
+            call.span,
+        )
+    goal = speed.low + difference
+    if may_jump(leaf):
+        return (jump_to(leaf, goal),)
+    in_time = call.at == "end" and profile != "asap" and peak is None
+    return (change_speed(leaf, goal, profile, peak, leaf.duration if in_time else None),)
+
+
+# --- distances ----------------------------------------------------------------------------------
+
+
+@modifier("distance", takes=())
+def _distance(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
+    distance = arguments.number("distance")
+    if distance is None:
+        raise Inexpressible("it says no distance", call.span)
+    if leaf.duration is None:
+        leaf.distance = distance
+        return ()
+    start, time = leaf.state.speed, leaf.duration
+    if start is None or not start.is_known:
+        raise Inexpressible("the speed at the start is only known during the run", call.span)
+    end = 2.0 * distance / time - start.low
+    if end < 0.0:
+        raise Inexpressible("it would stop before its time is over", call.span)
+    after = replace(leaf.state, speed=known(end)).finished(LONGITUDINAL)
+    during = replace(after, speed=start.over(known(end)))
+    action = speed_action(end, "linear", "time", time)
+    return (Change(LONGITUDINAL, (action,), time, during, after),)
+
+
+def time_to_cover(leaf: Leaf) -> float | None:
+    """Return after how many seconds an invocation has covered its distance; `None` without one.
+
+    Raises:
+        Inexpressible: Its speed is not known before the run.
+    """
+    if leaf.distance is None:
+        return None
+    speed = leaf.state.speed
+    if leaf.course is None:
+        if speed is None or not speed.is_known:
+            raise Inexpressible(
+                "how long it takes depends on a speed that is only known during the run",
+                leaf.node.span,
+                Remedy(),
+            )
+        return _positive(leaf, leaf.distance / speed.low if speed.low > 0.0 else inf)
+    return _positive(leaf, _time_along(leaf.course, leaf.distance))
+
+
+def _positive(leaf: Leaf, time: float) -> float:
+    if time == inf:
+        raise Inexpressible("it comes to a stand before", leaf.node.span)
+    return round(time, 9)
+
+
+STEPS = 2000
+"""Pieces of a course in which its way is summed up."""
+
+
+def _time_along(course: Course, way: float) -> float:
+    """Return the time (s) at which a course has covered a way (m)."""
+    step = course.duration / STEPS
+    covered = 0.0
+    for index in range(STEPS if step > 0.0 else 0):
+        left, right = course.value(index * step), course.value((index + 1) * step)
+        piece = 0.5 * step * (left + right)
+        if covered + piece >= way:
+            return (index + (way - covered) / piece) * step
+        covered += piece
+    end = course.value(course.duration)
+    return course.duration + (way - covered) / end if end > 0.0 else inf

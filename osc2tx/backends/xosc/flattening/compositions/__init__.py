@@ -1,0 +1,1 @@
+"""Durations, overlaps and overrides of compositions, and conflicts between their members."""

@@ -1,0 +1,124 @@
+"""Compositions that have a duration (§7.3.13.4).
+
+One whose content takes longer fails, and so does one whose content is over before and has no member
+without end that fills the rest. A member of a race that fails leaves it; elsewhere the scenario
+fails, which the verdict of 1.3 can tell. In the dialect `carla` whatever comes first is the end.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+from osc2tx import ir
+from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
+from osc2tx.backends.xosc.flattening.compositions.parallel_overlaps import is_open, length_of
+from osc2tx.backends.xosc.flattening.events.directives import VERDICT
+from osc2tx.backends.xosc.flattening.storyboard.builder import StoryboardBuilder, construct_of
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.backends.xosc.values.constants import Bounds
+from osc2tx.backends.xosc.xml.tree import element
+from osc2tx_shared.classes import replace
+
+Timed: TypeAlias = ir.Composition | ir.InvokeScenario
+
+Role: TypeAlias = Literal["alone", "racer", "in a race"]
+"""Whether a member that fails takes the scenario with it, leaves a race, or others of a race."""
+
+
+def end_within_duration(
+    builder: StoryboardBuilder, node: Timed, start: Flow, content: Flow, role: Role
+) -> Flow:
+    """Return when a member is over whose content starts and ends with flows.
+
+    Of a racer the act is the present one.
+    """
+    until = builder.until(node, start)
+    if node.duration is None:
+        return content | until
+    low, high = _bounds(builder, node.duration)
+    builder.ctx.report.exact("duration", node.duration.span)
+    if content.is_never:  # it goes on for as long as one likes
+        return start.later(low) | until
+    if builder.ctx.module.dialect == "carla":
+        return content | start.later(high) | until
+    if isinstance(node, ir.OneOf):
+        reason = "a race with a duration is won by who ends within it, which only the run shows"
+        raise Inexpressible(reason, node.duration.span)
+    length, fills = _length(builder, node), _fills(node)
+    if length is not None and length <= high and (fills or low <= length):
+        return (start.later(low) if length < low else content) | until
+    if length is not None and role != "racer":
+        fitting = Remedy(instead=f"a duration of {length:g} s, or a member without end, is exact")
+        raise Inexpressible(_always_fails(length, low, high), node.duration.span, fitting)
+    if length is not None:
+        failed = content if length < low else start.later(high)
+        return _failing(builder, node, NEVER, failed, role) | until
+    late = start.later(high)
+    if content.is_surely_after(late):
+        return _failing(builder, node, NEVER, late, role) | until
+    done = builder.ctx.names.new(f"done_{builder.name_of(node)}")
+    over = builder.keep(done, content)
+    failed = late & builder.is_unset(done)
+    if low > 0.0 and not fills:
+        filled = builder.ctx.names.new(f"filled_{builder.name_of(node)}")
+        builder.keep(filled, start.later(low))
+        failed = failed | over & builder.is_unset(filled)
+    return _failing(builder, node, over & start.later(low), failed, role) | until
+
+
+def _fills(node: Timed) -> bool:
+    """Whether a member without end fills what the others leave of a duration."""
+    return isinstance(node, ir.Parallel) and any(map(is_open, node.members))
+
+
+def _always_fails(length: float, low: float, high: float) -> str:
+    if length < low:
+        return f"it is over after {length:g} s, and nothing fills the rest: every run fails"
+    return f"it takes {length:g} s, longer than {high:g} s: every run fails"
+
+
+def _bounds(builder: StoryboardBuilder, duration: ir.Expression) -> tuple[float, float]:
+    value = builder.ctx.values.of(duration)
+    if isinstance(value, Bounds):
+        return value.lower, value.upper
+    number = builder.ctx.values.number(duration)
+    return number, number
+
+
+def _length(builder: StoryboardBuilder, node: Timed) -> float | None:
+    """Return how long (s) the content takes, if that is known."""
+    if isinstance(node, ir.InvokeScenario):
+        return None
+    return length_of(builder.ctx, replace(node, duration=None, until=()))
+
+
+def _failing(
+    builder: StoryboardBuilder, node: Timed, in_time: Flow, failed: Flow, role: Role
+) -> Flow:
+    """Return when a member is over that fails with a flow."""
+    ctx, name = builder.ctx, f"fails_{builder.name_of(node)}"
+    span = node.span if node.duration is None else node.duration.span
+    construct = f"duration of a {construct_of(node)}"
+    if role == "racer":
+        mark = ctx.names.new(name)
+        builder.keep(mark, failed)
+        builder.act.stops.append(mark)
+        ctx.report.exact(construct, span, "if it takes another time, it leaves the race")
+        return in_time
+    bound = "the same if the content takes as long as it should"
+    if role == "in a race":
+        reason = "what takes another time fails, and others of the race go on; the XML ends it"
+        ctx.report.approximate(construct, span, reason, bound)
+        return in_time | failed
+    if not ctx.can("SetMonitorAction", "1.3"):
+        reason = "what takes another time fails; here the run just ends, for it has no verdict"
+        ctx.report.approximate(construct, span, reason, bound, Remedy(version="1.3"))
+        builder.finished = builder.finished | failed
+        return in_time
+    ctx.monitors[VERDICT] = True
+    action = element("SetMonitorAction", monitorRef=VERDICT, value=False)
+    failing = (element("GlobalAction", action),)
+    told = builder.add(ctx.names.new(name), failing, failed, actor=builder.mark_actor)
+    builder.finished = builder.finished | told
+    ctx.report.exact(construct, span, f"if it takes another time, the monitor `{VERDICT}` says so")
+    return in_time

@@ -1,0 +1,1 @@
+"""Events of a scenario, and the directives that emit them or wait for them."""

@@ -1,0 +1,144 @@
+"""Directives as events: `emit`, `call`, `on`, the end of the scenario."""
+
+from __future__ import annotations
+
+from osc2tx import ir
+from osc2tx.backends.xosc.actions.user_actions import command_of, no_model
+from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Group, Test, single
+from osc2tx.backends.xosc.flattening.events.event_parameters import set_parameters
+from osc2tx.backends.xosc.flattening.storyboard.builder import StoryboardBuilder
+from osc2tx.backends.xosc.report import GENERIC, Inexpressible
+from osc2tx.backends.xosc.xml.names import plain
+from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx_shared.classes import replace
+
+MANY_TIMES = 1000000
+"""Executions of an event that may start again for as long as its act runs."""
+
+
+def react_periodically(
+    builder: StoryboardBuilder,
+    node: ir.On,
+    every: ir.Every,
+    start: Flow,
+    actions: tuple[Element, ...],
+) -> None:
+    """Write down what is done at the start and in each period after it."""
+    ctx = builder.ctx
+    if not ctx.profile.has_edges:
+        reason = f"{ctx.profile.name} does not start an event again"
+        raise Inexpressible(reason, node.span, GENERIC)
+    period = ctx.values.number(every.period)
+    begin = start.later(0.0 if every.offset is None else ctx.values.number(every.offset))
+    pulse = ctx.names.new("pulse")
+    up = (*actions, ctx.mark(pulse))
+    emitted = dict.fromkeys(r.event.name for r in node.reactions if isinstance(r, ir.Emit))
+    down = (*(builder.events.setting(name, "false") for name in emitted),)
+    down = (*down, ctx.set_variable(pulse, "false"))
+    is_up = Test(ctx.variable_is(pulse, "equalTo", "true"), delay=0.5 * period)
+    # The first look of an event sees no edge, so it has to come before the first occurrence.
+    half, full = replace(is_up, edge="rising"), replace(is_up, edge="falling")
+    builder.add(ctx.names.new("half_time"), down, single(half), repeats=MANY_TIMES)
+    builder.add(ctx.names.new("first_time"), up, begin)
+    builder.add(ctx.names.new("every_time"), up, single(full), repeats=MANY_TIMES)
+
+
+VERDICT = "verdict"
+"""Name of the monitor that says whether the scenario has succeeded."""
+
+OPPOSITE: dict[Edge, Edge] = {"rising": "falling", "falling": "rising", "none": "none"}
+
+
+def emit(builder: StoryboardBuilder, node: ir.Emit, start: Flow) -> Flow:
+    """Let an event occur; return when it has."""
+    ctx, events = builder.ctx, builder.events
+    name = ctx.names.new(f"emit_{ctx.scope.prefix}{node.event.name}")
+    setting = events.setting(node.event.name)
+    done = builder.add(name, (*set_parameters(ctx, node), setting), start, actor=builder.mark_actor)
+    if events.is_emitted_often(node.event):  # the next occurrence needs an edge of its own
+        reset = events.setting(node.event.name, "false")
+        builder.add(ctx.names.new(f"after_{name}"), (reset,), done, actor=builder.mark_actor)
+    else:
+        done = builder.is_set(events.variable(node.event.name))
+    ctx.report.exact("emit", node.span)
+    return builder.mark_end(node, start if start.is_latched else done)
+
+
+def call(builder: StoryboardBuilder, node: ir.Call, start: Flow) -> Flow:
+    """Give the tool a command; nothing waits for its end, for tools do not tell it."""
+    ctx = builder.ctx
+    ctx.require_support("CustomCommandAction", node.span)
+    called = node.call
+    if not isinstance(called, ir.MethodCall):
+        raise Inexpressible("only methods are called", node.span)
+    if called.method == "set_bm" and called.owner == "physical_object":
+        raise no_model("another behavioral model", node.span)
+    arguments = {each.parameter: ctx.values.of(each.value) for each in called.arguments}
+    name = ctx.names.new(f"call_{plain(called.method)}")
+    start = builder.latched(start, name)
+    builder.add(name, (command_of(called.method, arguments),), start, actor=builder.mark_actor)
+    ctx.report.exact("call", node.span, f"the tool has to know the command `{called.method}`")
+    return builder.mark_end(node, start)
+
+
+def finish(builder: StoryboardBuilder, node: ir.Finish, start: Flow) -> Flow:
+    """Let the scenario end; that it fails is told by a monitor."""
+    ctx = builder.ctx
+    if not node.succeeds:
+        ctx.require("a verdict", "1.3", node.span)
+        ctx.require_support("SetMonitorAction", node.span)
+        ctx.monitors[VERDICT] = True
+        action = element("SetMonitorAction", monitorRef=VERDICT, value=False)
+        actions = (element("GlobalAction", action),)
+        start = builder.add(ctx.names.new("fail"), actions, start, actor=builder.mark_actor)
+    builder.finished = builder.finished | start
+    ctx.report.exact("emit end" if node.succeeds else "emit fail", node.span)
+    return start
+
+
+def react(builder: StoryboardBuilder, node: ir.On, start: Flow) -> Flow:
+    """Write down reactions as an event that starts again at each occurrence."""
+    ctx, events = builder.ctx, builder.events
+    emitted, actions = [], []
+    for reaction in node.reactions:
+        if not isinstance(reaction, ir.Emit):
+            raise Inexpressible("only `emit` can react", reaction.span)
+        emitted.append(reaction.event.name)
+        actions += [*set_parameters(ctx, reaction), events.setting(reaction.event.name)]
+    condition = node.trigger.condition
+    if isinstance(condition, ir.Every) and node.trigger.event is None:
+        react_periodically(builder, node, condition, builder.latched(start, "on"), tuple(actions))
+        ctx.report.exact("on", node.span)
+        return NEVER
+    if node.trigger.event is None and not isinstance(condition, ir.Edge):
+        raise Inexpressible("only an event or an edge can be reacted to", node.span)
+    once = not events.may_recur(node.trigger)
+    occurs = builder.after(node.trigger, start)
+    if not once:
+        occurs = _each_time(occurs, start)
+    repeats = None if once else MANY_TIMES
+    name = ctx.names.new(f"on_{plain(node.trigger.span.text)}")
+    builder.add(name, tuple(actions), occurs, repeats=repeats)
+    if not once:  # the opposite edge makes room for the next occurrence
+        over = Flow(
+            tuple(
+                tuple(replace(test, edge=OPPOSITE[test.edge]) for test in group)
+                for group in occurs.groups
+            )
+        )
+        reset = tuple(events.setting(event, "false") for event in emitted)
+        builder.add(ctx.names.new(f"after_{name}"), reset, over, repeats=repeats)
+    ctx.report.exact("on", node.span)
+    return NEVER
+
+
+def _each_time(occurs: Flow, start: Flow) -> Flow:
+    """Return a flow with an edge in each group: a variable that is set comes and goes."""
+    since = {test for group in start.groups for test in group}
+    return Flow(tuple(_with_edge(group, since) for group in occurs.groups))
+
+
+def _with_edge(group: Group, since: set[Test]) -> Group:
+    if any(test.edge != "none" for test in group):
+        return group
+    return tuple(test if test in since else replace(test, edge="rising") for test in group)

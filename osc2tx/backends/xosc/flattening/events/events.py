@@ -1,0 +1,200 @@
+"""Events of a scenario, and the variables that carry them.
+
+An event is a variable that is set when it occurs; who waits for it looks for the edge. So a wait
+that begins after the occurrence does not see it, as in the DSL.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from osc2tx import ir
+from osc2tx.backends.xosc.conditions.early_triggers import early_triggers, triggers_of
+from osc2tx.backends.xosc.conditions.expressions import condition_flow
+from osc2tx.backends.xosc.conditions.flow import Flow, Test, at_time, single
+from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.facts.run_options import read_signal
+from osc2tx.backends.xosc.flattening.storyboard.storyboard import Event
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.backends.xosc.scopes import Scope
+from osc2tx.backends.xosc.xml.names import plain
+from osc2tx.backends.xosc.xml.tree import Element, element
+
+WAITABLE = (ir.Moment.START, ir.Moment.END)
+"""Life-cycle events; no behavior of the XML can fail."""
+
+
+class EventTable:
+    """The events of one scenario at one place."""
+
+    def __init__(self, ctx: Context, scope: Scope) -> None:
+        """Find out who emits what and which labels are waited for."""
+        self._ctx = ctx
+        self._scope = scope
+        scenario = scope.scenario
+        self._declared = {d.name: d for d in scenario.declarations if isinstance(d, ir.Event)}
+        self._emitted = [emit.event.name for emit in _emissions(scenario.body)]
+        self._early = early_triggers(scenario.body)
+        self._fleeting = {
+            ctx.variable_name(scope.prefix + name) for name in self._fleeting_events()
+        }
+        self._signals = dict(map(read_signal, ctx.options.signals))
+        self._following: list[str] = []  # events whose trigger is being looked at
+        self._marks = {
+            key: ctx.names.new(f"{key[1].value}_of_{plain(scope.prefix + key[0])}")
+            for key in dict.fromkeys(self._waited())
+        }
+
+    def _waited(self) -> Iterator[tuple[str, ir.Moment]]:
+        """Yield the labels whose start or end somebody waits for."""
+        for node in ir.walk_behaviors(self._scope.scenario.body):
+            for trigger in triggers_of(node):
+                if isinstance(trigger.event, ir.LabelEvent) and trigger.event.moment in WAITABLE:
+                    yield trigger.event.label, trigger.event.moment
+        for override in self._scope.scenario.overrides:
+            yield override.by, ir.Moment.START
+            if override.mode == "when_active":
+                yield override.by, ir.Moment.END
+
+    def _fleeting_events(self) -> Iterator[str]:
+        """Yield the events whose variables are taken back, for they may occur again."""
+        for name in self._emitted:
+            if self._emitted.count(name) > 1:
+                yield name
+        for node in ir.walk_behaviors(self._scope.scenario.body):
+            if isinstance(node, ir.On) and self.may_recur(node.trigger):
+                yield from (r.event.name for r in node.reactions if isinstance(r, ir.Emit))
+
+    def may_recur(self, trigger: ir.Trigger, seen: frozenset[str] = frozenset()) -> bool:
+        """Whether a trigger may occur more than once; what comes from outside is set once."""
+        event = trigger.event
+        if event is None:
+            return True
+        if not isinstance(event, ir.EventRef) or event.name in seen:
+            return False
+        seen = seen | {event.name}
+        declared = self._declared.get(event.name)
+        if declared is not None and declared.trigger is not None:
+            return self.may_recur(declared.trigger, seen)
+        nodes = ir.walk_behaviors(self._scope.scenario.body)
+        reacting = (node for node in nodes if isinstance(node, ir.On))
+        return self._emitted.count(event.name) > 1 or any(
+            self.may_recur(node.trigger, seen)
+            for node in reacting
+            for each in node.reactions
+            if isinstance(each, ir.Emit) and each.event.name == event.name
+        )
+
+    def signals(self) -> list[Event]:
+        """Return the occurrences of events from outside whose time is given."""
+        events = []
+        for name, declared in self._declared.items():
+            time = self._signals.get(self._scope.prefix + name)
+            if time is None:
+                continue
+            event = Event(
+                self._ctx.names.new(f"signal_{plain(self._scope.prefix + name)}"),
+                (self._ctx.set_variable(self.variable(name), "true"),),
+                single(at_time(time)),
+                declared.span,
+            )
+            events.append(event)
+            self._ctx.report.exact(f"signal {name}", declared.span, f"at {time:g} s, as given")
+        return events
+
+    def is_emitted_often(self, event: ir.EventRef) -> bool:
+        """Whether there are several places that emit an event."""
+        return self._emitted.count(event.name) > 1
+
+    def occurrence(self, trigger: ir.Trigger) -> Flow:
+        """Return the tests for an occurrence of the event of a trigger from now on."""
+        is_early = id(trigger) in self._early
+        match trigger.event:
+            case ir.EventRef(name=name) as event:
+                return self.of_event(name, event, is_early=is_early)
+            case ir.LabelEvent(label=label, moment=moment) if moment in WAITABLE:
+                return self.of_label(label, moment, is_early=is_early)
+        raise Inexpressible(f"`{trigger.span.text}` has no counterpart here", trigger.span)
+
+    def of_label(self, label: str, moment: ir.Moment, *, is_early: bool) -> Flow:
+        """Return the tests for the start or the end of a member."""
+        return self._is_set(self._marks[label, moment], is_early=is_early)
+
+    def activity(self, label: str) -> tuple[str, str]:
+        """Return the variables that are set when a labelled member starts and ends, declared."""
+        marks = self._marks[label, ir.Moment.START], self._marks[label, ir.Moment.END]
+        for mark in marks:
+            self._ctx.declare(mark, "boolean", "false")
+        return marks
+
+    def mark(self, node: ir.Behavior, moment: ir.Moment) -> str | None:
+        """Return the event that keeps the start or end of a labelled member, if one is needed."""
+        return None if node.label is None else self._marks.get((node.label, moment))
+
+    def of_event(self, name: str, at: ir.EventRef | ir.InnerEvent, *, is_early: bool) -> Flow:
+        """Return the tests for an occurrence of a declared event.
+
+        Args:
+            name: The event.
+            at: Where it is waited for.
+            is_early: The wait surely begins before the event can occur.
+        """
+        declared = self._declared[name]
+        trigger = declared.trigger
+        if trigger is not None:
+            if trigger.condition is None and trigger.event is not None:
+                return self._of_followed(name, trigger)
+            if trigger.event is not None or trigger.condition is None:
+                raise Inexpressible("an event that follows another one under a condition", at.span)
+            return condition_flow(self._ctx, trigger.condition)
+        if name not in self._emitted and self._scope.prefix + name not in self._signals:
+            return self._from_outside(name, at, is_early=is_early)
+        return self._is_set(self.variable(name), is_early=is_early)
+
+    def _of_followed(self, name: str, followed: ir.Trigger) -> Flow:
+        """Return the tests for the event that another one, `name`, follows."""
+        if name in self._following:
+            raise Inexpressible("events that only follow each other never occur", followed.span)
+        self._following.append(name)
+        try:
+            return self.occurrence(followed)
+        finally:
+            self._following.pop()
+
+    def _from_outside(self, name: str, at: ir.EventRef | ir.InnerEvent, *, is_early: bool) -> Flow:
+        ctx = self._ctx
+        if ctx.version >= "1.2":
+            note = f"set the variable `{name}` from outside, or give its time with --signal"
+            ctx.report.exact(f"signal {name}", at.span, note)
+            return self._is_set(self.variable(name), is_early=is_early)
+        if ctx.can("UserDefinedValueCondition", "1.0"):
+            value = element("UserDefinedValueCondition", name=name, rule="equalTo", value="true")
+            return single(Test(element("ByValueCondition", value), "rising"))
+        reason = f"`{name}` comes from outside: give its time with --signal {name}@1s"
+        raise Inexpressible(reason, at.span, Remedy(version="1.2"))
+
+    def _is_set(self, variable: str, *, is_early: bool) -> Flow:
+        """Return the test for a variable; it is looked for its edge unless it cannot be set yet."""
+        condition = self._ctx.variable_is(variable, "equalTo", "true")
+        if not is_early:
+            return single(Test(condition, "rising"))
+        return single(Test(condition, latched=variable not in self._fleeting))
+
+    def setting(self, name: str, value: str = "true") -> Element:
+        """Return the action that sets the variable of an event."""
+        return self._ctx.set_variable(self.variable(name), value)
+
+    def variable(self, name: str) -> str:
+        """Return the variable of an event, declared."""
+        variable = self._ctx.variable_name(self._scope.prefix + name)
+        self._ctx.declare(variable, "boolean", "false")
+        return variable
+
+
+def _emissions(body: ir.Behavior) -> Iterator[ir.Emit]:
+    """Yield all places where an event is emitted."""
+    for node in ir.walk_behaviors(body):
+        if isinstance(node, ir.Emit):
+            yield node
+        elif isinstance(node, ir.On):
+            yield from (reaction for reaction in node.reactions if isinstance(reaction, ir.Emit))

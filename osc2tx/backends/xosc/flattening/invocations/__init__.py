@@ -1,0 +1,1 @@
+"""Invocations of actions as events of the storyboard, and their ends."""

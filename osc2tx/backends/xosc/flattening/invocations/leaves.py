@@ -1,0 +1,184 @@
+"""Invocations of actions as events."""
+
+from __future__ import annotations
+
+from math import inf
+
+from osc2tx import ir
+from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Later, Leaf, Performance
+from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, WITHOUT_FORM
+from osc2tx.backends.xosc.actions.signals.vehicle_lights import followed_lights
+from osc2tx.backends.xosc.actions.speed.speed_elements import in_steps
+from osc2tx.backends.xosc.actions.speed.speed_notes import note_cut
+from osc2tx.backends.xosc.actions.user_actions import global_command, user_action
+from osc2tx.backends.xosc.conditions.flow import Flow, Test
+from osc2tx.backends.xosc.flattening.invocations.action_endings import record_end_state
+from osc2tx.backends.xosc.flattening.storyboard.builder import (
+    RUN_START,
+    StoryboardBuilder,
+    construct_of,
+)
+from osc2tx.backends.xosc.flattening.storyboard.member_names import event_name
+from osc2tx.backends.xosc.flattening.tree_queries import entry_of, is_first
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.state import LONGITUDINAL
+from osc2tx.backends.xosc.xml.tree import Element
+from osc2tx_shared.classes import replace
+
+
+def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
+    """Write down an invocation that starts with a flow; return when it ends."""
+    is_known = entry_of(node) is not None
+    if node.actor is None or (is_known and node.action in GLOBAL_ACTIONS):
+        return _invoke_global(builder, node, start)
+    ctx = builder.ctx
+    leaf_handler = ACTIONS.get(node.action) if is_known else user_action
+    if leaf_handler is None:
+        raise Inexpressible(WITHOUT_FORM["action"][node.action])
+    member = ctx.cast.get(ctx.values.actor(node.actor))
+    if member is None:
+        raise Inexpressible(f"`{node.actor.span.text}` is no entity of the XML")
+    builder.mark_actor = member.name
+    overriding = builder.overriding(node)
+    is_measured = any(call.name == "distance" for call in node.modifiers)
+    if node.until or overriding or node.duration is not None or is_measured:
+        start = builder.latched(start, builder.name_of(node))
+    name = ctx.names.new(event_name(ctx.scope.scenario, node, member.name))
+    is_start = start == RUN_START or is_first(ctx.scenario.body, node)
+    leaf = Leaf(ctx, node, member, name, is_start=is_start)
+    performance = Performance((), "instant")
+    with ctx.report_as(leaf.construct, node.span):
+        try:
+            performance = leaf_handler(leaf)
+        except ArithmeticError as error:
+            raise Inexpressible("its values are no movement: they divide by zero") from error
+        leaf.arguments.finish()
+    actions = tuple(action for change in performance.changes for action in change.actions)
+    goal = start
+    is_cut = bool(node.until or overriding or builder.is_race)
+    lasting = _least_length(builder, node, performance)
+    if actions:
+        length = 0.0 if is_cut else _event_length(performance)
+        is_whole = not overriding and all(_is_over(c, lasting) for c in performance.changes)
+        steps = in_steps(leaf, performance) if is_whole else ()
+        goal = _steps(builder, leaf, steps, start)
+        if not steps:
+            goal = builder.add(name, actions, start, actor=member.name, lasting=length)
+        for other, action, word in leaf.others:
+            follows = ctx.names.new(f"{other.name}_{word}")
+            builder.add(follows, (action,), goal, actor=other.name)
+            state = replace(ctx.states[other.name], speed=None)
+            ctx.states[other.name] = state.finished(LONGITUDINAL)
+    ends = _ends(builder, node, start, goal, performance)
+    successors = builder.claimed_by(overriding)
+    for change in performance.changes:
+        is_over = not overriding and _is_over(change, lasting)
+        record_end_state(builder, leaf, change, is_over=is_over)
+        if change.domain == LONGITUDINAL and not (is_over and builder.is_outermost):
+            note_cut(leaf, is_by_duration=builder.is_outermost and not is_cut)
+        if (member.name, change.domain) in successors:
+            cut = ctx.states[member.name]
+            ctx.states[member.name] = cut.finished(change.domain).going_on(cut)
+    return builder.mark_end(node, ends)
+
+
+def _steps(builder: StoryboardBuilder, leaf: Leaf, steps: tuple[Element, ...], start: Flow) -> Flow:
+    """Add an event for each step of a change, one after the other; return when the last is over."""
+    goal, names = start, builder.ctx.names
+    for index, step in enumerate(steps):
+        name = names.new(leaf.event) if index else leaf.event
+        goal = builder.add(name, (step,), goal, actor=leaf.member.name, is_step=True)
+    return goal
+
+
+def _ends(
+    builder: StoryboardBuilder, node: ir.Invoke, start: Flow, goal: Flow, performance: Performance
+) -> Flow:
+    """Return when an action is over: at its goal, or when others end it."""
+    if performance.reached:
+        at_place = Flow((tuple(map(Test, performance.reached)),))
+        return goal & at_place | builder.until(node, start)
+    if performance.lasts is not None:
+        return start.later(performance.lasts) | builder.until(node, start)
+    if performance.ends == "open":
+        return builder.limit(node, start)
+    return goal | builder.until(node, start)
+
+
+def _event_length(performance: Performance) -> float:
+    """Return how long (s) an event takes whose actions nothing cuts short."""
+    if performance.ends != "goal":
+        return 0.0
+    times = (change.time for change in performance.changes if change.actions)
+    return max((time for time in times if time is not None and time < inf), default=0.0)
+
+
+def _least_length(
+    builder: StoryboardBuilder, node: ir.Invoke, performance: Performance
+) -> float | None:
+    """Return how long (s) an action surely lasts; infinite if only its goal ends it."""
+    if builder.is_race:
+        return None
+    lengths = [] if performance.lasts is None else [performance.lasts]
+    if performance.ends == "open" and performance.lasts is None:
+        lasting = builder.length_of(node)
+        lengths += [] if lasting is None else [lasting]
+    for trigger in node.until:
+        match trigger:
+            case ir.Trigger(event=None, condition=ir.Elapsed(duration=duration)):
+                lengths.append(builder.ctx.values.number(duration))
+            case _:
+                return None
+    if performance.ends == "open" and not lengths:
+        return None
+    return min(lengths, default=inf)
+
+
+def _is_over(change: Change, lasting: float | None) -> bool:
+    """Whether a change is surely done when the action ends."""
+    if change.time == 0.0 or lasting == inf:
+        return True
+    return lasting is not None and change.time is not None and change.time <= lasting
+
+
+def _invoke_global(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
+    """Write down an action that concerns no entity; at the very start it goes to `Init`."""
+    ctx, entry = builder.ctx, entry_of(node)
+    actions: tuple[Element | Later, ...] = ()
+    with ctx.report_as(construct_of(node), node.span):
+        arguments = Arguments(ctx, node.arguments, node)
+        perform = global_command if entry is None else GLOBAL_ACTIONS[node.action]
+        actions = perform(ctx, node, arguments)
+        arguments.finish()
+    lasts = entry is None or entry.ends == "open"
+    if lasts:
+        start = builder.latched(start, builder.name_of(node))
+    if node.modifiers or (not lasts and (node.until or node.duration is not None)):
+        raise Inexpressible("it takes no time, so it has no duration and no modifiers")
+    name = event_name(ctx.scope.scenario, node)
+    goal = _act_globally(builder, name, actions, start)
+    for actor, lights in followed_lights(ctx).items():
+        builder.add(ctx.names.new(f"{actor}_lights_{name}"), lights, start, actor=actor)
+    if not lasts:
+        return builder.mark_end(node, goal)
+    return builder.mark_end(node, builder.limit(node, start))
+
+
+def _act_globally(
+    builder: StoryboardBuilder, name: str, actions: tuple[Element | Later, ...], start: Flow
+) -> Flow:
+    """Add an event for actions that concern no entity; return when they are done."""
+    ctx = builder.ctx
+    at_once = tuple(action for action in actions if isinstance(action, Element))
+    later: dict[float, list[Element]] = {}
+    for action in actions:
+        if isinstance(action, Later):
+            later.setdefault(action.seconds, []).append(action.action)
+    done = start
+    if start == RUN_START and builder.is_outermost:
+        ctx.init_globals.extend(at_once)
+    elif at_once:
+        done = builder.add(ctx.names.new(name), at_once, start)
+    for seconds, switches in later.items():
+        builder.add(ctx.names.new(name), tuple(switches), start.later(seconds))
+    return done

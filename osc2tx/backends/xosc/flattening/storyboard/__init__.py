@@ -1,0 +1,1 @@
+"""The storyboard while it is built: acts, maneuvers, events and their names."""

@@ -1,0 +1,1 @@
+"""The `do` tree: compositions, invocations, triggers, durations."""

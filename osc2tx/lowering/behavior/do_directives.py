@@ -1,0 +1,120 @@
+"""The `do` of a scenario as one tree, with what happens at its start and end beside it."""
+
+from __future__ import annotations
+
+from osc2tx import ir
+from osc2tx.lowering.behavior.behaviors import BehaviorLowering
+from osc2tx.lowering.behavior.composed_behaviors import Composed
+from osc2tx.lowering.behavior.durations import lasting
+from osc2tx.lowering.behavior.triggers import boundary_of
+from osc2tx.lowering.constraints.constraints import ConstraintLowering
+from osc2tx.lowering.context import LoweringContext, present
+from osc2tx.lowering.modifiers.standing_modifiers import StandingModifiers
+from osc2tx.syntax import ast
+from osc2tx_shared.classes import replace
+
+
+def lower_body(
+    ctx: LoweringContext,
+    scenario: Composed,
+    statements: tuple[ast.Statement, ...],
+    constraints: ConstraintLowering,
+    standing: StandingModifiers,
+    duration: ir.Expression | None,
+) -> ir.Behavior | None:
+    """Lower the `do`; several of them, where a dialect allows it, run one after the other."""
+    directives = [s for s in statements if isinstance(s, ast.DoDirective)]
+    if not directives:
+        if not any(other.base is scenario for other in ctx.model.scenarios):
+            ctx.sink.report(
+                "OSC510",
+                scenario.node.name.span,
+                f"scenario `{scenario.name}` has no `do`",
+            )
+        return None
+    lowering = BehaviorLowering(ctx, constraints, standing)
+    body = _lower_directives(lowering, scenario, directives)
+    on = [s for s in statements if isinstance(s, ast.OnDirective)]
+    reactions = present([lowering.lower_on(s) for s in on if boundary_of(ctx, s.event) is None])
+    if body is None:
+        return None
+    body = lasting(ctx, body, duration)
+    before, after = (lowering.at_boundary(on, moment) for moment in ("start", "end"))
+    body = _framed(scenario, before, body, after)
+    if not reactions:
+        return body
+    return ir.Parallel(
+        span=body.span,
+        label=None,
+        name=scenario.name,
+        members=(_named_as_do(body), *reactions),
+    )
+
+
+def _framed(
+    scenario: Composed,
+    before: tuple[ir.Behavior, ...],
+    body: ir.Behavior,
+    after: tuple[ir.Behavior, ...],
+) -> ir.Behavior:
+    """Return the body with what happens at its start and at its end."""
+    if not before and not after:
+        return body
+    is_bare = isinstance(body, ir.Serial) and not body.until and body.duration is None
+    if is_bare and isinstance(body, ir.Serial) and body.label is None:
+        return replace(body, members=(*before, *body.members, *after))
+    return ir.Serial(
+        span=body.span,
+        label=None,
+        name=scenario.name,
+        members=(*before, _named_as_do(body), *after),
+    )
+
+
+def _lower_directives(
+    lowering: BehaviorLowering, scenario: Composed, directives: list[ast.DoDirective]
+) -> ir.Behavior | None:
+    several = len(directives) > 1
+    lowered = [lowering.lower_do(do, is_phase=several) for do in directives]
+    bodies: tuple[ir.Behavior, ...] = present(lowered)
+    if not bodies:
+        return None
+    if several:
+        span = directives[0].span.to(directives[-1].span)
+        members = tuple(_named_as_do(body) for body in bodies)
+        return ir.Serial(span=span, label=None, name=scenario.name, members=members)
+    body = bodies[0]
+    if isinstance(body, ir.Serial | ir.Parallel | ir.OneOf):
+        return replace(body, name=scenario.name, is_phase=False)
+    return body
+
+
+def _named_as_do(body: ir.Behavior) -> ir.Behavior:
+    """Name one of several `do` after its operator: it is a phase of its own."""
+    match body:
+        case ir.Serial() | ir.Parallel() | ir.OneOf():
+            name = f"do {type(body).__name__.lower()}"
+            return replace(body, name=name, is_phase=True)
+        case _:
+            return body
+
+
+def nothing_left(scenario: Composed) -> ir.Behavior:
+    """Return a tree for a scenario that only places its actors: it ends at once."""
+    zero = ir.Literal(
+        span=scenario.node.name.span, type=ir.ValueType(ir.Kind.FLOAT, "float"), value=0.0
+    )
+    elapsed = ir.Elapsed(span=zero.span, duration=zero)
+    trigger = ir.Trigger(span=zero.span, event=None, condition=elapsed)
+    return ir.Wait(span=zero.span, label=None, name="nothing further", trigger=trigger)
+
+
+def labelled_once(node: ir.Behavior, seen: set[str]) -> ir.Behavior:
+    """Return the tree without labels that stand there before: a dialect lets them."""
+    if node.label in seen:
+        node = replace(node, label=None)
+    elif node.label is not None:
+        seen.add(node.label)
+    if not isinstance(node, ir.Serial | ir.Parallel | ir.OneOf):
+        return node
+    return replace(node, members=tuple(labelled_once(member, seen) for member in node.members))

@@ -1,0 +1,127 @@
+"""Durations of what never ends by itself: a range is a parameter like any other (§7.3.5.1.3).
+
+What ends by itself, or with an `until`, takes the time it takes; there a range only bounds it.
+"""
+
+from __future__ import annotations
+
+from typing import TypeVar
+
+from osc2tx import ir
+from osc2tx.analysis import single_value
+from osc2tx.analysis.constraints.operation_list import Key
+from osc2tx.catalogue import catalogue
+from osc2tx.lowering.behavior.composed_behaviors import Composed
+from osc2tx.lowering.constraints.constraints import ConstraintLowering
+from osc2tx.lowering.context import LoweringContext
+from osc2tx.semantics.builtins import DURATION
+from osc2tx_shared.classes import replace
+
+__all__ = ["is_open_ended", "with_open_duration"]
+
+Member = TypeVar("Member", bound=ir.Serial | ir.OneOf | ir.Parallel | ir.Invoke)
+
+
+def with_open_duration(ctx: LoweringContext, node: Member, name: str) -> Member:
+    """Return a member whose duration is drawn from its range, if nothing else ends the member.
+
+    Args:
+        ctx: The scenario.
+        node: The member.
+        name: Of the parameter.
+    """
+    duration = node.duration
+    if node.until or not isinstance(duration, ir.RangeValue):
+        return node
+    if not is_open_ended(replace(node, duration=None)):
+        return node
+    drawn = ctx.draw(name, duration, duration.lower.type)
+    return replace(node, duration=drawn)
+
+
+def is_open_ended(node: ir.Behavior) -> bool:
+    """Return whether a member never ends by itself."""
+    match node:
+        case ir.Serial(members=members):
+            return not _is_bounded(node) and is_open_ended(members[-1])
+        case ir.OneOf(members=members):
+            return not _is_bounded(node) and all(map(is_open_ended, members))
+        case ir.Parallel(members=members):
+            lasting = [member for member in members if not _is_instant(member)]
+            return not _is_bounded(node) and bool(lasting) and all(map(is_open_ended, lasting))
+        case ir.Invoke():
+            return not _is_bounded(node) and _ends(node) == "open" and not _has_goal(node)
+        case _:
+            return False
+
+
+def _is_bounded(node: ir.Serial | ir.Parallel | ir.OneOf | ir.Invoke) -> bool:
+    return node.duration is not None or bool(node.until)
+
+
+def _is_instant(node: ir.Behavior) -> bool:
+    match node:
+        case ir.Emit() | ir.Call() | ir.On():
+            return True
+        case ir.Invoke():
+            return node.duration is None and _ends(node) == "instant"
+        case _:
+            return False
+
+
+def _ends(node: ir.Invoke) -> str:
+    entry = catalogue().actions.get(node.qualified_name)
+    return "" if entry is None else entry.ends
+
+
+def _has_goal(node: ir.Invoke) -> bool:
+    """Whether a modifier says what is to be reached, so that the action may end with it."""
+    modifiers = catalogue().modifiers
+    return any(
+        call.at == "end" or (call.name in modifiers and modifiers[call.name].bounds)
+        for call in node.modifiers
+    )
+
+
+_OWN: Key = (DURATION,)
+
+
+def own_duration(ctx: LoweringContext, constraints: ConstraintLowering) -> ir.Expression | None:
+    """Return the duration of a scenario, or its bounds; others may then compute with it."""
+    if _OWN not in constraints.found.by_key:
+        return None
+    setting = constraints.setting(_OWN, DURATION.type)
+    if setting.value is not None:
+        ctx.given[_OWN] = setting.value
+        return setting.value
+    match setting.domain:
+        case ir.RangeValue() as bounds:
+            return bounds
+        case ir.Choices() as listed:
+            drawn = ctx.draw("duration", listed, listed.elements[0].type)
+            ctx.given[_OWN] = drawn
+            return drawn
+    return None
+
+
+def leaves_duration_open(ctx: LoweringContext, behavior: Composed) -> bool:
+    """Whether constraints in a behavior say how long it takes, and let it be several times."""
+    found = ctx.analysis.types[behavior]
+    if _OWN not in found.by_key:
+        return False
+    domain = found.domains_to_set().get(_OWN)
+    return domain is None or single_value(domain) is None
+
+
+def lasting(ctx: LoweringContext, body: ir.Behavior, duration: ir.Expression | None) -> ir.Behavior:
+    """Return a body that takes so long."""
+    if duration is None:
+        return body
+    made: ir.Serial | ir.Parallel | ir.OneOf
+    if isinstance(body, ir.Serial | ir.Parallel | ir.OneOf) and body.duration is None:
+        made = replace(body, duration=duration)
+    else:
+        made = ir.Serial(
+            span=body.span, label=None, name=body.name, members=(body,), duration=duration
+        )
+    return with_open_duration(ctx, made, "duration")

@@ -1,0 +1,280 @@
+"""Invocations of actions and scenarios."""
+
+from __future__ import annotations
+
+from osc2tx import ir
+from osc2tx.analysis.constraints.operation_list import Key
+from osc2tx.ir.source_text import statement_name
+from osc2tx.lowering.behavior.composed_behaviors import (
+    Composed,
+    actor_type_of,
+    has_behavior,
+    is_composed,
+)
+from osc2tx.lowering.behavior.durations import leaves_duration_open, with_open_duration
+from osc2tx.lowering.behavior.node_names import invocation_name
+from osc2tx.lowering.behavior.triggers import lower_until
+from osc2tx.lowering.behavior.user_actions import default_arguments, is_user_defined
+from osc2tx.lowering.constraints.constraints import ConstraintLowering
+from osc2tx.lowering.constraints.parameter_settings import Instance, Setting
+from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.declarations.objects import ObjectLowering
+from osc2tx.lowering.modifiers.modifiers import draw_ranges, is_override
+from osc2tx.lowering.modifiers.standing_modifiers import StandingModifiers
+from osc2tx.lowering.modifiers.user_modifiers import ModifierLowering
+from osc2tx.lowering.placement.carla_paths import start_on_path
+from osc2tx.lowering.value_types import lower_type
+from osc2tx.lowering.values.arguments import lower_arguments
+from osc2tx.lowering.values.expressions import lower_expression
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics import types
+from osc2tx.semantics.bodies.modifiers import instead_of_scenario
+from osc2tx.semantics.conversions import symbol_of
+from osc2tx.semantics.model import Binding
+from osc2tx.semantics.names.member_lookup import parameters_of
+from osc2tx.syntax import ast
+
+
+class InvocationLowering:
+    """Lowers the invocations of one scenario."""
+
+    def __init__(
+        self, ctx: LoweringContext, constraints: ConstraintLowering, standing: StandingModifiers
+    ) -> None:
+        """Take the checked program, and what the constraints and members of the scenario say."""
+        self._ctx = ctx
+        self._constraints = constraints
+        self._standing = standing
+
+    def lower(
+        self, node: ast.Invocation, comments: tuple[str, ...]
+    ) -> ir.Invoke | ir.InvokeScenario | None:
+        """Lower an invocation; `None` if it was refused."""
+        binding = self._ctx.model.binding_of(node)
+        callee = binding.callee
+        actor = self._actor(node, binding)
+        if is_composed(callee):
+            return self._scenario(node, callee, actor, comments)
+        assert isinstance(callee, sym.ActionSymbol)
+        self._ctx.actions.append(callee)
+        arguments = self._arguments(node, actor)
+        if is_user_defined(callee):
+            arguments += default_arguments(self._ctx, callee, arguments, actor, node)
+        written = [member for member in node.with_members if not _is_until(member)]
+        invocation = ir.Invoke(
+            span=node.span,
+            label=label_of(node),
+            name=invocation_name(
+                _written(actor),
+                callee.name,
+                [*(a.span.text for a in node.arguments), *(m.span.text for m in written)],
+            ),
+            comments=comments,
+            actor=actor,
+            owner=None if callee.actor is None else callee.actor.name,
+            action=callee.name,
+            arguments=tuple(a for a in arguments if a.parameter != "duration"),
+            modifiers=self._modifiers(node, actor),
+            duration=next((a.value for a in arguments if a.parameter == "duration"), None),
+            until=lower_until(self._ctx, node.with_members),
+            is_own=is_user_defined(callee),
+        )
+        name = f"{name_of_member(node)}.duration"
+        return start_on_path(with_open_duration(self._ctx, invocation, name))
+
+    def _actor(self, node: ast.Invocation, binding: Binding) -> ir.Expression | None:
+        """Return who acts; without an expression it is the actor of the scenario (§5.5)."""
+        callee = binding.callee
+        type_of_actor = actor_type_of(callee) if isinstance(callee, sym.BehaviorSymbol) else None
+        if type_of_actor is None:
+            return None
+        if binding.receiver is not None:
+            return lower_expression(self._ctx, binding.receiver)
+        type_ = ir.ValueType(ir.Kind.ACTOR, type_of_actor.name)
+        return ir.FieldRef(span=node.span, type=type_, name="actor")
+
+    def _scenario(
+        self,
+        node: ast.Invocation,
+        callee: Composed,
+        actor: ir.Expression | None,
+        comments: tuple[str, ...],
+    ) -> ir.InvokeScenario | None:
+        if not has_behavior(callee):
+            self._ctx.unsupported(
+                "OSC504",
+                node.span,
+                f"scenario `{callee.qualified_name}` has no `do`",
+                help="say what happens in it: `do …`",
+            )
+            return None
+        self._ctx.invoked.append(callee)
+        arguments = self._arguments(node, actor)
+        self.refuse_movement(node, actor, callee, "an invoked scenario")
+        types_ = {each.name: symbol_of(each.type) for each in parameters_of(callee)}
+        handed_in = [(each.value, types_.get(each.parameter)) for each in arguments]
+        for whose, type_ in ((actor, callee.actor), *handed_in):
+            known_as = type_ if isinstance(type_, sym.ActorSymbol) else None
+            for modifier in self._standing.not_known_to(whose, known_as):
+                self._ctx.unsupported(
+                    "OSC508",
+                    modifier.span,
+                    f"`{modifier.span.text}` would modify what `{callee.qualified_name}` does",
+                    help=instead_of_scenario(callee, modifier.name, modifier.span.text),
+                )
+        duration = next((a.value for a in arguments if a.parameter == "duration"), None)
+        if duration is not None and leaves_duration_open(self._ctx, callee):
+            self._ctx.unsupported(
+                "OSC501",
+                duration.span,
+                f"`{callee.qualified_name}` says itself how long it takes, and leaves that open",
+                help="leave the constraint out there, or the duration here",
+            )
+        span = callee.node.name.span
+        return ir.InvokeScenario(
+            span=node.span,
+            label=label_of(node),
+            name=statement_name(node.span),
+            comments=comments,
+            scenario=callee.qualified_name,
+            key=f"{span.source.name}:{span.start}",
+            actor=actor,
+            arguments=tuple(a for a in arguments if a.parameter != "duration"),
+            duration=duration,
+            until=lower_until(self._ctx, node.with_members),
+        )
+
+    def refuse_movement(
+        self,
+        node: Instance,
+        actor: ir.Expression | None,
+        behavior: sym.BehaviorSymbol | None,
+        what: str,
+    ) -> None:
+        """Report modifiers of what is no action; those that only constrain parameters may stand."""
+        lowering = self._modifier_lowering(node, actor, behavior)
+        for member in node.with_members:
+            if not isinstance(member, ast.ModifierApplication) or is_override(self._ctx, member):
+                continue
+            if lowering.lower(member):
+                self._ctx.unsupported(
+                    "OSC508",
+                    member.span,
+                    f"modifier `{member.modifier}` of {what} is not supported",
+                    help=instead_of_scenario(behavior, member.modifier.text, member.span.text)
+                    or "apply it in the `with` of the actions in it",
+                )
+
+    def _modifier_lowering(
+        self,
+        node: Instance,
+        actor: ir.Expression | None,
+        behavior: sym.BehaviorSymbol | None,
+    ) -> ModifierLowering:
+        return ModifierLowering(
+            self._ctx, self._constraints, name_of_member(node), actor, behavior, (node,)
+        )
+
+    def _arguments(
+        self, node: ast.Invocation, actor: ir.Expression | None
+    ) -> tuple[ir.Argument, ...]:
+        """Return the arguments, and what `keep(it.parameter …)` says: the same thing (§6)."""
+        binding = self._ctx.model.binding_of(node)
+        arguments = lower_arguments(self._ctx, binding, node.arguments)
+        if not is_composed(binding.callee):
+            arguments = draw_ranges(self._ctx, binding, arguments, name_of_member(node))
+        fields = {parameter.name: parameter for parameter, _ in binding.arguments}
+        for argument in arguments:
+            key: Key = (node, fields[argument.parameter])
+            if not isinstance(argument.value, ir.RangeValue):
+                self._ctx.given.setdefault(key, argument.value)
+        assert isinstance(binding.callee, sym.BehaviorSymbol)
+        lowering = self._modifier_lowering(node, actor, binding.callee)
+        for member in node.with_members:
+            if isinstance(member, ast.ModifierApplication):
+                lowering.prepare(member)
+        return arguments + self.kept_arguments(node)
+
+    def kept_arguments(self, node: ast.Invocation | ast.Composition) -> tuple[ir.Argument, ...]:
+        """Return what constraints say of the parameters that have no argument."""
+        binding = self._ctx.model.bindings.get(node)
+        is_scenario = binding is not None and is_composed(binding.callee)
+        arguments = []
+        for parameter, setting in self._constraints.of_instance(node):
+            value = setting.value or setting.domain
+            if value is None:
+                continue
+            is_time = parameter.name == "duration" and not isinstance(setting.domain, ir.Choices)
+            # An invoked scenario draws for itself, unless a check here has to know the value.
+            draws_itself = is_scenario and self._constraints.says_all(setting, (node, parameter))
+            if setting.value is None and not draws_itself and not is_time:
+                value = self._drawn(node, parameter, setting)
+            if value is None:
+                continue
+            if value is not setting.domain:
+                self._ctx.given[node, parameter] = value
+            arguments.append(_named(parameter, value))
+        objects = ObjectLowering(self._ctx, self._constraints)
+        for parameter in self._constraints.structs_of_instance(node):
+            assert isinstance(parameter.type, types.StructType)
+            name = f"{name_of_member(node)}.{parameter.name}"
+            type_ = lower_type(parameter.type)
+            object_ = ir.FieldRef(span=node.span, type=type_, name=self._ctx.unique(name))
+            self._ctx.given[node, parameter] = object_
+            struct = objects.of_parameter((node, parameter), parameter.type, object_)
+            self._ctx.drawn.append(struct)
+            arguments.append(_named(parameter, object_))
+        return tuple(arguments)
+
+    def _drawn(
+        self, node: ast.Invocation | ast.Composition, parameter: sym.FieldSymbol, setting: Setting
+    ) -> ir.FieldRef | None:
+        assert setting.domain is not None
+        name = f"{name_of_member(node)}.{parameter.name}"
+        return self._ctx.draw(name, setting.domain, lower_type(parameter.type))
+
+    def _modifiers(
+        self, node: ast.Invocation, actor: ir.Expression | None
+    ) -> tuple[ir.ModifierCall, ...]:
+        action = self._ctx.model.binding_of(node).callee
+        assert isinstance(action, sym.BehaviorSymbol)
+        lowering = self._modifier_lowering(node, actor, action)
+        modifiers: list[ir.ModifierCall] = []
+        for member in node.with_members:
+            match member:
+                case ast.ModifierApplication():
+                    if not is_override(self._ctx, member):
+                        modifiers += lowering.lower(member)
+                case ast.KeepConstraint() | ast.RemoveDefault() | ast.UntilDirective():
+                    pass
+        return (*modifiers, *self._standing.of(actor, action))
+
+
+def _written(actor: ir.Expression | None) -> str | None:
+    if actor is None:
+        return None
+    return actor.name if isinstance(actor, ir.FieldRef) else actor.span.text
+
+
+def _named(parameter: sym.FieldSymbol, value: ir.Expression) -> ir.Argument:
+    return ir.Argument(parameter=parameter.name, value=value, is_positional=False, span=value.span)
+
+
+def name_of_member(node: ast.Invocation | ast.Composition) -> str:
+    """Return what to call values that belong to a member of the tree: label, or who does what."""
+    if node.label is not None:
+        return node.label.text
+    if isinstance(node, ast.Composition):
+        return node.operator.value
+    if node.actor is None:
+        return node.behavior.text
+    return f"{''.join(node.actor.span.text.split())}.{node.behavior.text}"
+
+
+def label_of(node: ast.BehaviorMember) -> str | None:
+    """Return the label of a member of the tree."""
+    return None if node.label is None else node.label.text
+
+
+def _is_until(member: ast.WithMember) -> bool:
+    return isinstance(member, ast.UntilDirective)

@@ -1,0 +1,120 @@
+"""Actions that the scenario's own files declare; a package of the user carries them out.
+
+The declaration is what counts: a value that an invocation leaves out is the default of the
+declaration, whatever the default of the Python class.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from osc2tx import ir
+from osc2tx.analysis.constraints.parameter_lookup import Place
+from osc2tx.analysis.tree_walk import nodes_below
+from osc2tx.lowering.context import LoweringContext, statement_comments
+from osc2tx.lowering.value_types import lower_type
+from osc2tx.lowering.values.expressions import lower_expression
+from osc2tx.semantics import symbols as sym
+from osc2tx.syntax import ast
+from osc2tx_shared.classes import replace
+
+MOVEMENT = "action_for_movable_object"
+"""Base of all actions of the library that modifiers of movement may be applied to."""
+
+
+def is_user_defined(action: sym.ActionSymbol) -> bool:
+    """Whether an action comes neither from the library nor from the prelude of a dialect."""
+    return action.origin == "user"
+
+
+def lower_actions(actions: Iterable[sym.ActionSymbol]) -> tuple[ir.UserAction, ...]:
+    """Return the declarations of the user's own actions among those that are invoked."""
+    return tuple(
+        _lower_action(action) for action in dict.fromkeys(actions) if is_user_defined(action)
+    )
+
+
+def _lower_action(action: sym.ActionSymbol) -> ir.UserAction:
+    bases = [action]
+    while (base := bases[-1].base) is not None:
+        bases.append(base)
+    return ir.UserAction(
+        name=action.name,
+        owner=None if action.actor is None else action.actor.name,
+        span=action.span,
+        comments=statement_comments(action.node),
+        parameters=tuple(
+            ir.ActionParameter(
+                name=p.name, type=lower_type(p.type), has_default=p.default is not None
+            )
+            for p in _parameters(action)
+            if p.node is not None
+        ),
+        takes_modifiers=any(base.name == MOVEMENT for base in bases),
+    )
+
+
+def default_arguments(
+    ctx: LoweringContext,
+    action: sym.ActionSymbol,
+    given: tuple[ir.Argument, ...],
+    actor: ir.Expression | None,
+    node: ast.Invocation,
+) -> tuple[ir.Argument, ...]:
+    """Return what an invocation leaves to the defaults of the declaration, bases first.
+
+    Args:
+        ctx: The checked program.
+        action: What is invoked.
+        given: Its arguments.
+        actor: Who acts, if somebody does: a default may be `actor`.
+        node: The invocation; its constraints may speak of the defaults from now on.
+    """
+    names = {argument.parameter for argument in given}
+    place = Place(model=ctx.model, owner=action, prefix=(node,), it=(node,))
+    inside = replace(ctx.at(place), actor=actor)
+    arguments = []
+    for parameter in _in_order_of_use(ctx, list(_parameters(action))):
+        default = parameter.default
+        if parameter.name in names or default is None or isinstance(default, ast.SampleExpression):
+            continue
+        value = lower_expression(inside, default)
+        if value is not None:
+            ctx.given.setdefault((node, parameter), value)
+            arguments.append(
+                ir.Argument(
+                    parameter=parameter.name, value=value, is_positional=False, span=node.span
+                )
+            )
+    return tuple(arguments)
+
+
+def _parameters(action: sym.ActionSymbol) -> Iterator[sym.FieldSymbol]:
+    if action.base is not None:
+        yield from _parameters(action.base)
+    for member in action.members.values():
+        if isinstance(member, sym.FieldSymbol) and not member.is_variable:
+            yield member
+
+
+def _in_order_of_use(
+    ctx: LoweringContext, parameters: list[sym.FieldSymbol]
+) -> Iterator[sym.FieldSymbol]:
+    """Yield parameters in their order, but each after those that its default reads."""
+    pending = list(parameters)
+    while pending:
+        ready = (p for p in pending if not _read_by(ctx, p) & set(pending))
+        chosen = next(ready, None)
+        if chosen is None:
+            names = ", ".join(f"`{parameter.name}`" for parameter in pending)
+            ctx.unsupported("OSC511", pending[0].span, f"defaults go round in a circle: {names}")
+            return
+        pending.remove(chosen)
+        yield chosen
+
+
+def _read_by(ctx: LoweringContext, parameter: sym.FieldSymbol) -> set[sym.Symbol | None]:
+    default = parameter.default
+    if default is None or isinstance(default, ast.SampleExpression):
+        return set()
+    return {ctx.model.symbol_of(node) for node in nodes_below(default)}

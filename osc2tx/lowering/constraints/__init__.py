@@ -1,0 +1,1 @@
+"""Constraints as fixed values, domains and conditions of parameters."""

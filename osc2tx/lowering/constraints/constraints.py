@@ -1,0 +1,365 @@
+"""Constraints on the values of a scenario (§7.3.11) as fixed values and domains.
+
+A parameter becomes a constant (what sets it is hard), a value with a default, or a value out of a
+domain. Its domain is written with the bounds of the source where the source has them. A constraint
+that all this does not make true by itself is left over: it is checked before the run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import field
+
+from osc2tx import ir
+from osc2tx.analysis import TypeConstraints, analyse_global, single_value
+from osc2tx.analysis.constraints.collect import Constraint
+from osc2tx.analysis.constraints.domains import TRUE, Choice, Domain, join
+from osc2tx.analysis.constraints.operation_list import Key, domain_of_type
+from osc2tx.analysis.constraints.solver import values_on
+from osc2tx.lowering.behavior.composed_behaviors import Composed, is_composed
+from osc2tx.lowering.constraints.cases import (
+    alternatives,
+    cases_of,
+    range_by_cases,
+    range_in_a_case,
+    value_by_cases,
+)
+from osc2tx.lowering.constraints.equations import solve_for
+from osc2tx.lowering.constraints.parameter_domains import (
+    DomainWriter,
+    all_values,
+    as_type,
+    written_domain,
+)
+from osc2tx.lowering.constraints.parameter_settings import Instance, Setting, is_known_here, is_last
+from osc2tx.lowering.context import LoweringContext, statement_comments
+from osc2tx.lowering.declarations.map_fields import NOT_SEARCHED_BY, SEARCHED_BY, reads_map
+from osc2tx.lowering.values.expressions import lower_expression
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics import types
+from osc2tx.syntax import ast
+from osc2tx_shared.classes import dataclass, replace
+
+
+@dataclass(slots=True)
+class ConstraintLowering:
+    """Lowers the constraints of one scenario, or of a global parameter.
+
+    Attributes:
+        ctx: The checked program.
+        found: Its constraints.
+    """
+
+    ctx: LoweringContext
+    found: TypeConstraints
+    _hard: dict[Key, Domain] = field(default_factory=dict)
+    _written: dict[Key, Domain] = field(default_factory=dict)
+    _used: set[Constraint] = field(default_factory=set)
+    _with_comments: set[ast.Node] = field(default_factory=set)
+
+    @classmethod
+    def of_scenario(cls, ctx: LoweringContext, scenario: Composed) -> ConstraintLowering:
+        """Take the constraints of a scenario."""
+        found = ctx.analysis.types[scenario]
+        same = {each.constraint for f, each in ctx.same_actors.items() if f not in ctx.handed_in}
+        return cls(ctx, found, dict(found.domains_to_set()), _used=same)
+
+    @classmethod
+    def of_global(cls, ctx: LoweringContext, parameter: sym.FieldSymbol) -> ConstraintLowering:
+        """Take the constraints of a global parameter."""
+        found = analyse_global(ctx.model, parameter)
+        return cls(ctx, found, dict(found.domains_to_set()))
+
+    def with_actor(self, actor: ir.Expression | None) -> ConstraintLowering:
+        """Return the same constraints, for expressions in which `actor` is something."""
+        return replace(self, ctx=replace(self.ctx, actor=actor))
+
+    def setting(self, key: Key, type_: types.Type) -> Setting:
+        """Return what is known of a parameter; its constraints count as written from now on."""
+        mentioned = tuple(c for c in self.found.by_key.get(key, ()) if is_known_here(c, key))
+        own = [c for c in mentioned if c.subject == key and c.value is not None]
+        if isinstance(type_, types.ListType | types.RangeType):
+            own = [c for c in own if not c.is_range]  # what is in it is left to a check
+        definition = next((c for c in reversed(own) if not c.is_range), None)
+        within = next((c for c in reversed(own) if c.is_range), None)
+        hard = self._hard.get(key, domain_of_type(type_))
+        writer = DomainWriter(self.ctx, key, type_, mentioned)
+        value = None if definition is None else self._expression(definition)
+        is_fixed = definition is not None and not definition.is_default
+        value = None if value is None else as_type(value, type_)
+        if not is_fixed and single_value(hard) is not None:
+            value, is_fixed, definition = writer.point(hard), True, None
+        elif definition is None and (authored := self._authored(writer)) is not None:
+            value, is_fixed = authored, True
+        elif definition is None and (solved := self._solved(key)) is not None:
+            (definition, value), is_fixed = solved, True
+        elif definition is None and (by_cases := self._by_cases(key, type_)) is not None:
+            value, is_fixed = by_cases, True
+        domain = None if is_fixed else self._domain(writer, within, hard)
+        self._note(key, type_, definition, domain, hard if is_fixed else None)
+        said = [c for c in mentioned if self._is_said(c, key, definition, domain)]
+        self._used.update(c for c in said if c is definition or c is within)
+        comments = dict.fromkeys(line for c in said for line in self._comments(c))
+        return Setting(value, domain, is_fixed, tuple(comments), tuple(said))
+
+    def members(self, object_: Key) -> Iterator[tuple[Key, Setting]]:
+        """Yield what is known of the members of an object; any value of an enum is something."""
+        depth = len(object_)
+        for key, mentioned in self.found.by_key.items():
+            below = key[depth:] if key[:depth] == object_ else ()
+            fields = [part for part in below if isinstance(part, sym.FieldSymbol)]
+            if fields and len(fields) == len(below):
+                setting = self.setting(key, fields[-1].type)
+                if setting.is_empty:
+                    setting = replace(
+                        setting, domain=all_values(fields[-1].type, mentioned[0].span)
+                    )
+                if not setting.is_empty:
+                    yield key, setting
+
+    def of_instance(self, node: Instance) -> Iterator[tuple[sym.FieldSymbol, Setting]]:
+        """Yield what constraints say of the parameters of an invocation or composition.
+
+        Arguments are constraints too; a parameter that has one is left to it.
+        """
+        for key, mentioned in self.found.by_key.items():
+            parameter = key[-1]
+            if key[0] is not node or len(key) != 2 or not isinstance(parameter, sym.FieldSymbol):
+                continue
+            if any(c.subject == key and c.origin == "argument" for c in mentioned):
+                continue
+            says_itself = any(c.subject == key for c in mentioned)
+            if says_itself and all(c.place.prefix[:1] == (node,) for c in mentioned):
+                continue
+            setting = self.setting(key, parameter.type)
+            if not setting.is_empty:
+                yield parameter, setting
+
+    def structs_of_instance(self, node: Instance) -> Iterator[sym.FieldSymbol]:
+        """Yield the parameters of an invocation that constraints describe by their fields."""
+        found: dict[sym.FieldSymbol, None] = {}
+        for key in self.found.by_key:
+            parameter = key[1] if len(key) > 2 and key[0] is node else None
+            match parameter:
+                case sym.FieldSymbol(type=types.StructType()) if key[:2] not in self.ctx.given:
+                    found[parameter] = None
+        yield from found
+
+    def says_all(self, setting: Setting, key: Key) -> bool:
+        """Whether what is written of a parameter makes all constraints on it true."""
+        return all(c in setting.constraints for c in self.found.by_key.get(key, ()))
+
+    def use(self, constraint: Constraint) -> None:
+        """Note that a constraint is written: nothing of it is left to a check."""
+        self._used.add(constraint)
+
+    def left_over(self) -> tuple[ir.Constraint, ...]:
+        """Return what has to be checked before the run; ask last."""
+        left = [c for c in self.found.in_force.constraints if self._is_left(c)]
+        lowered = (self._constraint(c) for c in left)
+        return tuple(constraint for constraint in lowered if constraint is not None)
+
+    # --- parts ---
+
+    def _expression(self, constraint: Constraint) -> ir.Expression | None:
+        assert constraint.value is not None
+        return lower_expression(self.ctx.at(constraint.place), constraint.value)
+
+    def _authored(self, writer: DomainWriter) -> ir.Expression | None:
+        """Return what a longer constraint sets a parameter to.
+
+        Objects are not set by what is set to them: `keep(it.group == street)` is about `it`. Nor
+        are members of objects by what is known from them alone: `keep(gap == ego.rear_overhang)`.
+        """
+        if isinstance(writer.type, types.StructType):
+            return None
+        return writer.equality([c for c in writer.constraints if self._defines(c, writer.key)])
+
+    def _defines(self, constraint: Constraint, member: Key) -> bool:
+        """Whether a constraint is all that says what another parameter is, by a member."""
+        subject = constraint.subject
+        if subject is None or subject == member:
+            return False
+        if constraint in self._used:
+            return True
+        if len(member) == 1:
+            return False
+        about = self.found.by_key.get(subject, ())
+        return [c for c in about if c.subject == subject and c.value is not None] == [constraint]
+
+    def _domain(
+        self, writer: DomainWriter, within: Constraint | None, hard: Domain
+    ) -> ir.Domain | None:
+        if within is not None:
+            lowered = self._expression(within)
+            if isinstance(lowered, ir.ListValue):
+                elements = lowered.elements
+                return ir.Choices(span=lowered.span, type=lowered.type, elements=elements)
+            if isinstance(lowered, ir.RangeValue) and not writer.is_constant(lowered):
+                return lowered
+        elif (listed := self._listed(writer)) is not None:
+            return listed
+        bound = None if within is not None else writer.relative(self._earlier(writer.key))
+        if bound is not None and not isinstance(hard, Choice):
+            lowered, by = bound
+            if not writer.has_bounds:
+                self._used.add(by)
+                return lowered
+        known = writer.domain(hard)
+        if known is None or isinstance(known, ir.HalfRange):
+            return self._range_by_cases(writer) or known
+        return known
+
+    def _range_by_cases(self, writer: DomainWriter) -> ir.RangeValue | None:
+        """Return what a number is drawn from that constraints bound in some cases only."""
+        found = range_by_cases(self.ctx, self._earlier(writer.key), writer.key, writer.type)
+        if found is None:
+            return range_in_a_case(self.ctx, writer.constraints, writer.key, writer.type)
+        self._used.update(found[1])
+        return found[0]
+
+    def _earlier(self, key: Key) -> list[Constraint]:
+        """Return the constraints that relate a parameter to earlier ones."""
+        found = []
+        for constraint in self.found.by_key.get(key, ()):
+            others = [k for k in constraint.operations.keys if k != key]
+            after = isinstance(key[0], ast.Node) or is_last(key, others)
+            if others and after and not constraint.is_default:
+                found.append(constraint)
+        return found
+
+    def _note(
+        self,
+        key: Key,
+        type_: types.Type,
+        definition: Constraint | None,
+        domain: ir.Domain | None,
+        fixed: Domain | None,
+    ) -> None:
+        """Remember what the module lets the parameter be, at least."""
+        whole = domain_of_type(type_)
+        if definition is not None:
+            value = self._value_of(definition) if definition.subject == key else whole
+            others = None if not definition.is_default else whole
+            if definition.is_default and domain is not None:
+                others = written_domain(domain, type_, self._hard.get(key, whole))
+            self._written[key] = value if others is None else join(value, others)
+        elif fixed is not None and single_value(fixed) is not None:
+            self._written[key] = fixed
+        elif domain is not None:
+            self._written[key] = written_domain(domain, type_, self._hard.get(key, whole))
+
+    def _solved(self, key: Key) -> tuple[Constraint, ir.Expression] | None:
+        """Return an equality between values, solved for the one that is declared last."""
+        for constraint in self.found.by_key.get(key, ()):
+            node = constraint.node
+            others = [k for k in constraint.operations.keys if k != key]
+            if constraint in self._used or constraint.is_default or not others:
+                continue
+            if not isinstance(node, ast.KeepConstraint) or not is_last(key, others):
+                continue
+            solved = solve_for(self.ctx.at(constraint.place), node.expression, constraint, key)
+            if solved is not None:
+                return constraint, solved
+        return None
+
+    def _by_cases(self, key: Key, type_: types.Type) -> ir.Expression | None:
+        """Return what a parameter is in each of the cases that constraints tell apart."""
+        cases = cases_of(self.ctx, self._earlier(key), key, type_)
+        self._used.update(case.constraint for case in cases)
+        return value_by_cases(cases) if cases else None
+
+    def _listed(self, writer: DomainWriter) -> ir.Choices | None:
+        """Return the values that a constraint lists, `x == a or x == b`."""
+        for constraint in writer.constraints:
+            plain = constraint.operations.keys == {writer.key}
+            listed = plain and alternatives(self.ctx, constraint, writer.key, writer.type)
+            if listed:
+                self._used.add(constraint)
+                return listed
+        return None
+
+    def _value_of(self, definition: Constraint) -> Domain:
+        """Return what the value that a parameter is set to can be."""
+        values = values_on(definition.operations, self._written)
+        root = definition.operations.root
+        return values[root.operands[1]] if len(root.operands) > 1 else values[-1]
+
+    def _is_said(
+        self,
+        constraint: Constraint,
+        key: Key,
+        definition: Constraint | None,
+        domain: ir.Domain | None,
+    ) -> bool:
+        if constraint is definition:
+            return True
+        if constraint.subject == key and constraint.is_range and domain is not None:
+            return True
+        return constraint.operations.keys == {key} and self._holds(constraint)
+
+    def _holds(self, constraint: Constraint) -> bool:
+        return values_on(constraint.operations, self._written)[-1] == TRUE
+
+    def _is_left(self, constraint: Constraint) -> bool:
+        if constraint.origin == "argument":
+            return False
+        prefix = constraint.place.prefix
+        if not prefix and not constraint.is_default and self._is_about_others(constraint):
+            return True
+        if constraint in self._used:
+            return False
+        if prefix and isinstance(prefix[0], ast.Invocation) and self._checks_itself(prefix[0]):
+            return False
+        if self.found.owner is not None and constraint.place.owner is None:
+            return False  # what a global parameter says of itself
+        values = (self._written.get(key) for key in constraint.operations.keys)
+        is_known = all(value is not None and single_value(value) is not None for value in values)
+        if is_known and all(operation.name != "any" for operation in constraint.operations.items):
+            return False  # the analysis saw that it holds
+        return not self._holds(constraint)
+
+    def _is_about_others(self, constraint: Constraint) -> bool:
+        """Whether a constraint is about objects that are made elsewhere, and not known there.
+
+        Known is what is said of a single member of an object that the invocation names.
+        """
+        roots = {key[0] for key in constraint.operations.keys if len(key) > 1}
+        is_relation = len(constraint.operations.keys) > 1
+        return bool(roots & (self.ctx.handed_in if is_relation else self.ctx.computed))
+
+    def _checks_itself(self, invoked: ast.Invocation) -> bool:
+        """Whether an invoked behavior sees to its own constraints: all but actions of the user."""
+        callee = self.ctx.model.binding_of(invoked).callee
+        is_action = isinstance(callee, sym.ActionSymbol) and callee.origin == "user"
+        return not is_action or is_composed(callee)
+
+    def _constraint(self, constraint: Constraint) -> ir.Constraint | None:
+        node = constraint.node
+        if not isinstance(node, ast.KeepConstraint):
+            return None
+        expression = lower_expression(self.ctx.at(constraint.place), node.expression)
+        if expression is None:
+            return None
+        if ir.is_live(expression):
+            if reads_map(expression):
+                what, instead = NOT_SEARCHED_BY, SEARCHED_BY
+            else:
+                what = "this constraint depends on the state of the world"
+                instead = (
+                    "constraints hold between values that are known before the run; "
+                    "wait for a condition, or end something at it"
+                )
+            self.ctx.unsupported("OSC502", constraint.span, what, help=instead)
+            return None
+        return ir.Constraint(
+            expression=expression, span=constraint.span, comments=self._comments(constraint)
+        )
+
+    def _comments(self, constraint: Constraint) -> tuple[str, ...]:
+        """Return the comments of a constraint; one on several fields has them at the first."""
+        node = constraint.node
+        if not isinstance(node, ast.KeepConstraint) or node in self._with_comments:
+            return ()
+        self._with_comments.add(node)
+        return statement_comments(node)

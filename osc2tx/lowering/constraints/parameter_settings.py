@@ -1,0 +1,59 @@
+"""What constraints say of one parameter."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from osc2tx import ir
+from osc2tx.analysis.constraints.collect import Constraint
+from osc2tx.analysis.constraints.operation_list import Key
+from osc2tx.semantics import symbols as sym
+from osc2tx.syntax import ast
+from osc2tx_shared.classes import dataclass
+
+Instance: TypeAlias = ast.Invocation | ast.Composition
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """What is known of one parameter.
+
+    Attributes:
+        value: Its value (`is_fixed`) or default.
+        domain: What it may be.
+        is_fixed: Nothing can change the value.
+        comments: Comment lines of the constraints that say so.
+        constraints: The constraints that say so.
+    """
+
+    value: ir.Expression | None
+    domain: ir.Domain | None
+    is_fixed: bool
+    comments: tuple[str, ...]
+    constraints: tuple[Constraint, ...]
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing is known."""
+        return self.value is None and self.domain is None
+
+
+def is_known_here(constraint: Constraint, key: Key) -> bool:
+    """Whether a constraint can be written here: one of an invoked scenario only if it is alone.
+
+    It sets an object that is handed in; what else it speaks of is only known inside.
+    """
+    prefix = constraint.place.prefix
+    is_inside = bool(prefix) and isinstance(prefix[0], Instance)
+    return not is_inside or isinstance(key[0], ast.Node) or constraint.operations.keys == {key}
+
+
+def is_last(key: Key, others: list[Key]) -> bool:
+    """Whether a plain parameter stands below others in the same text."""
+    last = key[0]
+    return isinstance(last, sym.FieldSymbol) and all(
+        isinstance(first, sym.FieldSymbol)
+        and first.span.source == last.span.source
+        and first.span.start < last.span.start
+        for first, *_ in others
+    )

@@ -1,0 +1,1 @@
+"""Coverage items and records, their buckets and owners."""

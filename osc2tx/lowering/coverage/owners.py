@@ -1,0 +1,123 @@
+"""What coverage items are members of: a scenario, and the actors and structs in it (§7.5.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from osc2tx import ir
+from osc2tx.analysis.constraints.operation_list import Key
+from osc2tx.lowering.behavior.composed_behaviors import Composed
+from osc2tx.lowering.context import LoweringContext, Receiver
+from osc2tx.lowering.declarations.global_names import field_name
+from osc2tx.lowering.value_types import lower_type
+from osc2tx.lowering.values.references import alias_of, member_of
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics import types
+from osc2tx.semantics.bodies.coverage_items import Item, items_of
+from osc2tx.semantics.scope import supertypes
+from osc2tx_shared.classes import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class CoverageOwner:
+    """An instance with items.
+
+    Attributes:
+        ctx: For expressions in it.
+        lineage: Its types that are looked at, the most special first.
+        key: The instance; empty for the scenario.
+        prefix: What names of its items begin with.
+    """
+
+    ctx: LoweringContext
+    lineage: tuple[sym.TypeSymbol, ...]
+    key: Key
+    prefix: str
+
+    def items(self) -> Iterator[Item]:
+        """Yield its items."""
+        for each in self.lineage:
+            yield from items_of(each)
+
+    def field(self, name: str) -> sym.FieldSymbol | None:
+        """Return a field of it."""
+        found = (each.members.get(name) for each in self.lineage)
+        return next((each for each in found if isinstance(each, sym.FieldSymbol)), None)
+
+    def value_of(self, field: sym.FieldSymbol, item: Item) -> ir.Expression:
+        """Return the value of a field of it."""
+        span, receiver = item.node.span, self.ctx.receiver
+        if receiver is not None:
+            return member_of(self.ctx, receiver.value, field, span)
+        return ir.FieldRef(span=span, type=lower_type(field.type), name=field.name)
+
+
+def coverage_owners(ctx: LoweringContext, scenario: Composed) -> Iterator[CoverageOwner]:
+    """Yield a scenario and the objects that it declares, as deep as they hold others.
+
+    Objects that somebody hands in are sampled where they are declared. Items of global actors and
+    of lists whose elements no constraint describes are reported: whose they are is not known.
+    """
+    lineage = tuple(supertypes(scenario))
+    yield CoverageOwner(ctx, lineage, (), "")
+    for field in _fields(lineage):
+        if field not in ctx.handed_in and alias_of(ctx, field) is None:
+            name = field_name(ctx, field)
+            value = ir.FieldRef(span=field.span, type=lower_type(field.type), name=name)
+            yield from _of_object(ctx, scenario, (field,), value, name)
+    for name, shared in ctx.globals.items():
+        _report(ctx, shared, f"global actor `{name}`")
+
+
+def _of_object(
+    ctx: LoweringContext, scenario: Composed, key: Key, value: ir.Expression, name: str
+) -> Iterator[CoverageOwner]:
+    field = key[-1]
+    assert isinstance(field, sym.FieldSymbol)
+    if isinstance(field.type, types.ListType):
+        elements = ctx.model.elements.get(field, ())
+        for element in elements:
+            type_ = lower_type(element.type)
+            object_ = ir.FieldRef(span=element.span, type=type_, name=element.name)
+            yield from _of_object(ctx, scenario, (element,), object_, element.name)
+        if not elements and field.default is None:
+            _report(ctx, field, f"list `{name}`")
+        return
+    if not isinstance(field.type, types.ActorType | types.StructType):
+        return
+    declared = field.type.symbol
+    lineages: list[tuple[sym.TypeSymbol, ...]] = [tuple(supertypes(declared))]
+    lineages += [(each,) for each in ctx.analysis.types[scenario].special.get(key, ())]
+    for lineage in lineages:
+        owner = lineage[0]
+        assert isinstance(owner, sym.ActorSymbol | sym.StructSymbol)
+        inside = ctx.inside(Receiver(owner, value))
+        yield CoverageOwner(inside, lineage, key, f"{name}.")
+        for member in _fields(lineage):
+            if member.owner in (part.owner for part in key if isinstance(part, sym.FieldSymbol)):
+                continue  # a type that holds itself
+            part = member_of(inside, value, member, member.span)
+            yield from _of_object(ctx, scenario, (*key, member), part, f"{name}.{member.name}")
+
+
+def _fields(lineage: tuple[sym.TypeSymbol, ...]) -> Iterator[sym.FieldSymbol]:
+    for each in lineage:
+        for member in each.members.values() if each.origin == "user" else ():
+            if isinstance(member, sym.FieldSymbol) and not member.is_variable:
+                yield member
+
+
+def _report(ctx: LoweringContext, field: sym.FieldSymbol, what: str) -> None:
+    type_ = field.type
+    while isinstance(type_, types.ListType):
+        type_ = type_.element
+    if not isinstance(type_, types.ActorType | types.StructType):
+        return
+    for each in supertypes(type_.symbol):
+        for item in items_of(each):
+            ctx.unsupported(
+                "OSC501",
+                item.node.span,
+                f"`{item.node.kind}` in an object of the {what} is not supported yet",
+                help="sample it in the scenario, `cover(name, expression: object.member)`",
+            )

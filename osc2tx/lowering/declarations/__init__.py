@@ -1,0 +1,1 @@
+"""Members of scenarios and types: actors, objects, fields, parameters."""

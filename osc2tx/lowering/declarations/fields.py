@@ -1,0 +1,219 @@
+"""Fields of a scenario, and global parameters, with what constraints say of them."""
+
+from __future__ import annotations
+
+from osc2tx import ir
+from osc2tx.diagnostics import Span
+from osc2tx.lowering.constraints.constraints import ConstraintLowering
+from osc2tx.lowering.constraints.list_constraints import lower_list
+from osc2tx.lowering.constraints.parameter_domains import all_values
+from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.declarations.combined_types import add_types, lineage
+from osc2tx.lowering.declarations.map_fields import reads_map
+from osc2tx.lowering.declarations.objects import ObjectLowering
+from osc2tx.lowering.value_types import authored_unit, lower_type
+from osc2tx.lowering.values.expressions import lower_expression
+from osc2tx.lowering.values.references import other_actor
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics import types
+from osc2tx.syntax import ast
+
+
+class FieldLowering:
+    """Lowers fields that are not sampled: objects, lists and plain values.
+
+    Args:
+        ctx: The checked program.
+        constraints: What constraints say.
+    """
+
+    def __init__(self, ctx: LoweringContext, constraints: ConstraintLowering) -> None:
+        """See the class."""
+        self._ctx = ctx
+        self._constraints = constraints
+        self._objects = ObjectLowering(ctx, constraints)
+
+    def lower(
+        self, symbol: sym.FieldSymbol, span: Span, comments: tuple[str, ...]
+    ) -> ir.Actor | ir.Struct | ir.Parameter | None:
+        """Return the declaration of a field; `None` if it was refused.
+
+        Args:
+            symbol: The field.
+            span: Its name in the source.
+            comments: Comment lines above it.
+        """
+        # A variable without initial value has one all the same (§7.3.6.1.2): from outside.
+        match symbol.type:
+            case types.ActorType() if (other := other_actor(self._ctx, symbol)) is not None:
+                return self._other_actor(symbol, other, span, comments)
+            case types.ActorType() if self._is_one_of_several(symbol):
+                return None
+            case types.ActorType():
+                actor = self._objects.types_of(symbol)
+                add_types(self._ctx, actor, span)
+                names = lineage(*actor)
+                is_given = self._is_given(symbol) and self._objects.is_open(symbol)
+                return ir.Actor(
+                    name=symbol.name,
+                    span=span,
+                    comments=comments,
+                    type=names[0],
+                    lineage=names,
+                    values=() if is_given else self._objects.values(symbol),
+                    is_given=is_given,
+                )
+            case types.StructType() if self._is_for_caller(symbol):
+                return ir.Parameter(
+                    name=symbol.name,
+                    span=span,
+                    comments=comments,
+                    type=lower_type(symbol.type),
+                    value=None,
+                    domain=None,
+                    is_fixed=False,
+                )
+            case types.StructType():
+                struct = self._objects.types_of(symbol)
+                add_types(self._ctx, struct, span)
+                return self._objects.struct(symbol, span, comments, lineage(*struct))
+            case types.ListType() | types.RangeType() if not self._has_value(symbol):
+                return self._described(symbol, span, comments)
+            case (
+                types.PrimitiveType()
+                | types.PhysicalType()
+                | types.EnumType()
+                | types.ListType()
+                | types.RangeType()
+            ):
+                return self._parameter(symbol, span, comments)
+            case _:
+                self._ctx.unsupported(
+                    "OSC501", span, f"a field of type `{symbol.type}` is not supported yet"
+                )
+                return None
+
+    def _other_actor(
+        self,
+        symbol: sym.FieldSymbol,
+        default: ast.NameExpression,
+        span: Span,
+        comments: tuple[str, ...],
+    ) -> ir.Parameter | None:
+        """Lower an actor that an invocation hands in, and else is another one."""
+        value = lower_expression(self._ctx, default)
+        if value is None:
+            return None
+        return ir.Parameter(
+            name=symbol.name,
+            span=span,
+            comments=comments,
+            type=lower_type(symbol.type),
+            value=value,
+            domain=None,
+            is_fixed=False,
+        )
+
+    def _is_one_of_several(self, symbol: sym.FieldSymbol) -> bool:
+        """Report an actor of which constraints only say among which others it is."""
+        about = self._constraints.found.by_key.get((symbol,), ())
+        own = (c for c in about if c.subject == (symbol,) and not c.place.prefix)
+        listed = (c for c in own if c.is_range and not self._is_given(symbol))
+        constraint = next(listed, None)
+        if constraint is not None:
+            self._ctx.unsupported(
+                "OSC501",
+                constraint.span,
+                f"which of several actors `{symbol.name}` is, is open until the run",
+                help=f"say which one: `keep({symbol.name} == …)`",
+            )
+        return constraint is not None
+
+    def _is_for_caller(self, symbol: sym.FieldSymbol) -> bool:
+        """Whether nothing but an invocation says what a struct is."""
+        assert isinstance(symbol.type, types.StructType)
+        if symbol.default is not None or not self._is_given(symbol):
+            return False
+        if symbol.type.symbol.origin == "user":
+            return self._objects.is_open(symbol)
+        return not self._objects.is_said(symbol)
+
+    def _has_value(self, symbol: sym.FieldSymbol) -> bool:
+        if symbol.default is not None or self._is_given(symbol):
+            return True
+        setting = self._constraints.setting((symbol,), symbol.type)
+        return setting.value is not None
+
+    def _described(
+        self, symbol: sym.FieldSymbol, span: Span, comments: tuple[str, ...]
+    ) -> ir.Parameter | None:
+        """Lower a list that constraints describe by its elements."""
+        elements = self._ctx.model.elements.get(symbol, ())
+        if elements:
+            value = self._list_of_objects(symbol, elements)
+        elif isinstance(symbol.type, types.ListType):
+            value = lower_list(self._ctx, symbol, self._constraints)
+        else:
+            value = None
+        if value is None:
+            self._ctx.unsupported(
+                "OSC501",
+                span,
+                f"`{symbol.name}`, a {symbol.type}, has no value",
+                help="give it one, `= value`, or say what its elements are, `keep(it[0] == value)`",
+            )
+            return None
+        return ir.Parameter(
+            name=symbol.name,
+            span=span,
+            comments=comments,
+            type=lower_type(symbol.type),
+            value=value,
+            domain=None,
+            is_fixed=False,
+        )
+
+    def _list_of_objects(
+        self, symbol: sym.FieldSymbol, elements: tuple[sym.FieldSymbol, ...]
+    ) -> ir.ListValue | None:
+        """Declare the elements of a list, and return the list of them."""
+        references = []
+        for element in elements:
+            declared = self.lower(element, element.span, ())
+            if declared is None:
+                return None
+            self._ctx.drawn.append(declared)
+            type_ = lower_type(element.type)
+            references.append(ir.FieldRef(span=element.span, type=type_, name=element.name))
+        type_ = lower_type(symbol.type)
+        return ir.ListValue(span=symbol.span, type=type_, elements=tuple(references))
+
+    def _is_given(self, symbol: sym.FieldSymbol) -> bool:
+        """Whether some invocation of the scenario gives a parameter a value."""
+        return symbol in self._ctx.handed_in
+
+    def _parameter(
+        self, field: sym.FieldSymbol, span: Span, comments: tuple[str, ...]
+    ) -> ir.Parameter:
+        setting = self._constraints.setting((field,), field.type)
+        domain = setting.domain
+        if setting.value is not None and reads_map(setting.value):
+            self._ctx.unsupported(
+                "OSC501",
+                setting.value.span,
+                f"`{field.name}` is computed before the run, when the map is not known yet",
+                help="write the expression where it is needed",
+            )
+        if setting.value is None and domain is None:
+            domain = all_values(field.type, span)
+        type_ = lower_type(field.type)
+        return ir.Parameter(
+            name=field.name,
+            span=span,
+            comments=(*comments, *setting.comments),
+            type=type_,
+            value=setting.value,
+            domain=domain,
+            is_fixed=setting.is_fixed,
+            unit=authored_unit(self._ctx.model, type_, (setting.value, domain)),
+        )

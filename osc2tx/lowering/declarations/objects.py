@@ -1,0 +1,324 @@
+"""Objects of a scenario, actors and structs, with the values that constraints give them."""
+
+from __future__ import annotations
+
+from itertools import chain
+
+from osc2tx import ir
+from osc2tx.analysis.constraints.operation_list import Key
+from osc2tx.analysis.constraints.parameter_lookup import name_of
+from osc2tx.diagnostics import Span
+from osc2tx.lowering.constraints.constraints import ConstraintLowering
+from osc2tx.lowering.constraints.list_constraints import fixed_elements
+from osc2tx.lowering.constraints.parameter_domains import all_values
+from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.declarations.combined_types import (
+    add_types,
+    lineage,
+    most_special,
+    shared_member,
+)
+from osc2tx.lowering.declarations.global_names import field_name
+from osc2tx.lowering.declarations.map_fields import (
+    NOT_SEARCHED_BY,
+    SEARCHED_BY,
+    is_search_criterion,
+    reads_map,
+)
+from osc2tx.lowering.declarations.user_fields import (
+    TypeSymbol,
+    class_default,
+    is_plain,
+    object_default,
+    user_fields,
+    user_lineage,
+)
+from osc2tx.lowering.value_types import lower_type
+from osc2tx.lowering.values.references import member_of
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics import types
+from osc2tx_shared.classes import replace
+
+
+class ObjectLowering:
+    """Lowers the values of the objects of one scenario.
+
+    Args:
+        ctx: The checked program.
+        constraints: What its constraints say.
+    """
+
+    def __init__(self, ctx: LoweringContext, constraints: ConstraintLowering) -> None:
+        """See the class."""
+        self._ctx = ctx
+        self._constraints = constraints
+
+    def struct(
+        self, field: sym.FieldSymbol, span: Span, comments: tuple[str, ...], names: tuple[str, ...]
+    ) -> ir.Struct | None:
+        """Lower a value of a struct type: a whole value, or values of its fields."""
+        whole = self._constraints.setting((field,), field.type)
+        if whole.value is not None:
+            for value in self._said((field,)).values():
+                self._ctx.unsupported(
+                    "OSC502",
+                    value.span,
+                    f"`{field.name}` is a whole value already",
+                    help=f"say either what `{field.name}` is, or what its fields are",
+                )
+            if ir.is_live(whole.value):
+                self._ctx.unsupported(
+                    "OSC502",
+                    whole.value.span,
+                    f"`{field.name}` cannot depend on the state of the world",
+                    help="write the expression where it is needed",
+                )
+                return None
+        return ir.Struct(
+            name=field.name,
+            span=span,
+            comments=(*comments, *whole.comments),
+            type=names[0],
+            values=self.values(field) if whole.value is None else (),
+            value=whole.value,
+            lineage=names,
+        )
+
+    def types_of(self, field: sym.FieldSymbol) -> tuple[TypeSymbol, ...]:
+        """Return the types of an object: the declared one, or special ones that it is by itself.
+
+        What an object is must be known when compiling, as far as that changes anything.
+        """
+        assert isinstance(field.type, types.ActorType | types.StructType)
+        found = self._special((field,), field.type.symbol, field.span)
+        is_made_elsewhere = field in self._ctx.handed_in
+        for key, special in self._constraints.found.undecided:
+            if key == (field,) and special.statements and not is_made_elsewhere:
+                self._ctx.unsupported(
+                    "OSC501",
+                    field.span,
+                    f"whether `{field.name}` is a `{special.name}` is open until the run",
+                    help="fix what it depends on: "
+                    f"`keep({field.name}.{_condition_of(special)})`, or another value",
+                )
+        return found
+
+    def _special(self, key: Key, declared: TypeSymbol, span: Span) -> tuple[TypeSymbol, ...]:
+        """Return the most special types that an object is of."""
+        found = most_special((declared, *self._constraints.found.special.get(key, ())))
+        if (shared := shared_member(found)) is not None:
+            names = " and ".join(f"`{type_.name}`" for type_ in found)
+            self._ctx.unsupported(
+                "OSC501",
+                span,
+                f"`{name_of(key[-1:])}` is both {names}: they both have a `{shared}` of their own",
+                help="rename one of them, or let one of the types inherit from the other",
+            )
+        return found
+
+    def is_said(self, field: sym.FieldSymbol) -> bool:
+        """Whether a constraint speaks of a member of an object."""
+        return any(key[0] is field and len(key) > 1 for key in self._constraints.found.by_key)
+
+    def is_open(self, field: sym.FieldSymbol) -> bool:
+        """Whether nothing says all that the class of an object needs to know."""
+        if not isinstance(field.type, types.ActorType | types.StructType):
+            return False
+        ctx = self._ctx.quiet()
+        object_ = self._reference(field)
+        looking = ObjectLowering(ctx, replace(self._constraints, ctx=ctx))
+        looking._complete((field,), self.types_of(field), object_, looking._said((field,)))
+        is_open = (isinstance(d, ir.Parameter) and d.is_required for d in ctx.drawn)
+        return ctx.sink.has_errors or any(is_open)
+
+    def values(self, field: sym.FieldSymbol) -> tuple[ir.FieldValue, ...]:
+        """Return what is known about an object; what constraints leave open can be set."""
+        found = self._said((field,))
+        object_ = self._reference(field)
+        if isinstance(field.type, types.ActorType | types.StructType):
+            self._complete((field,), self.types_of(field), object_, found)
+        elements = fixed_elements(self._ctx, self._constraints, field)
+        return (*_without_object(self._ctx, object_.name, field.type, found), *elements)
+
+    def of_parameter(self, key: Key, type_: types.StructType, object_: ir.FieldRef) -> ir.Struct:
+        """Lower a struct that constraints of an invocation describe by its fields.
+
+        Args:
+            key: The invocation and its parameter.
+            type_: Type of the parameter.
+            object_: The declaration that stands for it.
+        """
+        found = self._said(key)
+        types_ = self._special(key, type_.symbol, object_.span)
+        self._complete(key, types_, object_, found)
+        names = lineage(*types_)
+        add_types(self._ctx, types_, object_.span)
+        return ir.Struct(
+            name=object_.name,
+            span=object_.span,
+            type=names[0],
+            values=_without_object(self._ctx, object_.name, type_, found),
+            lineage=names,
+        )
+
+    def _reference(self, field: sym.FieldSymbol) -> ir.FieldRef:
+        name = field_name(self._ctx, field)
+        return ir.FieldRef(span=field.span, type=lower_type(field.type), name=name)
+
+    def _said(self, object_: Key) -> dict[Key, ir.FieldValue]:
+        """Return what constraints fix or bound, but for defaults that the class has anyway."""
+        found: dict[Key, ir.FieldValue] = {}
+        for key, setting in self._constraints.members(object_):
+            value, member = setting.value, key[-1]
+            assert isinstance(member, sym.FieldSymbol)
+            if setting.domain is not None and value is None and is_search_criterion(member):
+                value = setting.domain
+            elif value is None and setting.domain is not None:
+                value = self._ctx.draw(name_of(key), setting.domain, lower_type(member.type))
+            if value is not None and reads_map(value):
+                self._ctx.unsupported("OSC502", value.span, NOT_SEARCHED_BY, help=SEARCHED_BY)
+                continue
+            if value is not None and not self._is_of_class(member, value):
+                path = tuple(name_of((part,)) for part in key[len(object_) :])
+                found[key] = ir.FieldValue(
+                    path=path, value=value, span=value.span, comments=setting.comments
+                )
+        return found
+
+    def _is_of_class(self, member: sym.FieldSymbol, value: ir.Expression) -> bool:
+        """Whether a value is the default that the class of an own type has anyway."""
+        return (
+            member.origin == "user"
+            and member.default is not None
+            and member.default.span == value.span
+            and class_default(self._ctx, member) is not None
+        )
+
+    def _complete(
+        self,
+        key: Key,
+        types_: tuple[TypeSymbol, ...],
+        object_: ir.Expression,
+        found: dict[Key, ir.FieldValue],
+    ) -> None:
+        """Give a value to each field of an own type that has none and no default of its class."""
+        lineages = (reversed(user_lineage(type_)) for type_ in types_)
+        for each in dict.fromkeys(chain.from_iterable(lineages)):
+            for member in user_fields(self._ctx, each):
+                inner = (*key, member)
+                if inner in found:
+                    continue
+                if _contains_itself(key, member):
+                    self._ctx.unsupported(
+                        "OSC501",
+                        member.span,
+                        f"`{member.name}` makes a `{member.type}` contain another one without end",
+                        help="leave it out: values have no empty place for one that is not there",
+                    )
+                elif isinstance(member.type, types.StructType) and member.default is None:
+                    below = member_of(self._ctx, object_, member, member.span)
+                    self._complete(inner, (member.type.symbol,), below, found)
+                elif not self._has_class_default(inner, member):
+                    value = self._open(inner, member, object_)
+                    if value is not None:
+                        path = tuple(name_of((part,)) for part in inner[len(_outside(inner)) :])
+                        found[inner] = ir.FieldValue(path=path, value=value, span=value.span)
+
+    def _has_class_default(self, key: Key, member: sym.FieldSymbol) -> bool:
+        return self._is_in_force(key) and class_default(self._ctx, member) is not None
+
+    def _is_in_force(self, key: Key) -> bool:
+        """Whether no `remove_default` took away the default of a field; variables keep theirs."""
+        is_variable = any(isinstance(m, sym.FieldSymbol) and m.is_variable for m in key)
+        return is_variable or key in self._constraints.found.by_key
+
+    def _open(
+        self, key: Key, member: sym.FieldSymbol, object_: ir.Expression
+    ) -> ir.Expression | None:
+        """Return the default of this object's field, or a value that settings of a run choose."""
+        if self._is_in_force(key):
+            value = object_default(self._ctx, member, object_)
+            if value is not None:
+                return value
+        if is_plain(member.type):
+            domain = all_values(member.type, member.span)
+            return self._ctx.draw(name_of(key), domain, lower_type(member.type), member.span)
+        self._ctx.unsupported(
+            "OSC501",
+            key[0].span,
+            f"`{name_of(key[:-1])}` does not say its `{member.name}`",
+            help=f"`keep({name_of(key)} == value)`, or give it a default",
+        )
+        return None
+
+
+def _outside(key: Key) -> Key:
+    """Return what leads to an object: its field, or an invocation and its parameter."""
+    return key[:1] if isinstance(key[0], sym.FieldSymbol) else key[:2]
+
+
+def _condition_of(special: TypeSymbol) -> str:
+    condition = special.condition
+    return "" if condition is None else " ".join(condition.span.text.strip("()").split())
+
+
+def _without_object(
+    ctx: LoweringContext, name: str, type_: types.Type, found: dict[Key, ir.FieldValue]
+) -> tuple[ir.FieldValue, ...]:
+    """Return the values; what reads a field of the same object gets the value of that field."""
+    by_path = {value.path: value.value for value in found.values()}
+
+    def replacement(part: ir.Expression) -> ir.Expression | None:
+        path = _path_below(name, part)
+        value = by_path.get(path) or _default_at(ctx, type_, path)
+        if value is None or path in pending:
+            return None  # of the library, or defined by itself: `in_order_of_use` reports that
+        pending.append(path)
+        inlined = ir.rewrite(value, replacement)
+        pending.pop()
+        return inlined
+
+    pending: list[tuple[str, ...]] = []
+    values = []
+    for each in found.values():
+        pending.append(each.path)
+        values.append(
+            ir.FieldValue(
+                path=each.path,
+                value=ir.rewrite(each.value, replacement),
+                span=each.span,
+                comments=each.comments,
+            )
+        )
+        pending.pop()
+    return tuple(values)
+
+
+def _default_at(
+    ctx: LoweringContext, type_: types.Type, path: tuple[str, ...]
+) -> ir.Expression | None:
+    """Return the default that the class of an own type has for a member, or one below it."""
+    if not path or not isinstance(type_, types.ActorType | types.StructType):
+        return None
+    fields = (member for each in user_lineage(type_.symbol) for member in user_fields(ctx, each))
+    member = next((member for member in fields if member.name == path[0]), None)
+    if member is None or path[1:]:
+        return None if member is None else _default_at(ctx, member.type, path[1:])
+    return class_default(ctx, member)
+
+
+def _path_below(object_: str, part: ir.Expression) -> tuple[str, ...]:
+    """Return the path of a member of an object, `("position", "x")`; empty for anything else."""
+    path: list[str] = []
+    while isinstance(part, ir.Attribute):
+        path.append(part.name)
+        part = part.base
+    is_below = isinstance(part, ir.FieldRef) and part.name == object_
+    return tuple(reversed(path)) if is_below else ()
+
+
+def _contains_itself(key: Key, member: sym.FieldSymbol) -> bool:
+    """Whether a member without a value is of a struct that it is in itself."""
+    above = (each.type for each in key if isinstance(each, sym.FieldSymbol))
+    is_struct = isinstance(member.type, types.StructType) and member.default is None
+    return is_struct and any(str(type_) == str(member.type) for type_ in above)

@@ -1,0 +1,145 @@
+"""Fields of actors and structs that the scenario's files declare.
+
+A class has the fields that have a default or that some text speaks of. The default is part of the
+class if it needs nothing else; one that reads other fields or globals belongs to each object.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TypeAlias
+
+from osc2tx import ir
+from osc2tx.lowering.context import LoweringContext, Receiver
+from osc2tx.lowering.value_types import lower_type
+from osc2tx.lowering.values.expressions import lower_expression
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics import types
+from osc2tx.semantics.bodies.coverage_items import items_of
+from osc2tx.semantics.model import SemanticModel
+from osc2tx.semantics.scope import supertypes
+from osc2tx.syntax import ast
+
+TypeSymbol: TypeAlias = sym.ActorSymbol | sym.StructSymbol
+
+# Sorts of values that a setting of a run can give.
+PLAIN = frozenset(
+    {ir.Kind.BOOL, ir.Kind.INTEGER, ir.Kind.FLOAT, ir.Kind.STRING, ir.Kind.QUANTITY, ir.Kind.ENUM}
+)
+
+# What an expression may not read to be a default of a class.
+_OF_OBJECTS = (ir.FieldRef, ir.ParameterRef, ir.ScenarioSelf)
+
+
+def mentioned_fields(model: SemanticModel) -> Mapping[sym.FieldSymbol, frozenset[str]]:
+    """Return the fields that some expression of a program speaks of, and the names of its files.
+
+    Coverage items of an object speak of it.
+    """
+    found: dict[sym.FieldSymbol, set[str]] = {}
+    for node, symbol in model.references.items():
+        if isinstance(symbol, sym.FieldSymbol) and isinstance(
+            node, ast.NameExpression | ast.MemberAccess
+        ):
+            found.setdefault(symbol, set()).add(node.span.source.name)
+    owners = (each for each in model.symbols if isinstance(each, sym.TypeSymbol))
+    for member in (each for owner in owners for each in owner.members.values()):
+        if isinstance(member, sym.FieldSymbol) and _is_sampled(member.type):
+            found.setdefault(member, set()).add(member.span.source.name)
+    return {symbol: frozenset(names) for symbol, names in found.items()}
+
+
+def _is_sampled(type_: types.Type) -> bool:
+    """Whether objects of a type, or objects in them, have coverage items."""
+    pending, seen = [type_], set[types.Type]()
+    while pending:
+        current = pending.pop()
+        if current in seen or not isinstance(current, types.ActorType | types.StructType):
+            continue
+        seen.add(current)
+        for each in supertypes(current.symbol):
+            if any(True for _ in items_of(each)):
+                return True
+            fields = (m for m in each.members.values() if isinstance(m, sym.FieldSymbol))
+            pending += [field.type for field in fields if each.origin == "user"]
+    return False
+
+
+def user_fields(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[sym.FieldSymbol]:
+    """Yield the fields that objects of an own type have besides those of its base."""
+    return (member for member in _fields(symbol) if _has_value(member) or member in ctx.mentioned)
+
+
+def unused_fields(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[sym.FieldSymbol]:
+    """Yield the fields that its class has as well, for other programs."""
+    used = set(user_fields(ctx, symbol))
+    return (member for member in _fields(symbol) if member not in used)
+
+
+def is_optional(ctx: LoweringContext, field: sym.FieldSymbol) -> bool:
+    """Whether nothing in its own file gives a field a value or speaks of it.
+
+    That does not depend on who imports the file.
+    """
+    home = field.span.source.name
+    return not _has_value(field) and home not in ctx.mentioned.get(field, ())
+
+
+def _fields(symbol: TypeSymbol) -> Iterator[sym.FieldSymbol]:
+    for member in symbol.members.values():
+        is_sampled = isinstance(member, sym.FieldSymbol) and isinstance(
+            member.default, ast.SampleExpression
+        )
+        if isinstance(member, sym.FieldSymbol) and not is_sampled:
+            yield member
+
+
+def _has_value(field: sym.FieldSymbol) -> bool:
+    return field.default is not None or bool(field.constraints)
+
+
+def user_bases(symbol: TypeSymbol) -> Iterator[TypeSymbol]:
+    """Yield a type and its bases, as far as they are not the library's."""
+    current: TypeSymbol | None = symbol
+    while current is not None and current.origin == "user":
+        yield current
+        current = current.base
+
+
+def user_lineage(symbol: TypeSymbol) -> tuple[TypeSymbol, ...]:
+    """Return the same types at once."""
+    return tuple(user_bases(symbol))
+
+
+def class_default(ctx: LoweringContext, field: sym.FieldSymbol) -> ir.Expression | None:
+    """Return the default of a field if it is the same for all objects; `None` if not, or none.
+
+    Lists and ranges belong to each object too: Python would share one list among all of them.
+    """
+    if not is_plain(field.type):
+        return None
+    lowered = object_default(
+        ctx.quiet(), field, ir.ParameterRef(span=field.span, type=_OWNER, name="")
+    )
+    if lowered is None or any(isinstance(part, _OF_OBJECTS) for part in ir.walk(lowered)):
+        return None
+    return lowered
+
+
+def object_default(
+    ctx: LoweringContext, field: sym.FieldSymbol, owner: ir.Expression
+) -> ir.Expression | None:
+    """Return the default of a field of an object."""
+    if field.default is None or isinstance(field.default, ast.SampleExpression):
+        return None
+    assert isinstance(field.owner, sym.ActorSymbol | sym.StructSymbol)
+    inside = ctx.inside(Receiver(field.owner, owner))
+    return lower_expression(inside, field.default)
+
+
+def is_plain(type_: types.Type) -> bool:
+    """Whether a setting of a run can give a value of a type."""
+    return lower_type(type_).kind in PLAIN
+
+
+_OWNER = ir.ValueType(ir.Kind.STRUCT, "owner")

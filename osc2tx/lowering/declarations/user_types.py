@@ -1,0 +1,188 @@
+"""Actors and structs that the scenario's files declare, as classes of the module."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from itertools import takewhile
+
+from osc2tx import ir
+from osc2tx.diagnostics import Span
+from osc2tx.lowering.context import LoweringContext, present, statement_comments
+from osc2tx.lowering.declarations.user_fields import (
+    TypeSymbol,
+    class_default,
+    is_optional,
+    unused_fields,
+    user_bases,
+    user_fields,
+)
+from osc2tx.lowering.value_types import lower_type
+from osc2tx.lowering.values.methods import lower_method
+from osc2tx.semantics import SemanticModel, types
+from osc2tx.semantics import symbols as sym
+from osc2tx.syntax import ast
+
+
+def lower_enums(model: SemanticModel, module: ir.Module) -> tuple[ir.UserEnum, ...]:
+    """Return the enums of the root file, and those of imported files that a module speaks of.
+
+    Args:
+        model: The checked program.
+        module: Its other parts.
+    """
+    lowered = tuple(map(_lower_enum, _user_enums(model)))
+    own = {each.span for each in lowered if each.span.source is model.root.span.source}
+    if len(own) == len(lowered):
+        return lowered
+    words = set(ir.words((module.scenarios, module.types, module.actions, module.modifiers)))
+    return tuple(each for each in lowered if each.span in own or each.name in words)
+
+
+def _user_enums(model: SemanticModel) -> Iterator[sym.EnumSymbol]:
+    return (each for each in model.symbols if isinstance(each, sym.EnumSymbol))
+
+
+def _lower_enum(symbol: sym.EnumSymbol) -> ir.UserEnum:
+    type_ = lower_type(types.EnumType(symbol))
+    return ir.UserEnum(name=type_.name, span=symbol.span, members=type_.members)
+
+
+def lower_types(ctx: LoweringContext, used: Iterable[TypeSymbol]) -> tuple[ir.UserType, ...]:
+    """Lower the types of declared objects that are not the library's, and all of the root file.
+
+    Bases come first, and so do the types of fields, as far as they do not need each other. Of two
+    types of one name that no object has, one is left out.
+
+    Args:
+        ctx: The checked program.
+        used: Types of declared objects.
+    """
+    symbols: dict[str, TypeSymbol] = {}
+    for symbol in used:
+        _add(ctx, symbol, symbols, ())
+    seen: set[TypeSymbol] = set()
+    for symbol in (*symbols.values(), *_own_types(ctx)):
+        _add_unused(ctx.quiet(), symbol, symbols, seen)
+    for combined in ctx.combined.values():
+        if combined.name in symbols:
+            _report_name(ctx, combined.name, combined.span)
+    nodes = {_place(node.name.span): node for node in _declarations(ctx)}
+    lowered = (_lower_type(ctx, s, nodes.get(_place(s.span))) for s in symbols.values())
+    return (*lowered, *ctx.combined.values())
+
+
+def _place(span: Span) -> tuple[str, int]:
+    return span.source.name, span.start
+
+
+def _own_types(ctx: LoweringContext) -> Iterable[TypeSymbol]:
+    """Yield the types that the root file declares."""
+    source = ctx.model.root.span.source
+    for symbol in ctx.model.symbols:
+        if isinstance(symbol, sym.ActorSymbol | sym.StructSymbol) and symbol.span.source is source:
+            yield symbol
+
+
+def _add_unused(
+    ctx: LoweringContext,
+    symbol: TypeSymbol,
+    symbols: dict[str, TypeSymbol],
+    seen: set[TypeSymbol],
+) -> None:
+    """Add a type and the types of fields that nobody speaks of; of those seen, that is done."""
+    _add(ctx, symbol, symbols, ())
+    pending = [symbol]
+    while pending:
+        for each in takewhile(lambda t: t not in seen, user_bases(pending.pop())):
+            seen.add(each)
+            for field in unused_fields(ctx, each):
+                for needed in _object_types(field.type):
+                    _add(ctx, needed, symbols, ())
+                    pending.append(needed)
+
+
+def _add(
+    ctx: LoweringContext,
+    symbol: TypeSymbol,
+    symbols: dict[str, TypeSymbol],
+    around: tuple[TypeSymbol, ...],
+) -> None:
+    """Add a type below all that it needs; above one that is there, all its bases are."""
+    missing = takewhile(lambda t: symbols.get(t.name) is not t, user_bases(symbol))
+    for each in reversed(tuple(missing)):
+        if each in around:
+            continue
+        for field in user_fields(ctx, each):
+            for needed in _object_types(field.type):
+                _add(ctx, needed, symbols, (*around, each))
+        if symbols.setdefault(each.name, each) is not each:
+            _report_name(ctx, each.name, each.span)
+
+
+def _report_name(ctx: LoweringContext, name: str, span: Span) -> None:
+    ctx.unsupported(
+        "OSC501",
+        span,
+        f"another type of the module has the name `{name}`",
+        help="types of one module share their names, whatever their namespace: rename one",
+    )
+
+
+def _object_types(type_: types.Type) -> Iterable[TypeSymbol]:
+    match type_:
+        case types.ActorType(symbol=symbol) | types.StructType(symbol=symbol):
+            return (symbol,)
+        case types.ListType(element=element):
+            return _object_types(element)
+        case _:
+            return ()
+
+
+def _lower_type(
+    ctx: LoweringContext,
+    symbol: TypeSymbol,
+    node: ast.ActorDeclaration | ast.StructDeclaration | None,
+) -> ir.UserType:
+    return ir.UserType(
+        name=symbol.name,
+        span=symbol.span,
+        comments=() if node is None else statement_comments(node),
+        bases=() if symbol.base is None else (symbol.base.name,),
+        is_actor=isinstance(symbol, sym.ActorSymbol),
+        fields=tuple(_lower_field(ctx, field) for field in user_fields(ctx, symbol)),
+        unused=tuple(_lower_field(ctx, field) for field in unused_fields(ctx, symbol)),
+        methods=present([_lower_method(ctx, each) for each in _methods(symbol)]),
+    )
+
+
+def _methods(symbol: TypeSymbol) -> Iterable[sym.MethodSymbol]:
+    return (member for member in symbol.members.values() if isinstance(member, sym.MethodSymbol))
+
+
+def _lower_method(ctx: LoweringContext, method: sym.MethodSymbol) -> ir.Method | None:
+    """Lower a method; one that is refused is reported where it is called."""
+    inside = ctx.quiet()
+    comments = () if method.node is None else statement_comments(method.node)
+    lowered = lower_method(inside, method, comments)
+    return None if inside.sink.has_errors else lowered
+
+
+def _declarations(ctx: LoweringContext) -> Iterable[ast.ActorDeclaration | ast.StructDeclaration]:
+    for file in ctx.model.files:
+        for statement in file.statements:
+            if isinstance(statement, ast.ActorDeclaration | ast.StructDeclaration):
+                yield statement
+
+
+def _lower_field(ctx: LoweringContext, field: sym.FieldSymbol) -> ir.UserField:
+    """Lower a field; of several in one declaration, the first has its comments."""
+    node = field.node
+    is_first = node is not None and node.names[0].span == field.span
+    return ir.UserField(
+        name=field.name,
+        span=field.span,
+        comments=statement_comments(node) if node is not None and is_first else (),
+        type=lower_type(field.type),
+        default=class_default(ctx, field),
+        is_optional=is_optional(ctx, field),
+    )

@@ -1,0 +1,1 @@
+"""Modifiers: of invocations, of all actions of an actor, and user-defined ones."""

@@ -1,0 +1,204 @@
+"""Modifiers of all that an actor does: members of scenarios and of actors (§7.3.12.4).
+
+One in the `with` of a composition is a member of a scenario that consists of it (§7.3.12.1.2).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from osc2tx import ir
+from osc2tx.analysis.constraints.operation_list import Key
+from osc2tx.lowering.behavior.composed_behaviors import actor_type_of, is_composed
+from osc2tx.lowering.constraints.constraints import ConstraintLowering
+from osc2tx.lowering.context import LoweringContext, Receiver
+from osc2tx.lowering.modifiers.modifiers import is_override
+from osc2tx.lowering.modifiers.user_modifiers import Applied, ModifierLowering
+from osc2tx.lowering.placement.initial_placement import can_place, owner_of
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics.scope import is_subtype, supertypes
+from osc2tx.semantics.types import ActorType
+from osc2tx.syntax import ast
+from osc2tx_shared.classes import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """A modifier that stands in such a place.
+
+    Attributes:
+        node: The application.
+        what: What it belongs to, for names of values that are drawn from ranges.
+        actor: Whose behavior it modifies, where it does not say that itself.
+        it: What `it` is in its body.
+        within: The object of whose type it is a member.
+        receiver: The same as a value.
+    """
+
+    node: ast.ModifierApplication
+    what: str
+    actor: ir.Expression | None
+    it: Key | None = None
+    within: Key = ()
+    receiver: Receiver | None = None
+
+
+class StandingModifiers:
+    """The standing modifiers of one scenario, each lowered once."""
+
+    def __init__(self, ctx: LoweringContext, constraints: ConstraintLowering) -> None:
+        """Take the checked program, and what the constraints of the scenario say."""
+        self._ctx = ctx
+        self._constraints = constraints
+        self._around: list[ast.Composition] = []
+        self._lowered: dict[tuple[ast.Node, Key], tuple[Applied, ...]] = {}
+        self._used: set[ast.Node] = set()
+
+    @contextmanager
+    def inside(self, node: ast.Composition) -> Iterator[None]:
+        """Let the modifiers of a composition hold for what is lowered meanwhile."""
+        self._around.append(node)
+        yield
+        self._around.pop()
+        for standing in self._of_composition(node):
+            for applied in self._lower(standing):
+                if applied.call.at == "start" or standing.node not in self._used:
+                    self._refuse(standing.node, applied.call)
+                    break
+
+    def of(
+        self, actor: ir.Expression | None, action: sym.BehaviorSymbol | None = None
+    ) -> Iterator[ir.ModifierCall]:
+        """Yield what modifies the invocations of an actor here.
+
+        Args:
+            actor: Who acts.
+            action: What is invoked; with `None` whatever may be.
+        """
+        for _, call in self._calls(actor, action):
+            yield call
+
+    def _calls(
+        self, actor: ir.Expression | None, action: sym.BehaviorSymbol | None
+    ) -> Iterator[tuple[Standing, ir.ModifierCall]]:
+        if not isinstance(actor, ir.FieldRef):
+            return
+        for standing in self._standing(actor):
+            if self._is_start(standing.node):
+                continue
+            for applied in self._lower(standing):
+                whose = applied.actor
+                name = whose.name if isinstance(whose, ir.FieldRef) else "actor"
+                if name == actor.name and stands(applied.call) and _fits(applied, action):
+                    self._used.add(standing.node)
+                    yield standing, applied.call
+
+    def not_known_to(
+        self, actor: ir.Expression | None, type_: sym.ActorSymbol | None
+    ) -> Iterator[ir.ModifierCall]:
+        """Yield what modifies an actor here, but not in a behavior that knows it by a type."""
+        known = tuple(supertypes(type_)) if type_ is not None else ()
+        of_type = {statement for each in known for statement in each.statements}
+        for standing, call in self._calls(actor, None):
+            if standing.node not in of_type:
+                yield call
+
+    def of_member(self, node: ast.ModifierApplication) -> tuple[Applied, ...]:
+        """Return what a member of the scenario stands for."""
+        return self._lower(_member(node))
+
+    def _standing(self, actor: ir.FieldRef) -> Iterator[Standing]:
+        yield from self._of_type(actor)
+        owner = self._constraints.found.owner
+        for ancestor in () if owner is None else reversed(list(supertypes(owner))):
+            for statement in ancestor.statements:
+                if isinstance(statement, ast.ModifierApplication):
+                    yield _member(statement)
+        for node in self._around:
+            yield from self._of_composition(node)
+
+    def _of_composition(self, node: ast.Composition) -> Iterator[Standing]:
+        what = node.label.text if node.label is not None else node.operator.value
+        for member in node.with_members:
+            if isinstance(member, ast.ModifierApplication):
+                yield Standing(member, what, None, it=(node,))
+
+    def _of_type(self, actor: ir.FieldRef) -> Iterator[Standing]:
+        """Yield the members of the type of an actor."""
+        key, type_ = self._known(actor)
+        for ancestor in () if type_ is None else reversed(list(supertypes(type_))):
+            for statement in ancestor.statements:
+                if isinstance(statement, ast.ModifierApplication):
+                    assert type_ is not None
+                    receiver = Receiver(type_, actor)
+                    yield Standing(statement, actor.name, actor, key or None, key, receiver)
+
+    def _known(self, actor: ir.FieldRef) -> tuple[Key, sym.ActorSymbol | None]:
+        """Return what the analysis calls an actor, and its type; `actor` has no name there."""
+        owner = self._constraints.found.owner
+        if actor.name == "actor" and is_composed(owner):
+            return (), actor_type_of(owner)
+        members = [
+            *(m for each in (supertypes(owner) if owner else ()) for m in each.named(actor.name)),
+            *(each for name, each in self._ctx.globals.items() if name == actor.name),
+            *(
+                each
+                for elements in self._ctx.model.elements.values()
+                for each in elements
+                if (each.name, each.owner) == (actor.name, owner)
+            ),
+        ]
+        for member in members:
+            if isinstance(member, sym.FieldSymbol) and isinstance(member.type, ActorType):
+                return (member,), member.type.symbol
+        return (), None
+
+    def _lower(self, standing: Standing) -> tuple[Applied, ...]:
+        key = (standing.node, standing.within)
+        callee = self._ctx.model.binding_of(standing.node).callee
+        is_modifier = isinstance(callee, sym.ModifierSymbol)
+        if not is_modifier or is_override(self._ctx, standing.node):
+            return ()
+        if key not in self._lowered:
+            ctx = self._ctx if standing.receiver is None else self._ctx.inside(standing.receiver)
+            lowering = ModifierLowering(
+                *(ctx, self._constraints, standing.what, standing.actor, None),
+                it=standing.it,
+                within=standing.within,
+            )
+            self._lowered[key] = lowering.applied(standing.node)
+        return self._lowered[key]
+
+    def _is_start(self, node: ast.ModifierApplication) -> bool:
+        """Whether a modifier of the library is about the start alone."""
+        callee = self._ctx.model.binding_of(node).callee
+        says_start = any(
+            a.name is not None and a.value.span.text == "start" for a in node.arguments
+        )
+        return callee.origin != "user" and says_start
+
+    def _refuse(self, node: ast.ModifierApplication, call: ir.ModifierCall) -> None:
+        self._ctx.unsupported(
+            "OSC508",
+            node.span,
+            (
+                f"modifier `{call.name}` of a composition is not supported"
+                if call.at == "start"
+                else f"no action in this composition is modified by `{call.name}`"
+            ),
+            help="apply it in the `with` of the actions in it",
+        )
+
+
+def _member(node: ast.ModifierApplication) -> Standing:
+    return Standing(node, node.actor.span.text if node.actor else "actor", None)
+
+
+def stands(call: ir.ModifierCall) -> bool:
+    """Whether a modifier holds for longer than the start, and is one of actions."""
+    return not (call.at == "start" and can_place(call)) and not owner_of(call)
+
+
+def _fits(applied: Applied, action: sym.BehaviorSymbol | None) -> bool:
+    return action is None or applied.target is None or is_subtype(action, applied.target)

@@ -1,0 +1,227 @@
+"""User-defined modifiers (§7.3.12): applications are replaced by their bodies.
+
+Its parameters are known there: from the arguments, the defaults and the constraints. The modifiers
+of its body then belong to the invocation like any others.
+"""
+
+from __future__ import annotations
+
+from osc2tx import ir
+from osc2tx.analysis.constraints.operation_list import Key
+from osc2tx.analysis.constraints.parameter_lookup import Place
+from osc2tx.analysis.tree_walk import nodes_below
+from osc2tx.lowering.constraints.constraints import ConstraintLowering
+from osc2tx.lowering.constraints.parameter_domains import all_values
+from osc2tx.lowering.context import LoweringContext, statement_comments
+from osc2tx.lowering.declarations.user_fields import is_plain
+from osc2tx.lowering.modifiers.modifier_functions import application_of, parameters_of
+from osc2tx.lowering.modifiers.modifiers import lower_modifier
+from osc2tx.lowering.value_types import lower_type
+from osc2tx.lowering.values.expressions import lower_expression
+from osc2tx.semantics import symbols as sym
+from osc2tx.semantics.bodies.modifiers import instead_of_scenario
+from osc2tx.semantics.scope import is_subtype
+from osc2tx.syntax import ast
+from osc2tx_shared.classes import dataclass, replace
+
+# Members by which a modifier changes something.
+EFFECTIVE = (ast.ModifierApplication, ast.KeepConstraint)
+
+
+@dataclass(frozen=True, slots=True)
+class Applied:
+    """A modifier of the library, where it is applied.
+
+    Attributes:
+        call: What it says.
+        target: The behavior that it is one of; `None` for modifiers of actors.
+        actor: Whose behavior it modifies; `None` if that is the actor of the scenario.
+    """
+
+    call: ir.ModifierCall
+    target: sym.BehaviorSymbol | None
+    actor: ir.Expression | None
+
+
+@dataclass(frozen=True, slots=True)
+class ModifierLowering:
+    """Lowers the modifiers of one invocation, or of one actor of a scenario.
+
+    Attributes:
+        ctx: The checked program.
+        constraints: What the constraints of the scenario say.
+        what: What they belong to, for names of values that are drawn from ranges.
+        actor: Whose behavior is modified.
+        action: What is invoked; `None` for modifiers of a whole scenario.
+        it: What `it` is in the body: what is modified.
+        chain: The applications around this one, the outermost first.
+        within: The object of whose type it is a member.
+    """
+
+    ctx: LoweringContext
+    constraints: ConstraintLowering
+    what: str
+    actor: ir.Expression | None
+    action: sym.BehaviorSymbol | None
+    it: Key | None = None
+    chain: tuple[ast.ModifierApplication, ...] = ()
+    within: Key = ()
+
+    def lower(self, node: ast.ModifierApplication) -> tuple[ir.ModifierCall, ...]:
+        """Return a modifier of the library, or those that one of the user stands for."""
+        return tuple(applied.call for applied in self.applied(node))
+
+    def applied(self, node: ast.ModifierApplication) -> tuple[Applied, ...]:
+        """Return the same, and what each of them is about."""
+        callee = self.ctx.model.binding_of(node).callee
+        assert isinstance(callee, sym.ModifierSymbol)
+        if not self._applies(node, callee):
+            return ()
+        if callee.origin != "user":
+            call = lower_modifier(self.ctx, node, self.what)
+            return (Applied(call, callee.target, self._actor_of(node)),)
+        if not any(isinstance(part, EFFECTIVE) for part in callee.statements):
+            self._refuse(
+                node,
+                f"modifier `{callee.qualified_name}`, which says nothing of what it modifies,",
+                "apply other modifiers in it, or constrain parameters, `keep(it.parameter == …)`",
+            )
+            return ()
+        if any(self.ctx.model.binding_of(outer).callee is callee for outer in self.chain):
+            self._refuse(node, f"modifier `{callee.qualified_name}`, which applies itself,", None)
+            return ()
+        inner = self._inside(node, callee)
+        inner.bind(callee)
+        parts = tuple(part for statement in callee.statements for part in inner.part(statement))
+        if not parts:
+            return ()
+        self.ctx.modifiers.append(callee)
+        application = application_of(callee, node, inner.values_of(callee))
+        calls = [replace(p.call, applied=(application, *p.call.applied)) for p in parts]
+        calls[0] = replace(calls[0], comments=(*statement_comments(node), *calls[0].comments))
+        return tuple(replace(p, call=call) for p, call in zip(parts, calls, strict=True))
+
+    def prepare(self, node: ast.ModifierApplication) -> None:
+        """Find out what the parameters of a modifier are: arguments may depend on them."""
+        callee = self.ctx.model.binding_of(node).callee
+        if isinstance(callee, sym.ModifierSymbol) and callee.origin == "user":
+            self._inside(node, callee).bind(callee)
+
+    def _actor_of(self, node: ast.ModifierApplication) -> ir.Expression | None:
+        """Return whose behavior is modified."""
+        return self.actor if node.actor is None else lower_expression(self.ctx, node.actor)
+
+    def _inside(
+        self, node: ast.ModifierApplication, callee: sym.ModifierSymbol
+    ) -> ModifierLowering:
+        chain = (*self.chain, node)
+        prefix = (*self.within, *chain)
+        place = Place(model=self.ctx.model, owner=callee, prefix=prefix, it=self.it)
+        actor = self._actor_of(node)
+        return replace(
+            self,
+            ctx=replace(self.ctx.at(place), actor=actor, receiver=None),
+            constraints=self.constraints.with_actor(actor),
+            actor=actor,
+            what=f"{self.what}.{node.modifier.text}",
+            chain=chain,
+        )
+
+    def values_of(self, callee: sym.ModifierSymbol) -> dict[sym.FieldSymbol, ir.Expression]:
+        """Return what `bind` found."""
+        fields = parameters_of(callee)
+        values = (
+            (field, self.ctx.given.get((*self.within, *self.chain, field))) for field in fields
+        )
+        return {field: value for field, value in values if value is not None}
+
+    def bind(self, callee: sym.ModifierSymbol) -> None:
+        """Find out what the parameters are here."""
+        for field in parameters_of(callee):
+            key: Key = (*self.within, *self.chain, field)
+            if key in self.ctx.given:
+                continue
+            setting = self.constraints.setting(key, field.type)
+            value = setting.value
+            if value is None and (setting.domain is not None or is_plain(field.type)):
+                domain = setting.domain or all_values(field.type, field.span)
+                name, type_ = f"{self.what}.{field.name}", lower_type(field.type)
+                value = self.ctx.draw(name, domain, type_, field.span)
+            if value is not None:
+                self.ctx.given[key] = value
+                continue
+            self.ctx.unsupported(
+                "OSC501",
+                self.chain[-1].span,
+                f"parameter `{field.name}` of modifier `{callee.qualified_name}` has no value",
+                help="give it as an argument, or a default",
+            )
+
+    def part(self, statement: ast.Statement) -> tuple[Applied, ...]:
+        """Lower one statement of the body."""
+        match statement:
+            case ast.ParameterDeclaration() | ast.RemoveDefault():
+                return ()  # see `bind`
+            case ast.MethodDeclaration():
+                return ()  # calls stand for its body
+            case ast.KeepConstraint():
+                pass  # the constraints of the scenario hold it, for this application
+            case ast.ModifierApplication() if self._is_known(statement):
+                return self.applied(statement)
+            case ast.ModifierApplication():
+                pass  # one of its parameters has no value, which is reported
+            case _:
+                self._refuse(
+                    statement,
+                    "a modifier with events, variables or coverage in it",
+                    "declare it in the scenario: events of labelled members are `@label.start` and"
+                    " `@label.end`",
+                )
+        return ()
+
+    def _is_known(self, node: ast.ModifierApplication) -> bool:
+        place = self.ctx.place
+        assert place is not None
+        used = (place.locate(n) for n in nodes_below(node) if isinstance(n, ast.NameExpression))
+        own = [key for key in used if key and key[:-1] == (*self.within, *self.chain)]
+        return all(
+            key in self.ctx.given or (isinstance(key[-1], sym.Symbol) and key[-1].name == "actor")
+            for key in own
+        )
+
+    def _applies(self, node: ast.ModifierApplication, callee: sym.ModifierSymbol) -> bool:
+        """Check what only the place of application tells: who, and what is invoked."""
+        if node.actor is not None and self.action is not None:
+            whose = lower_expression(self.ctx, node.actor)
+            if whose is None:
+                return False
+            if self.actor is None or not _is_same(whose, self.actor):
+                self._refuse(
+                    node,
+                    f"modifier `{node.modifier}` of another actor",
+                    "apply it in the `with` of what that actor does",
+                )
+                return False
+        target = callee.target
+        fits = target is None or self.action is None or is_subtype(self.action, target)
+        if self.chain and target is not None and not fits and self.action is not None:
+            self.ctx.sink.report(
+                "OSC406",
+                self.chain[0].span,
+                f"modifier `{node.modifier}` does not apply to `{self.action.qualified_name}`",
+                notes=[f"it modifies `{target.qualified_name}`"],
+                help=instead_of_scenario(
+                    self.action, self.chain[0].modifier.text, self.chain[0].span.text
+                ),
+            )
+        return fits or not self.chain
+
+    def _refuse(self, node: ast.Node, what: str, help: str | None) -> None:
+        self.ctx.unsupported("OSC508", node.span, f"{what} is not supported", help)
+
+
+def _is_same(one: ir.Expression, other: ir.Expression) -> bool:
+    """Whether two expressions name the same actor."""
+    if isinstance(one, ir.FieldRef) and isinstance(other, ir.FieldRef):
+        return one.name == other.name
+    return one.span.text == other.span.text

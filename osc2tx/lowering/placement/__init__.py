@@ -1,0 +1,1 @@
+"""Where actors start: modifiers that hold at the start of the run."""

@@ -1,0 +1,290 @@
+"""Initial placement: what holds at the start of the run is taken out of the tree.
+
+Only invocations that begin at the very start can place an actor. Their `at: start` modifiers
+become its placement, modifiers that hold throughout hold at the start as well, and an
+`assign_position` that says nothing else disappears. An `at: start` further on stays in the tree:
+it has to hold by then.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import field
+
+from osc2tx import ir
+from osc2tx.catalogue import catalogue
+from osc2tx.diagnostics import Label, Span
+from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.placement.carla_paths import START
+from osc2tx.lowering.values.shape_arguments import first_value, says_start
+from osc2tx_shared.classes import dataclass, replace
+
+# Of these an actor has one at the start, whoever gives it.
+_PLACES = frozenset({"lane", "position"})
+
+# Types of routes of a map, on which an actor can start.
+ROUTES = frozenset(
+    {"compound_lane", "compound_route", "crossing", "lane", "lane_section", "road", "route"}
+)
+
+
+@dataclass(slots=True)
+class _Found:
+    """The placement of one actor, being collected."""
+
+    span: Span
+    comments: list[str] = field(default_factory=list)
+    modifiers: dict[str, ir.ModifierCall] = field(default_factory=dict)
+    is_throughout: bool = True
+
+
+class PlacementLowering:
+    """Splits a tree into initial placement and what is left of the tree."""
+
+    def __init__(self, ctx: LoweringContext) -> None:
+        """Take the place for complaints."""
+        self._ctx = ctx
+        self._found: dict[str, _Found] = {}
+
+    def split(self, body: ir.Behavior) -> tuple[tuple[ir.Placement, ...], ir.Behavior | None]:
+        """Return the placements in source order, and the tree without them."""
+        rest = self._rewrite(body, is_start=True)
+        placements = tuple(
+            ir.Placement(
+                actor=actor,
+                modifiers=tuple(found.modifiers.values()),
+                span=found.span,
+                comments=tuple(found.comments),
+                is_throughout=found.is_throughout,
+            )
+            for actor, found in self._found.items()
+            if found.modifiers
+        )
+        return placements, rest
+
+    def _rewrite(self, node: ir.Behavior, *, is_start: bool) -> ir.Behavior | None:
+        match node:
+            case ir.Serial():
+                return self._composition(node, self._serial_members(node, is_start=is_start))
+            case ir.Parallel() | ir.OneOf():
+                members = (self._rewrite(member, is_start=is_start) for member in node.members)
+                return self._composition(node, members)
+            case ir.Invoke():
+                return self._lift(node) if is_start else self._later(node)
+            case ir.InvokeScenario() | ir.Wait() | ir.Emit() | ir.Finish() | ir.Call() | ir.On():
+                return node
+
+    def _serial_members(self, node: ir.Serial, *, is_start: bool) -> Iterator[ir.Behavior | None]:
+        for member in node.members:
+            yield self._rewrite(member, is_start=is_start)
+            is_start = is_start and is_instant(member)
+
+    def _composition(
+        self, node: ir.Composition, members: Iterator[ir.Behavior | None]
+    ) -> ir.Composition | None:
+        left = tuple(member for member in members if member is not None)
+        return replace(node, members=left) if left else None
+
+    def _lift(self, node: ir.Invoke) -> ir.Invoke | None:
+        if not isinstance(node.actor, ir.FieldRef):
+            return self._later_start(node)
+        actor = node.actor.name
+        node = self._begin_on_path(node, actor)
+        placing = [first_value(m) for m in node.modifiers if _places(m) and m.at != "end"]
+        placing += open_start_speed(node.qualified_name, node.modifiers)
+        if not placing:
+            return self._later_start(node)
+        found = self._found.setdefault(actor, _Found(node.span))
+        for first, second in _pairs_alike([m for m in placing if m.at == "start"]):
+            report_twice(self._ctx, first, second)
+        for modifier in placing:
+            found.is_throughout &= modifier.at != "start"
+            what = _subject(modifier)
+            if modifier.at == "start" or what not in found.modifiers:
+                # What holds throughout stays in the tree as well, and its comments with it.
+                comments = modifier.comments if modifier.at == "start" else ()
+                found.modifiers[what] = replace(modifier, at="start", comments=comments)
+        rest = tuple(m for m in node.modifiers if m.at != "start")
+        if node.action == "assign_position" and not rest and not node.arguments:
+            found.comments.extend(node.comments)
+            return None
+        return self._later_start(replace(node, modifiers=rest))
+
+    def _later(self, node: ir.Invoke) -> ir.Invoke:
+        """Leave an action where it stands; but for its path, which places its actor anyway."""
+        if isinstance(node.actor, ir.FieldRef):
+            node = self._begin_on_path(node, node.actor.name)
+        return self._later_start(node)
+
+    def _begin_on_path(self, node: ir.Invoke, actor: str) -> ir.Invoke:
+        """Place an actor on the first path that it drives along; it cannot change to another."""
+        for modifier in node.modifiers:
+            if modifier.name != START:
+                continue
+            found = self._found.setdefault(actor, _Found(node.span))
+            first = found.modifiers.setdefault(START, modifier)
+            if _path_of(first) != _path_of(modifier):
+                self._ctx.unsupported(
+                    "OSC505",
+                    modifier.span,
+                    f"`{actor}` drives along another path already",
+                    help="give it one path",
+                )
+        return replace(node, modifiers=tuple(m for m in node.modifiers if m.name != START))
+
+    def _later_start(self, node: ir.Invoke) -> ir.Invoke:
+        """Leave an `at: start` in the tree: the runtime looks whether it holds by then."""
+        if not any(map(_may_jump, node.modifiers)):
+            for modifier in node.modifiers:
+                if modifier.at == "start":
+                    self._ctx.unsupported(
+                        "OSC505",
+                        modifier.span,
+                        f"`{modifier.name}(…, at: start)` has to hold when the action starts, or"
+                        " the action fails",
+                        help="let the action before end so with `at: end`, or allow a jump with"
+                        " `physical_movement(prefer_non_physical)`",
+                    )
+        return node
+
+
+def can_place(modifier: ir.ModifierCall) -> bool:
+    """Whether a modifier says something about a single instant, and so can place an actor."""
+    entry = catalogue().modifiers.get(modifier.name)
+    return entry is not None and entry.combining.starts
+
+
+def owner_of(modifier: ir.ModifierCall) -> str:
+    """Return the actor of which a modifier is a member; empty for those of actions.
+
+    Members say the same for the whole of a scenario; those of `map` what its roads are like.
+    """
+    entry = catalogue().modifiers.get(modifier.name)
+    return "" if entry is None else entry.owner
+
+
+def _path_of(modifier: ir.ModifierCall) -> str:
+    return " ".join(argument.value.span.text for argument in modifier.arguments)
+
+
+def _places(modifier: ir.ModifierCall) -> bool:
+    """Whether a modifier says where or how an actor is at an instant."""
+    if modifier.name == "along":
+        return any(argument.value.type.name in ROUTES for argument in modifier.arguments)
+    return can_place(modifier) and says_start(modifier)
+
+
+def _subject(modifier: ir.ModifierCall) -> str:
+    """Return what a modifier is about: a speed along the lane is another thing than one across."""
+    values = (a.value for a in modifier.arguments if a.parameter == "direction")
+    across = any(isinstance(v, ir.EnumValue) and v.member == "lateral" for v in values)
+    return f"{modifier.name} across" if across else modifier.name
+
+
+def _may_jump(modifier: ir.ModifierCall) -> bool:
+    """Whether a modifier says that physics need not hold."""
+    values = (argument.value for argument in modifier.arguments)
+    return modifier.name == "physical_movement" and any(
+        isinstance(value, ir.EnumValue) and value.member == "prefer_non_physical"
+        for value in values
+    )
+
+
+def _pairs_alike(
+    modifiers: Sequence[ir.ModifierCall],
+) -> Iterator[tuple[ir.ModifierCall, ir.ModifierCall]]:
+    """Yield the first modifier about a thing, with each further one."""
+    seen: dict[str, ir.ModifierCall] = {}
+    for modifier in modifiers:
+        first = seen.setdefault(_subject(modifier), modifier)
+        if first is not modifier:
+            yield first, modifier
+
+
+def report_twice(ctx: LoweringContext, first: ir.ModifierCall, second: ir.ModifierCall) -> None:
+    """Report a modifier that says a second time how an actor starts."""
+    ctx.sink.report(
+        "OSC508",
+        second.span,
+        f"`{second.name}` says a second time how the actor starts",
+        labels=[Label(first.span, "said here already")],
+        help="leave one of them out",
+    )
+
+
+def merged(ctx: LoweringContext, placements: Sequence[ir.Placement]) -> tuple[ir.Placement, ...]:
+    """Return one placement for each actor, where it first stands; those of maps stay apart."""
+    by_actor: dict[str, ir.Placement] = {}
+    same = {field.name: each.other.name for field, each in ctx.same_actors.items()}
+    for number, placement in enumerate(placements):
+        while placement.actor in same:  # another name of an actor that has its own place here
+            placement = replace(placement, actor=same[placement.actor])
+        if placement.of_map:
+            by_actor[f"{placement.actor} {number}"] = placement
+            continue
+        first = by_actor.get(placement.actor)
+        if first is not None:
+            places = [m for m in (*first.modifiers, *placement.modifiers) if m.name in _PLACES]
+            for pair in _pairs_alike(places):
+                report_twice(ctx, *pair)
+            placement = replace(
+                first,
+                modifiers=(*first.modifiers, *placement.modifiers),
+                comments=(*first.comments, *placement.comments),
+                is_throughout=first.is_throughout and placement.is_throughout,
+            )
+        by_actor[placement.actor] = placement
+    return tuple(by_actor.values())
+
+
+def is_instant(node: ir.Behavior) -> bool:
+    """Whether what follows a member still begins at the start."""
+    match node:
+        case ir.Serial() | ir.Parallel():
+            return all(is_instant(member) for member in node.members)
+        case ir.OneOf():
+            return any(is_instant(member) for member in node.members)
+        case ir.Invoke(qualified_name=name):
+            entry = catalogue().actions.get(name)
+            return name in catalogue().lowered or (entry is not None and entry.is_momentary)
+        case ir.Emit() | ir.Finish() | ir.Call():
+            return True
+        case ir.InvokeScenario() | ir.Wait() | ir.On():
+            return False
+
+
+REFERENCES = ("ahead_of", "behind")
+
+
+def open_start_speed(
+    action: str, modifiers: Sequence[ir.ModifierCall]
+) -> tuple[ir.ModifierCall, ...]:
+    """Return the speed with which the actor of an action starts; empty if something says it.
+
+    Args:
+        action: What it does from the start on.
+        modifiers: All of that action.
+    """
+    entries = catalogue().modifiers
+    entry = catalogue().actions.get(action)
+    if entry is None or entry.ends != "open" or entry.paces:
+        return ()
+    positions = [each for each in modifiers if each.name == "position"]
+    others = [each for each in modifiers if each not in positions]
+    if not all(each.name in entries for each in others):
+        return ()  # those of a dialect
+    if any(entries[each.name].paces for each in others):
+        return ()
+    starts = [found for each in positions if each.at == "start" for found in _reference(each)]
+    ends = [found for each in positions if each.at == "end" for found in _reference(each)]
+    if len(starts) != 1 or len(ends) != 1 or starts[0].value.span.text != ends[0].value.span.text:
+        return ()
+    reference = starts[0]
+    same = ir.Argument(
+        parameter="same_as", value=reference.value, is_positional=False, span=reference.span
+    )
+    return (ir.ModifierCall(span=reference.span, name="speed", arguments=(same,), at="start"),)
+
+
+def _reference(position: ir.ModifierCall) -> list[ir.Argument]:
+    return [argument for argument in position.arguments if argument.parameter in REFERENCES]

@@ -1,0 +1,1 @@
+"""Expressions, references, method calls and their arguments."""

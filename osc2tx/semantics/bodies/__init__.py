@@ -1,0 +1,1 @@
+"""Checks of what members contain: behaviors, modifiers, constraints, coverage, events."""

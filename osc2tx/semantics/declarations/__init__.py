@@ -1,0 +1,1 @@
+"""Declarations: collected from all files, imported, extended, inherited, resolved to types."""

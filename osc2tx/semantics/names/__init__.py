@@ -1,0 +1,1 @@
+"""Names in expressions: members, aliases, names of other dialects, suggestions."""

@@ -1,0 +1,45 @@
+"""How the names of generated files end."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+
+MODULE = ".py"
+SOURCE_MAP = ".map.json"
+COVERAGE_MODEL = ".coverage.json"
+XML = ".xosc"
+PARAMETERS = ".params.xosc"
+LOSS_REPORT = ".xosc.report.json"
+
+
+def is_committed(name: str) -> bool:
+    """Whether a file belongs into version control: source maps hold line numbers."""
+    return not name.endswith(SOURCE_MAP)
+
+
+def module_of(source_map: str) -> str:
+    """Return the name of the module that a source map lies beside."""
+    return source_map.removesuffix(SOURCE_MAP) + MODULE
+
+
+def source_map_of(module: str) -> str:
+    """Return the name of the source map of a module."""
+    return module.removesuffix(MODULE) + SOURCE_MAP
+
+
+# Names of devices on Windows, with any suffix.
+_DEVICE = re.compile(r"(con|prn|aux|nul|com[0-9¹²³]|lpt[0-9¹²³])(\..*)?", re.IGNORECASE | re.DOTALL)
+_FORBIDDEN = re.compile(r'[<>:"|?*\\\x00-\x1f\x7f]')
+
+
+def is_portable(name: str) -> bool:
+    """Return whether a file or folder can have this name on every system."""
+    ends_well = not name.endswith((".", " "))
+    return ends_well and not _FORBIDDEN.search(name) and not _DEVICE.fullmatch(name)
+
+
+def real_path(path: Path) -> Path:
+    """Return the absolute path without links; a link to itself stays, where pathlib fails."""
+    return Path(os.path.realpath(path))

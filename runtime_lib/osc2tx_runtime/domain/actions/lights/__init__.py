@@ -1,0 +1,1 @@
+"""Actions of vehicle lights and traffic lights."""

@@ -1,0 +1,56 @@
+"""The action that sets the lights of a vehicle."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Unpack, get_args
+
+from osc2tx_runtime.domain.modifiers import Modifier
+from osc2tx_runtime.domain.planning.motion_action import note_lights
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.actions.action import Action, ActionOptions
+from osc2tx_runtime.language.actions.registry import action
+from osc2tx_runtime.language.tree.base import Status
+from osc2tx_runtime.world.protocol import LightMode
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actors import Vehicle
+
+__all__ = ["SetLights"]
+
+
+@action("vehicle", "set_lights", ends="instant", needs=("lights",))
+class SetLights(Action):
+    """Switch the lights.
+
+    Args:
+        actor: Who.
+        *modifiers: None are taken.
+        mode: `off`, `auto` (low beams while the sun is lower than 15 degrees or one sees less than
+            100 m far), `daytime`, `position`, `low_beam` or `high_beam`.
+        **options: Duration and label.
+    """
+
+    def __init__(
+        self,
+        actor: Vehicle,
+        *modifiers: Modifier,
+        mode: LightMode,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, **options)
+        if mode not in get_args(LightMode):
+            known = ", ".join(get_args(LightMode))
+            raise ScenarioError(f"{self.action_name}: mode `{mode}` is none of {known}")
+        self.mode: LightMode = mode
+
+    def on_start(self) -> None:
+        """Switches them."""
+        self.effect("lights", self.mode, self._switch)
+
+    def on_update(self) -> Status:
+        """Ends at once."""
+        return Status.SUCCESS
+
+    def _switch(self) -> None:
+        lights = self.context.world.set_lights(self.actor.id, self.mode)
+        note_lights(self.context, self.actor.id, lights)

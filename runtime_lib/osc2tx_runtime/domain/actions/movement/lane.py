@@ -1,0 +1,257 @@
+"""Lane actions: change and follow a lane (DSL 8.8.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, ClassVar, Unpack, get_args
+
+from osc2tx_runtime.domain.map.road_graph import graph_of
+from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
+from osc2tx_runtime.domain.modifiers.base import band_of, now
+from osc2tx_runtime.domain.modifiers.groups import SPEED_FREE
+from osc2tx_runtime.domain.planning.lateral.lateral_targets import (
+    check_shift,
+    jump_aside,
+    lanes_beside,
+    lanes_to,
+    leads_beside,
+    may_leave_lane_before,
+    target_of_shift,
+)
+from osc2tx_runtime.domain.planning.motion_action import Refused
+from osc2tx_runtime.enums import DynamicProfile, LaneChangeSide
+from osc2tx_runtime.errors import BeyondMapError, ScenarioError
+from osc2tx_runtime.language.actions.action import ActionOptions
+from osc2tx_runtime.language.actions.registry import LATERAL, action
+from osc2tx_runtime.language.tree.base import Status
+from osc2tx_runtime.language.tree.duration_limits import Duration
+from osc2tx_runtime.opendrive import LanePosition
+from osc2tx_runtime.world.commands import LaneChange
+from osc2tx_runtime.world.geometry.lane_neighbours import lane_beside, offset_from
+from osc2tx_runtime.world.lateral.execution import shift_profile
+from osc2tx_shared.rules import above, at_least, at_most_one
+
+from .modifiable import ModifiableAction
+from .profiled_change import check_profile, peak_of
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actors import Vehicle
+    from osc2tx_runtime.domain.map.roads_and_lanes import Lane
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
+    from osc2tx_runtime.language.values.parameters import Range
+
+__all__ = ["SIDES", "ChangeLane", "FollowLane"]
+
+SIDES: tuple[LaneChangeSide, ...] = get_args(LaneChangeSide)
+
+
+class _OnLane(ModifiableAction):
+    """Goes to a place across the road."""
+
+    accepts: ClassVar[tuple[type, ...]] = SPEED_FREE
+
+    def __init__(
+        self,
+        actor: Vehicle,
+        *modifiers: Modifier,
+        course: tuple[DynamicProfile, Value | None],
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, **options)
+        self.rate_profile, self._rate_peak = course
+        check_profile(self.action_name, self.rate_profile)
+
+    @property
+    def rate_peak(self) -> float | None:
+        """The peak of the lateral speed (m/s) now; None if none is given."""
+        return peak_of(self._rate_peak, "m/s")
+
+    def shift(self, lanes: int, offset: float, duration: Duration | None) -> None:
+        """Commands the way to a lane (so many to the left) and an offset (m) in it.
+
+        Raises:
+            Refused: It cannot be.
+        """
+        if self.may_jump:
+            jump_aside(self, lanes, offset)
+            return
+        peak = self.rate_peak
+        there = lane_beside(self.world.map, self.place_of(self.actor.id), lanes)
+        time = None
+        if there is not None and duration is not None and self.rate_profile != "asap":
+            time = self._time(there, offset, duration, peak)
+            if self.strict and time is not None:
+                check_shift(self, lanes, offset, time)
+        self.command(LATERAL, LaneChange(lanes, offset, self.rate_profile, peak, time))
+
+    def _time(
+        self, there: LanePosition, offset: float, duration: Duration, peak: float | None
+    ) -> float | None:
+        """How long it is to take, where the duration leaves a choice."""
+        here = self.here
+        start = offset_from(self.world.map, there, here.x, here.y)
+        course = (self.rate_profile, peak, None)
+        own = shift_profile(start, offset, here.lateral_speed, course, self.limits).duration
+        low, high = duration if isinstance(duration, tuple) else (duration, duration)
+        if low - self.context.dt <= own <= high + self.context.dt and low < high:
+            return None
+        if peak is None:
+            return min(max(own, low), high)
+        if abs(own - min(max(own, low), high)) > self.context.dt:
+            raise Refused(
+                f"with rate_peak {peak:g} m/s it takes {own:.2f} s, not"
+                f" {low if own < low else high:g} s"
+            )
+        return None
+
+
+@action("vehicle", "change_lane", slots=(LATERAL,), needs=("lanes",))
+class ChangeLane(_OnLane):
+    """End in another lane, aligned with it.
+
+    Without a rate or a duration it takes `LANE_CHANGE_TIME` (3 s) for 3.5 m. The lane may be one
+    of oncoming traffic: there the actor goes on in its own direction.
+
+    Args:
+        actor: Who.
+        *modifiers: What they say about the speed.
+        num_of_lanes: How many lanes away from the reference.
+        side: On which side of it; `inside` is towards opposing traffic, `same` its own lane.
+            Without a side one is drawn from the seed among those with a lane of its direction.
+        reference: Default: the actor itself.
+        offset: Metres left of the centre of the target lane at the end.
+        rate_profile: Course of the lateral speed.
+        rate_peak: Its peak (m/s).
+        target: Instead of a number and a side: a lane of the map beside the present one.
+        **options: Duration and label.
+    """
+
+    rules = (
+        at_most_one("target", "side"),
+        at_most_one("target", "reference"),
+        at_least(0, "num_of_lanes"),
+        above(0, "rate_peak"),
+    )
+
+    def __init__(
+        self,
+        actor: Vehicle,
+        *modifiers: Modifier,
+        num_of_lanes: int | Callable[[], int] = 1,
+        side: LaneChangeSide | None = None,
+        reference: PhysicalObject | None = None,
+        offset: Value = 0.0,
+        rate_profile: DynamicProfile = "none",
+        rate_peak: Value | None = None,
+        target: Lane | None = None,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, course=(rate_profile, rate_peak), **options)
+        if side is not None and side not in SIDES:
+            raise ScenarioError(f"{self.action_name}: side `{side}` is none of {', '.join(SIDES)}")
+        self.num_of_lanes = num_of_lanes
+        self.side = side
+        self.reference = reference
+        self.offset = offset
+        self.target = target
+
+    def look_ahead(self) -> None:
+        """See whether there can be so many lanes, unless it may be in another lane by then."""
+        count, place = self.num_of_lanes, self.here.lane_position
+        if place is None or callable(count) or self.side in (None, "same"):
+            return
+        if self.target is not None or self.reference is not None or may_leave_lane_before(self):
+            return
+        lanes = count * self._direction(count)
+        if not leads_beside(graph_of(self.world.map), place, lanes):
+            side = "left" if lanes > 0 else "right"
+            raise BeyondMapError(
+                f"nowhere on its way are there {count} driving lanes to the {side} of lane"
+                f" {place.lane} of road {place.road}",
+                self.source,
+            )
+
+    def on_start(self) -> None:
+        """Commands the change."""
+        self.shift(self._lanes(), value_of(self.offset), self.duration)
+
+    @property
+    def looks_further(self) -> bool:
+        """Only after a jump."""
+        return self.may_jump
+
+    def on_update(self) -> Status:
+        """Ends in the lane, after a jump at the next step."""
+        if self.may_jump and not self.has_goal:
+            return Status.SUCCESS if self.elapsed_steps else Status.RUNNING
+        return super().on_update()
+
+    def _lanes(self) -> int:
+        """Lanes to the left of the present one; negative: to the right."""
+        if self.target is not None:
+            return lanes_to(self, self.target)
+        lanes = 0
+        if self.side != "same":
+            count = now(self.num_of_lanes)
+            if count < 0:
+                raise Refused(f"num_of_lanes {count} is negative")
+            lanes = count * self._direction(count)
+        return lanes if self.reference is None else lanes_beside(self, self.reference.id, lanes)
+
+    def _direction(self, count: int) -> int:
+        """1 for left, -1 for right."""
+        own = self.place_of(self.actor.id)
+        right_hand = self.world.map.roads[own.road].right_hand_traffic
+        match self.side:
+            case "left":
+                return 1
+            case "right":
+                return -1
+            case "inside":
+                return 1 if right_hand else -1
+            case "outside":
+                return -1 if right_hand else 1
+        return 1 if self.drawn_side(count) == "left" else -1
+
+
+@action("vehicle", "follow_lane", slots=(LATERAL,), ends="open", needs=("lanes",))
+class FollowLane(_OnLane):
+    """Stay in a lane.
+
+    Args:
+        actor: Who.
+        *modifiers: What they say about the speed.
+        offset: Metres left of its centre.
+        offset_range: Instead of it: what it may be at any time.
+        rate_profile: Course of the lateral speed on the way there.
+        rate_peak: Its peak (m/s).
+        target: A lane of the map beside the present one; None: the present one.
+        **options: Duration and label.
+    """
+
+    rules = (at_most_one("offset", "offset_range"), above(0, "rate_peak"))
+
+    def __init__(
+        self,
+        actor: Vehicle,
+        *modifiers: Modifier,
+        offset: Value | None = None,
+        offset_range: Range[float] | Callable[[], Range[float]] | None = None,
+        rate_profile: DynamicProfile = "none",
+        rate_peak: Value | None = None,
+        target: Lane | None = None,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, course=(rate_profile, rate_peak), **options)
+        self.offset = offset
+        self.offset_range = offset_range
+        self.target = target
+
+    def on_start(self) -> None:
+        """Commands the offset."""
+        lanes = 0 if self.target is None else lanes_to(self, self.target)
+        low, high = band_of(self.offset, self.offset_range)
+        here = 0.0
+        if lanes == 0:
+            here = self.place_of(self.actor.id).offset - target_of_shift(self, 0).offset
+        self.shift(lanes, min(max(here, low), high), None)

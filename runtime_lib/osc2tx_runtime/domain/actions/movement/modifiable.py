@@ -1,0 +1,305 @@
+"""The base of actions whose motion modifiers complete (DSL 8.9.1).
+
+`ego.follow_path(way) with: speed(30kph)`: the action controls the pose, the modifier the speed.
+`at: all` holds (or is approached and then held) from the start of the action on; `at: end` is
+reached exactly at the end of its duration or of the phase it ends with, else it ends the action;
+`at: start` has to hold when the action starts, or is jumped to where physics need not hold.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import ClassVar, Unpack
+
+from osc2tx_runtime.domain.actors import MovableObject
+from osc2tx_runtime.domain.map.roads_and_lanes import Route
+from osc2tx_runtime.domain.modifiers import (
+    Along,
+    AvoidCollisions,
+    Distance,
+    Lane,
+    Lateral,
+    Modifier,
+    Orient,
+    Position,
+    Speed,
+    Yaw,
+)
+from osc2tx_runtime.domain.modifiers.groups import PATH_SHAPERS
+from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
+from osc2tx_runtime.domain.planning.enclosing_phase import phase_of
+from osc2tx_runtime.domain.planning.lateral.lateral_planning import follow_reference, side_command
+from osc2tx_runtime.domain.planning.longitudinal.goals import distance_to_cover, watched_place
+from osc2tx_runtime.domain.planning.longitudinal.longitudinal_planning import speed_command
+from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
+from osc2tx_runtime.domain.planning.orientation_planning import lies_so, tilt_again
+from osc2tx_runtime.domain.planning.start_conditions import PlaceWatch, hold_or_jump
+from osc2tx_runtime.language.actions.action import ActionOptions
+from osc2tx_runtime.language.actions.method import Method
+from osc2tx_runtime.language.actions.registry import LATERAL, LONGITUDINAL
+from osc2tx_runtime.language.tree.base import Status
+from osc2tx_runtime.world.commands import Careful, Command
+
+from .modifier_checks import check_modifiers, check_options
+
+__all__ = ["ModifiableAction"]
+
+CARE = AvoidCollisions()
+
+
+class ModifiableAction(ModifiedMotion):
+    """Moves by itself in its own slots, and as the modifiers say in those they speak of.
+
+    It claims the speed if a modifier speaks of it, and the lane likewise, so that
+    `drive() with: speed(...)` and `change_lane(...)` run side by side.
+
+    Attributes:
+        commands_speed: Whether it has a command of its own where it controls the speed.
+        stands: Whether it goes nowhere, so that all its modifiers are about where it is.
+        own: Slots that the action controls itself.
+    """
+
+    commands_speed: ClassVar[bool] = True
+    stands: ClassVar[bool] = False
+
+    def __init__(
+        self, actor: MovableObject, *modifiers: Modifier, **options: Unpack[ActionOptions]
+    ) -> None:
+        super().__init__(actor, *modifiers, **options)
+        self._reached = self._jumped = False
+        self._to_cover: float | None = None
+        self._covered = 0.0
+        self._counted = (0, 0.0)
+        self._watched: PlaceWatch | None = None
+        self._toward: object = None  # the lane of a reference, or its heading
+        self._waits = False  # for news of its actor, or for its time to be over
+
+    def become(self, method: Method) -> None:
+        """Take the method; a goal bounds the action."""
+        super().become(method)
+        if self.has_goal and self.duration is None:
+            goals = [m for m in self.modifiers if self._bounds(m)]
+            self.open_ended = self.registered.ends == "open" and all(map(self._is_route, goals))
+
+    @cached_property
+    def own(self) -> tuple[str, ...]:
+        """Slots that the action controls itself; read when it is complete."""
+        return self.slots
+
+    @cached_property
+    def has_goal(self) -> bool:
+        """True if a modifier says what is to be reached."""
+        return any(map(self._bounds, self.modifiers))
+
+    def _bounds(self, modifier: Modifier) -> bool:
+        """Whether a modifier says what is to be reached.
+
+        The end of a route is only where the action is over that nothing else ends.
+        """
+        if getattr(modifier, "at", "all") == "end":
+            return True
+        return modifier.facts.bounds and not (
+            self.duration is not None and self._is_route(modifier)
+        )
+
+    def _is_route(self, modifier: Modifier) -> bool:
+        """Whether a modifier is about lanes of the map to follow, and not about a line."""
+        if not isinstance(modifier, Along) or not isinstance(modifier.route, Route):
+            return False
+        return "vehicle" in self.actor.kinds and modifier.route.kind != "crossing"
+
+    @cached_property
+    def follows_path(self) -> bool:
+        """True if it ends behind the end of a path."""
+        return any(isinstance(modifier, PATH_SHAPERS) for modifier in self.modifiers)
+
+    def takes(self, modifier: Modifier) -> bool:
+        """Whether the action can carry out a modifier."""
+        return modifier.is_start or isinstance(modifier, self.accepts)
+
+    def speaks_of(self, slot: str) -> bool:
+        """Whether a modifier says something about a slot."""
+        return any(slot in self._slots_of(modifier) for modifier in self.modifiers)
+
+    def _slots_of(self, modifier: Modifier) -> tuple[str, ...]:
+        starts = getattr(modifier, "at", "all") == "start"
+        match modifier:
+            case Position() | Lane() | Lateral() | Yaw() | Orient() if starts:
+                return (LONGITUDINAL, LATERAL) if self.may_jump else ()
+            case Speed(direction=direction) if starts:
+                slot = LATERAL if direction == "lateral" else LONGITUDINAL
+                return (slot,) if self.may_jump else ()
+            case Speed(direction="lateral"):
+                return (LATERAL,)
+            case Along(shape=shape) if shape is not None:
+                return (LONGITUDINAL, LATERAL)
+            case AvoidCollisions(avoid=False):
+                return ()
+            case Distance(shape=None) if self.duration is None and not self.end_is_known:
+                return ()
+            case Orient(yaw=None) if self.movable.lane_bound:
+                return ()
+        return modifier.facts.slots
+
+    # --- how it runs --------------------------------------------------------------------------
+
+    def setup(self, **kwargs: object) -> None:
+        """Claim what the modifiers speak of as well, and check what can be known by now."""
+        self._phase = phase_of(self) if self.has_goal and not self.follows_path else None
+        if self._phase is not None:
+            self.open_ended = True
+        check_modifiers(self)
+        own = self.own
+        self.slots = tuple(
+            slot for slot in (LONGITUDINAL, LATERAL) if slot in own or self.speaks_of(slot)
+        )
+        super().setup(**kwargs)
+        check_options(self)
+
+    def initialise(self) -> None:
+        """Start."""
+        self._reached, self._jumped, self._covered, self._to_cover = False, False, 0.0, None
+        self._toward = self._watched = None
+        self._waits = False
+        super().initialise()
+
+    def on_started(self) -> None:
+        """Sees to what holds at the start, then commands what the modifiers say."""
+        self._jumped = hold_or_jump(self)
+        if not self._jumped:
+            self._command_rest()
+
+    def _command_rest(self) -> None:
+        self._to_cover = distance_to_cover(self)
+        position = watched_place(self)
+        self._watched = None if position is None else PlaceWatch(position)
+        self._counted = (self.elapsed_steps, self.here.v)
+        speed = side = None
+        if LONGITUDINAL not in self.own and LONGITUDINAL in self.slots:
+            speed = speed_command(self)
+        if LATERAL not in self.own and LATERAL in self.slots:
+            side = side_command(self)
+            self._toward = follow_reference(self)
+        if speed is not None:
+            self.command(LONGITUDINAL, speed)
+        elif self._cares_for_others:
+            super().command(LONGITUDINAL, Careful(None))
+        if side is not None:
+            self.command(LATERAL, side)
+        self._waits = self._has_nothing_to_see_to()
+
+    def command(self, slot: str, command: Command) -> None:
+        """Command the actor, with care if a modifier asks for it."""
+        careful = slot == LONGITUDINAL and self._careful()
+        super().command(slot, Careful(command) if careful else command)
+
+    @property
+    def _cares_for_others(self) -> bool:
+        """Whether it holds its speed with care, having no command of its own."""
+        commands = LONGITUDINAL in self.own and self.commands_speed
+        return LONGITUDINAL in self.slots and self._careful() and not commands
+
+    def _careful(self) -> bool:
+        avoid = one_of_kind(self.modifiers, AvoidCollisions)
+        if avoid is not None:
+            return avoid.avoid
+        standard = self.context.settings.conduct == "standard"
+        return standard and not self.may_jump and isinstance(CARE, self.accepts)
+
+    def _has_nothing_to_see_to(self) -> bool:
+        """Whether it commands nothing any more, and ends by progress or time alone."""
+        watched = (self._to_cover, self._watched, self._toward, self._phase, self.orient)
+        return (
+            all(each is None for each in watched)
+            and self._is_ours
+            and not self.looks_further
+            and self.option() != "must_be_physical"
+        )
+
+    @property
+    def looks_further(self) -> bool:
+        """Whether it looks at more than its goal and its references in each pass."""
+        return type(self).on_update is not ModifiableAction.on_update
+
+    def _rest(self) -> None:
+        """Rest, unless the time is over that it may take."""
+        resting = self.context.resting
+        if self._limits is None or self._limits.rest():
+            resting.with_actor(self, self.actor.id)
+            resting.nodes.add(self)
+
+    def on_update(self) -> Status:
+        """Ends with its goal; keeps up with references."""
+        if self._jumped and not self.context.effects.is_pending(self):
+            self._jumped = False
+            self._command_rest()
+            return Status.RUNNING
+        if self._to_cover is not None:
+            self._reached = self._cover() >= self._to_cover - 1e-6
+        if self._watched is not None:
+            self._reached = self._watched.reached(self)
+        tilt_again(self)
+        if self._toward is not None and self._toward != (now := follow_reference(self)):
+            self._toward = now
+            side = side_command(self)
+            if side is not None:
+                self.command(LATERAL, side)
+                return Status.RUNNING
+        return super().on_update()
+
+    def update(self) -> Status:
+        """Update; at the end of a duration the goal has to be there."""
+        status = super().update()
+        over = status is Status.SUCCESS
+        if self._phase is not None and status is Status.RUNNING:
+            over = self._phase.left <= 0
+        if over and self.has_goal and not self._reached:
+            missed = None if self._watched is None else self._watched.missed
+            return self.fail(missed or self._not_reached())
+        if self._waits and status is Status.RUNNING and self.elapsed_steps:
+            self._rest()  # at its start its commands are not at work yet
+        return Status.SUCCESS if over else status
+
+    def _not_reached(self) -> str:
+        ends = [m.name for m in self.modifiers if getattr(m, "at", "all") == "end"]
+        what = " and ".join(dict.fromkeys(f"`{name}(at: end)`" for name in ends)) or "its goal"
+        return f"its time is over before {what} is reached; give it more, or none"
+
+    # --- goals --------------------------------------------------------------------------------
+
+    def goal_reached(self, done: dict[str, bool]) -> bool:
+        """Whether all that is to be reached is."""
+        open_ended = self.registered.ends == "open"
+        if open_ended and not self.has_goal:
+            return False
+        reached = all(
+            done[slot]
+            for slot in self.slots
+            if (slot in self.own and not open_ended) or self._ends_with(slot)
+        )
+        watches = self._to_cover is not None or self._watched is not None
+        self._reached = reached and (not watches or self._reached) and lies_so(self)
+        return self._reached and self._phase is None
+
+    def _ends_with(self, slot: str) -> bool:
+        """Whether what is pursued in a slot belongs to the goal."""
+        for modifier in self.modifiers:
+            is_way = isinstance(modifier, PATH_SHAPERS) and self._bounds(modifier)
+            lasting = getattr(modifier, "at", "all") == "end" or is_way
+            looked_at = self._watched is not None or self._to_cover is not None
+            if looked_at and isinstance(modifier, Position):
+                continue  # by itself
+            counted = isinstance(modifier, Distance) and modifier.shape is None
+            lasting = lasting or isinstance(modifier, Distance)
+            if lasting and not counted and slot in self._slots_of(modifier):
+                return True
+        return False
+
+    def _cover(self) -> float:
+        """Metres covered since the start."""
+        step, speed = self.elapsed_steps, self.here.v
+        before, speed_before = self._counted
+        if step > before:
+            self._covered += 0.5 * abs(speed + speed_before) * (step - before) * self.context.dt
+            self._counted = (step, speed)
+        return self._covered

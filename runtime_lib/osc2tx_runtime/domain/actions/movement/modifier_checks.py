@@ -1,0 +1,99 @@
+"""Checks that the modifiers of an action can be combined, before the run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, TypeAlias
+
+from osc2tx_runtime.domain.modifiers import MODIFIERS, Modifier, Speed
+from osc2tx_runtime.errors import ScenarioError, UnsupportedError
+from osc2tx_runtime.language.actions.argument_rules import GivenValues
+from osc2tx_shared.classes import dataclass
+from osc2tx_shared.rules import Clash, Timing, clashes, is_across
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
+
+__all__ = ["check_modifiers", "check_options"]
+
+RULES = {name: kind.facts.rules for name, kind in MODIFIERS.items()}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Call:
+    """A modifier, as the rules see it."""
+
+    modifier: Modifier
+    given: GivenValues
+
+    @property
+    def name(self) -> str:
+        return self.modifier.name
+
+    @property
+    def at(self) -> str:
+        return at_of(self.modifier)
+
+    @property
+    def shaped(self) -> bool:
+        return isinstance(self.modifier, Speed) and self.modifier.shaped
+
+
+def _call(modifier: Modifier) -> _Call:
+    return _Call(modifier, GivenValues({**modifier.given(), "at": at_of(modifier)}))
+
+
+_Clash: TypeAlias = Clash[_Call]
+
+
+def at_of(modifier: Modifier) -> str:
+    """Return when a modifier holds: `start`, `end` or `all`."""
+    return str(getattr(modifier, "at", "all"))
+
+
+def check_modifiers(action: ModifiedMotion) -> None:
+    """Refuse modifiers that contradict each other, or have no effect here.
+
+    Raises:
+        UnsupportedError: They cannot be carried out together, or at that time.
+        ScenarioError: A modifier is given twice, or without what it needs.
+    """
+    calls = [_call(modifier) for modifier in action.modifiers]
+    timing = Timing(action.duration is not None, action.end_is_known)
+    for clash in clashes(calls, RULES, timing):
+        raise _error(action.action_name, clash)
+
+
+def _error(action: str, clash: _Clash) -> ScenarioError:
+    *_, last = clash.calls
+    match clash.kind:
+        case "same thing":
+            both = " and ".join(call.name for call in clash.calls)
+            return UnsupportedError(f"{action}: {both} speak of the same thing; give one")
+        case "twice":
+            return ScenarioError(f"{action} has {last.name} twice")
+        case "no start":
+            return UnsupportedError(f"{action}: {last.name} {clash.text}")
+        case "contradiction":
+            return UnsupportedError(f"{action}: {clash.text}")
+        case "rule":
+            return ScenarioError(f"{action}: {last.name}: {clash.text}")
+
+
+def check_options(action: ModifiedMotion) -> None:
+    """Refuse what only vehicles on lanes can do; called when the actor is known to be one or not.
+
+    Raises:
+        UnsupportedError: The actor follows no lanes.
+    """
+    if not action.movable.lane_bound:
+        for text in _bound_to_lanes(action):
+            raise UnsupportedError(f"{action.action_name}: {text}", action.source or None)
+
+
+def _bound_to_lanes(action: ModifiedMotion) -> Iterator[str]:
+    for modifier in action.modifiers:
+        if is_across(_call(modifier), RULES):
+            yield "only vehicles on lanes have a lateral speed"
+        if modifier.facts.rules.lanes_only and at_of(modifier) != "start":
+            yield f"{modifier.name} is for vehicles, which follow lanes"

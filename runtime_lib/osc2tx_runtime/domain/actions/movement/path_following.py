@@ -1,0 +1,191 @@
+"""Actions along paths and trajectories (DSL 8.8.2.8, 8.8.2.9, 8.8.2.16, 8.8.2.17).
+
+A vehicle leaves its lane for the path and returns to the nearest lane behind its end. Along a path
+the speed is free: it stays, or another action controls it; who stands sets out at `CRUISE`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar, Unpack
+
+from osc2tx_runtime.domain.modifiers import Modifier, PhysicalMovement, Value, value_of
+from osc2tx_runtime.domain.modifiers.base import now
+from osc2tx_runtime.domain.modifiers.groups import SPEED_FREE
+from osc2tx_runtime.domain.paths.path_values import (
+    Path,
+    RelativePath,
+    RelativeTrajectory,
+    Trajectory,
+)
+from osc2tx_runtime.domain.paths.relative_paths import absolute
+from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
+from osc2tx_runtime.domain.planning.path_commands import path_command, trajectory_commands
+from osc2tx_runtime.domain.points_and_poses import Pose
+from osc2tx_runtime.enums import RelativeTransform
+from osc2tx_runtime.language.actions.action import ActionOptions
+from osc2tx_runtime.language.actions.registry import LATERAL, LONGITUDINAL, action
+from osc2tx_runtime.world.commands import Command
+from osc2tx_shared.rules import at_least_one, at_most_one
+
+from .modifiable import ModifiableAction
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actors import MovableObject
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
+
+__all__ = ["FollowPath", "FollowTrajectory", "ReplayPath", "ReplayTrajectory"]
+
+
+class CourseAction(ModifiableAction):
+    """An action on a course that may turn out to be impossible when it starts."""
+
+    def on_start(self) -> None:
+        """Commands the course."""
+        for slot, command in self.commands().items():
+            self.command(slot, command)
+
+    def commands(self) -> dict[str, Command]:
+        """What to command in which slot.
+
+        Raises:
+            PathError: There is no such way.
+            PlacementError: There is no such place.
+        """
+        raise NotImplementedError
+
+
+CourseT = TypeVar("CourseT", bound=Path | Trajectory)
+RelativeT = TypeVar("RelativeT", bound=RelativePath | RelativeTrajectory)
+
+
+class _OnCourse(CourseAction, Generic[CourseT, RelativeT]):
+    """What paths and trajectories have in common: two ways to say where they are."""
+
+    rules = (at_most_one("absolute", "relative"), at_least_one("absolute", "relative"))
+    replays: ClassVar[bool]
+
+    @property
+    def exact(self) -> bool:
+        """Whether limits count for nothing: as the action says, if no modifier says otherwise."""
+        physical = one_of_kind(self.modifiers, PhysicalMovement)
+        return self.replays if physical is None else physical.option == "prefer_non_physical"
+
+    def __init__(
+        self,
+        actor: MovableObject,
+        *modifiers: Modifier,
+        absolute: CourseT | Callable[[], CourseT] | None = None,
+        relative: RelativeT | Callable[[], RelativeT] | None = None,
+        reference: PhysicalObject | None = None,
+        transform: RelativeTransform = "object_relative",
+        start_offset: Value = 0.0,
+        end_offset: Value = 0.0,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, **options)
+        self.absolute: CourseT | Callable[[], CourseT] | None = absolute
+        self.relative: RelativeT | Callable[[], RelativeT] | None = relative
+        self.reference = reference or actor
+        self.transform: RelativeTransform = transform
+        self._offsets = (start_offset, end_offset)
+
+    @property
+    def offsets(self) -> tuple[float, float]:
+        """Metres that are left out at the start and at the end, now."""
+        return value_of(self._offsets[0]), value_of(self._offsets[1])
+
+    def course(self) -> CourseT:
+        """The course in the world, now."""
+        if self.absolute is not None:
+            return now(self.absolute)
+        assert self.relative is not None
+        relative, reference = now(self.relative), self.world.state(self.reference.id)
+        points = absolute(self.world.map, relative.points, reference, self.transform)
+        return self.resolved(relative, points)
+
+    def resolved(self, relative: RelativeT, points: tuple[Pose, ...]) -> CourseT:
+        """The course whose points have been brought into the world."""
+        raise NotImplementedError
+
+
+class _OnPath(_OnCourse[Path, RelativePath]):
+    accepts: ClassVar[tuple[type, ...]] = SPEED_FREE
+
+    def commands(self) -> dict[str, Command]:
+        """The path, from here."""
+        return {
+            LATERAL: path_command(
+                self.world.map, self.here, self.course(), self.offsets, exact=self.exact
+            )
+        }
+
+    def resolved(self, relative: RelativePath, points: tuple[Pose, ...]) -> Path:
+        """The path through the points."""
+        return Path(points, relative.interpolation)
+
+
+class _OnTrajectory(_OnCourse[Trajectory, RelativeTrajectory]):
+    accepts: ClassVar[tuple[type, ...]] = (PhysicalMovement,)
+
+    def commands(self) -> dict[str, Command]:
+        """The trajectory, from now."""
+        return trajectory_commands(
+            self.world.map, self.here, self.course(), self.offsets, exact=self.exact
+        )
+
+    def resolved(self, relative: RelativeTrajectory, points: tuple[Pose, ...]) -> Trajectory:
+        """The trajectory through the points."""
+        return Trajectory(points, relative.time_stamps, relative.interpolation)
+
+
+@action("movable_object", "follow_path", slots=(LATERAL,), places=True)
+class FollowPath(_OnPath):
+    """Follow a path as the limits of the actor allow.
+
+    Args:
+        actor: Who.
+        *modifiers: What they say about the speed.
+        absolute: The path.
+        relative: Or a path relative to a reference, where that is at the start.
+        reference: Default: the actor itself.
+        transform: Frame of the relative points.
+        start_offset: Metres of the path that are left out at its start.
+        end_offset: Metres that are left out at its end.
+        **options: Duration and label.
+    """
+
+    replays = False
+
+
+@action("movable_object", "replay_path", slots=(LATERAL,), places=True)
+class ReplayPath(_OnPath):
+    """Be on a path exactly, whatever the limits; arguments as of `follow_path`."""
+
+    replays = True
+
+
+@action("movable_object", "follow_trajectory", slots=(LONGITUDINAL, LATERAL), places=True)
+class FollowTrajectory(_OnTrajectory):
+    """Follow a trajectory as the limits of the actor allow; late arrival is no failure.
+
+    Args:
+        actor: Who.
+        *modifiers: Only `physical_movement`.
+        absolute: The trajectory; its times count from the start of the action.
+        relative: Or one relative to a reference, where that is at the start.
+        reference: Default: the actor itself.
+        transform: Frame of the relative points.
+        start_offset: Metres left out at the start: the action begins at their end, at once.
+        end_offset: Metres that are left out at its end.
+        **options: Duration and label.
+    """
+
+    replays = False
+
+
+@action("movable_object", "replay_trajectory", slots=(LONGITUDINAL, LATERAL), places=True)
+class ReplayTrajectory(_OnTrajectory):
+    """Be on a trajectory at its times exactly; arguments as of `follow_trajectory`."""
+
+    replays = True

@@ -1,0 +1,132 @@
+"""Speed actions: change, keep and assign it; remain stationary (DSL 8.8.2)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar, Unpack
+
+from osc2tx_runtime.domain.modifiers import Modifier, PhysicalMovement, Value, value_of
+from osc2tx_runtime.domain.modifiers.groups import PLACES, SIDE_FREE
+from osc2tx_runtime.domain.planning.motion_action import Assignment, Refused
+from osc2tx_runtime.language.actions.action import ActionOptions
+from osc2tx_runtime.language.actions.registry import LATERAL, LONGITUDINAL, action
+from osc2tx_runtime.language.tree.base import Status
+from osc2tx_runtime.world.commands import SpeedChange, Standstill
+from osc2tx_runtime.world.longitudinal.execution import excessive_rate, speed_profile
+from osc2tx_shared.classes import replace
+
+from .modifiable import ModifiableAction
+from .profiled_change import RatedChange
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actors import MovableObject
+
+__all__ = ["AssignSpeed", "ChangeSpeed", "KeepSpeed", "RemainStationary"]
+
+
+@action("movable_object", "change_speed", slots=(LONGITUDINAL,))
+class ChangeSpeed(RatedChange):
+    """Reach a speed.
+
+    Args:
+        actor: Who.
+        *modifiers: What they say about the lane.
+        target: Speed (m/s).
+        rate_profile: Course of the acceleration.
+        rate_peak: Its peak (m/s^2); default: the duration, else the limits of the actor.
+        **options: Duration and label.
+    """
+
+    unit = "m/s^2"
+    _is_there = False
+
+    def on_start(self) -> None:
+        """Commands the change, or nothing if the speed is there already."""
+        change = self._change(value_of(self.target))
+        reason = excessive_rate(change, self.here.v, self.limits if self.strict else self.tyres)
+        reason = None if self.may_jump else reason or self._contradiction(change)
+        if reason is not None:
+            raise Refused(reason)
+        self._is_there = change.target == self.here.v
+        if not self._is_there:
+            self.command(LONGITUDINAL, change)
+
+    def fills_its_time(self) -> bool:
+        """Whether there is nothing to change: the speed just stays for the duration."""
+        return self._is_there
+
+    def on_update(self) -> Status:
+        """Ends at the target speed."""
+        if self.elapsed_steps == 0 and self._is_there and not self.has_goal:
+            return Status.SUCCESS
+        return super().on_update()
+
+    def _change(self, target: float) -> SpeedChange:
+        if self.may_jump:
+            return SpeedChange(target, "constant", None, 0.0)
+        change = SpeedChange(target, self.rate_profile, self.rate_peak)
+        if self.duration is None or self.rate_profile == "asap" or change.rate_peak is not None:
+            return change
+        if not isinstance(self.duration, tuple):
+            return replace(change, duration=self.fixed_duration())
+        low, high = self.duration
+        own = speed_profile(change, self.here.v, self.limits).duration
+        return replace(change, duration=min(max(own, low), high))
+
+    def _contradiction(self, change: SpeedChange) -> str | None:
+        if change.rate_peak is None or self.rate_profile == "asap":
+            return None
+        own = speed_profile(change, self.here.v, self.limits).duration
+        return self.takes_too_long(f"{change.rate_peak:g} m/s^2", own)
+
+
+@action("movable_object", "keep_speed", slots=(LONGITUDINAL,), ends="open")
+class KeepSpeed(ModifiableAction):
+    """Hold the present speed: what a released slot does by itself."""
+
+    commands_speed = False
+    accepts: ClassVar[tuple[type, ...]] = SIDE_FREE
+
+
+@action("movable_object", "assign_speed", ends="at_once", slots=(LONGITUDINAL,))
+class AssignSpeed(Assignment):
+    """Have a speed (m/s) at once, whatever the limits."""
+
+    def __init__(
+        self,
+        actor: MovableObject,
+        *modifiers: Modifier,
+        speed: Value,
+        **options: Unpack[ActionOptions],
+    ) -> None:
+        super().__init__(actor, *modifiers, **options)
+        self.speed = speed
+
+    def on_start(self) -> None:
+        """Assigns it."""
+        speed = value_of(self.speed)
+        self.effect("speed", speed, lambda: self.world.assign(self.actor.id, speed=speed))
+
+
+@action("movable_object", "remain_stationary", slots=(LONGITUDINAL, LATERAL), ends="open")
+class RemainStationary(ModifiableAction):
+    """Stand; an actor that moves brakes as hard as it can first.
+
+    Where it has to stand it has to be at the start: what holds then goes on to hold.
+    """
+
+    accepts: ClassVar[tuple[type, ...]] = (*PLACES, PhysicalMovement)
+    stands = True
+
+    def __init__(
+        self, actor: MovableObject, *modifiers: Modifier, **options: Unpack[ActionOptions]
+    ) -> None:
+        at_start = (
+            replace(each, at="start") if isinstance(each, PLACES) else each for each in modifiers
+        )
+        super().__init__(actor, *at_start, **options)
+
+    def on_start(self) -> None:
+        """Commands it."""
+        if self.may_jump:
+            self.effect("speed", 0.0, lambda: self.world.assign(self.actor.id, speed=0.0))
+        self.command(LONGITUDINAL, Standstill())

@@ -1,0 +1,44 @@
+"""Projection of geodetic points to the map (DSL 8.12.28)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.domain.points_and_poses import GeodeticPoint
+from osc2tx_runtime.errors import PlacementError
+from osc2tx_runtime.opendrive import GeoReferenceError, Pose, RoadMap
+from osc2tx_runtime.world.motion.moving_body import ANY_LANE
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.scenario_parts import ScenarioParts
+
+__all__ = ["check_globe", "place_of_geodetic"]
+
+
+def place_of_geodetic(road_map: RoadMap, point: GeodeticPoint) -> Pose:
+    """Place of a point on the globe, so high above the nearest road as it says.
+
+    Raises:
+        PlacementError: The map does not say where on the globe it is.
+    """
+    try:
+        x, y = road_map.geo_reference.project(point.latitude, point.longitude)
+    except GeoReferenceError as error:
+        raise PlacementError(f"map {road_map.name} has no place for it: {error}") from error
+    on = road_map.locate(x, y, lane_types=ANY_LANE)
+    height = 0.0 if on is None else road_map.pose(on).z
+    return Pose(x, y, height + point.altitude, 0.0)
+
+
+def check_globe(scenario: ScenarioParts, road_map: RoadMap) -> None:
+    """Looks whether the points of the globe that a scenario declares have a place on its map.
+
+    Raises:
+        PlacementError: One has none.
+    """
+    for name, value in vars(scenario).items():
+        if isinstance(value, GeodeticPoint):
+            try:
+                place_of_geodetic(road_map, value)
+            except PlacementError as error:
+                raise PlacementError(f"{name}: {error.message}", scenario.source) from error

@@ -1,0 +1,288 @@
+"""Declared roads, lanes and junctions, bound to segments of the map (DSL 8.12).
+
+What the map says of them can be read when it is known: `length`, `lanes`, `start_point()`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from osc2tx_runtime.domain.map.road_graph import RoadGraph
+from osc2tx_runtime.domain.map.route_elements import (
+    SAME,
+    PartT,
+    RoadPart,
+    Route,
+    Wish,
+    fulfils,
+    said,
+)
+from osc2tx_runtime.domain.map.segments import MapSegment
+from osc2tx_runtime.enums import Directionality, LaneType, LaneUse
+
+__all__ = [
+    "CompoundLane",
+    "CompoundRoute",
+    "Junction",
+    "Lane",
+    "LaneSection",
+    "PartT",
+    "Road",
+    "RoadPart",
+    "RoadPath",
+    "Route",
+]
+
+
+class Road(Route):
+    """A road outside of junctions."""
+
+    kind = "road"
+
+    def __init__(
+        self,
+        *,
+        anchors: Sequence[str] = (),
+        min_lanes: Wish | None = None,
+        max_lanes: Wish | None = None,
+        length: Wish | None = None,
+        directionality: Directionality | None = None,
+        s_positive: Sequence[LaneSection] | None = None,
+        s_negative: Sequence[LaneSection] | None = None,
+    ) -> None:
+        super().__init__(
+            anchors=anchors,
+            min_lanes=min_lanes,
+            max_lanes=max_lanes,
+            length=length,
+            directionality=directionality,
+            listed={"s_positive": s_positive, "s_negative": s_negative},
+        )
+
+    @property
+    def s_positive(self) -> tuple[LaneSection, ...]:
+        """Sections whose traffic runs with s, in order of s."""
+        return self._sections(forwards=True)
+
+    @property
+    def s_negative(self) -> tuple[LaneSection, ...]:
+        """Sections whose traffic runs against s, in order of s."""
+        return self._sections(forwards=False)
+
+    def _sections(self, *, forwards: bool) -> tuple[LaneSection, ...]:
+        found = self.graph.sections_of_road(self.found.road, forwards=forwards)
+        return self.seen(LaneSection, found)
+
+
+class LaneSection(Route):
+    """The lanes of one direction, side by side, as long as their number stays the same."""
+
+    kind = "lane_section"
+
+    def __init__(
+        self,
+        *,
+        road: Road | None = None,
+        anchors: Sequence[str] = (),
+        min_lanes: Wish | None = None,
+        max_lanes: Wish | None = None,
+        length: Wish | None = None,
+        directionality: Directionality | None = None,
+        lanes: Sequence[Lane] | None = None,
+        s_axis: Lane | None = None,
+    ) -> None:
+        super().__init__(
+            anchors=anchors,
+            min_lanes=min_lanes,
+            max_lanes=max_lanes,
+            length=length,
+            directionality=directionality,
+            within=road,
+            listed={"lanes": lanes, "s_axis": None if s_axis is None else [s_axis]},
+        )
+
+    @property
+    def road(self) -> Road:
+        """The road that it belongs to."""
+        return self._as(Road(), MapSegment("road", self.found.road))
+
+    @property
+    def lanes(self) -> tuple[Lane, ...]:
+        """Its drivable lanes, from the right in direction of travel."""
+        return self.seen(Lane, self.graph.lanes_of(self.found))
+
+    @property
+    def s_axis(self) -> Lane:
+        """The lane along which s is measured: the rightmost one."""
+        return self.lanes[0]
+
+
+class Lane(Route):
+    """A lane of a lane section; a drivable one, if nothing else is asked for.
+
+    Args:
+        lane_section: The section that it belongs to.
+        lane_type: For whom it is.
+        lane_use: More finely.
+        width: Its width where it begins (m), or the range that it is in.
+        anchors: As of `RoadPart`.
+        length: Likewise.
+        directionality: Likewise.
+    """
+
+    kind = "lane"
+
+    def __init__(
+        self,
+        *,
+        lane_section: LaneSection | None = None,
+        lane_type: LaneType | None = None,
+        lane_use: LaneUse | None = None,
+        width: Wish | None = None,
+        anchors: Sequence[str] = (),
+        length: Wish | None = None,
+        directionality: Directionality | None = None,
+    ) -> None:
+        super().__init__(
+            anchors=anchors, length=length, directionality=directionality, within=lane_section
+        )
+        self._type, self._use, self._width = lane_type, lane_use, width
+
+    @property
+    def wishes(self) -> str:
+        """What it asks of the map."""
+        named = (("lane_type", self._type), ("lane_use", self._use))
+        own = [f"{name} is {value}" for name, value in named if value is not None]
+        own += [said("width is {} m", self._width), super().wishes]
+        return " and ".join(filter(None, own))
+
+    def candidates(self, graph: RoadGraph) -> tuple[MapSegment, ...]:
+        """Drivable lanes; those beside them only if their kind is asked for."""
+        if self._type is None and self._use is None:
+            return graph.lanes
+        return (*graph.lanes, *graph.other_lanes)
+
+    def suits(self, graph: RoadGraph, segment: MapSegment) -> bool:
+        """Whether kind and width fit as well."""
+        kind = graph.kind_of(segment)
+        if self._type not in (None, kind.type) or self._use not in (None, kind.use):
+            return False
+        if not fulfils(self._width, graph.width_of(segment), SAME):
+            return False
+        return super().suits(graph, segment)
+
+    @property
+    def lane_section(self) -> LaneSection:
+        """The section that it belongs to."""
+        found = self.found
+        section = MapSegment("lane_section", found.road, found.section, forwards=found.forwards)
+        return self._as(LaneSection(), section)
+
+    @property
+    def lane_type(self) -> LaneType:
+        """For whom it is."""
+        return self.graph.kind_of(self.found).type
+
+    @property
+    def lane_use(self) -> LaneUse:
+        """For what it is, more finely."""
+        return self.graph.kind_of(self.found).use
+
+    @property
+    def width(self) -> float:
+        """Its width where it begins (m)."""
+        return self.graph.width_of(self.found)
+
+
+class CompoundLane(Route):
+    """Lanes that follow each other, over all lane sections of a road."""
+
+    kind = "compound_lane"
+
+    def __init__(
+        self,
+        *,
+        anchors: Sequence[str] = (),
+        length: Wish | None = None,
+        lanes: Sequence[Lane] | None = None,
+    ) -> None:
+        super().__init__(anchors=anchors, length=length, listed={"lanes": lanes})
+
+    @property
+    def lanes(self) -> tuple[Lane, ...]:
+        """The lanes, in direction of travel."""
+        return self.seen(Lane, self.found.parts)
+
+
+class CompoundRoute(Route):
+    """Roads that follow each other through junctions."""
+
+    kind = "compound_route"
+
+    def __init__(
+        self,
+        *,
+        anchors: Sequence[str] = (),
+        length: Wish | None = None,
+        route_elements: Sequence[Route] | None = None,
+    ) -> None:
+        super().__init__(anchors=anchors, length=length, listed={"route_elements": route_elements})
+
+    @property
+    def route_elements(self) -> tuple[Route, ...]:
+        """Its roads, in direction of travel."""
+        return self.seen(Road, self.found.parts)
+
+
+class Junction(RoadPart):
+    """A junction."""
+
+    kind = "junction"
+
+    def __init__(self, *, roads: Sequence[Road] | None = None) -> None:
+        super().__init__(listed={"roads": roads})
+
+    @property
+    def roads(self) -> tuple[Road, ...]:
+        """The roads that meet in it, by their numbers."""
+        found = self.graph.roads_at(self.found)
+        return self.seen(Road, (MapSegment("road", road) for road in found))
+
+
+class RoadPath(RoadPart):
+    """A piece of road for the scenario to begin on, as ScenarioRunner's `Path` asks for one.
+
+    It is the longest lane section that has everything asked of it.
+
+    Args:
+        min_lanes: As of `RoadPart`.
+        max_lanes: Likewise.
+        min_length: Least length (m).
+        different_dest: A path that ends elsewhere.
+        different_origin: A path that begins elsewhere.
+    """
+
+    kind = "path"
+
+    def __init__(
+        self,
+        *,
+        min_lanes: int | None = None,
+        max_lanes: int | None = None,
+        min_length: float = 0.0,
+        different_dest: RoadPath | None = None,
+        different_origin: RoadPath | None = None,
+    ) -> None:
+        super().__init__(min_lanes=min_lanes, max_lanes=max_lanes)
+        self._min_length = min_length
+        self.different_dest, self.different_origin = different_dest, different_origin
+
+    @property
+    def wishes(self) -> str:
+        """What it asks of the map."""
+        own = f"there are {self._min_length:g} m" if self._min_length > 0.0 else ""
+        return " and ".join(filter(None, [super().wishes, own]))
+
+    def suits(self, graph: RoadGraph, segment: MapSegment) -> bool:
+        """Whether it is long enough as well."""
+        return graph.length(segment) >= self._min_length and super().suits(graph, segment)

@@ -1,0 +1,175 @@
+"""Modifiers of the lane and of the lateral position (DSL 8.9.8, 8.9.14 to 8.9.16)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.domain.modifiers.base import Modifier, MovementModifier, Value, now, wanted
+from osc2tx_runtime.domain.modifiers.registry import modifier
+from osc2tx_runtime.domain.shapes import AnyLateralShape, CommonLateralShape, OwnShape
+from osc2tx_runtime.enums import LatMeasureBy, SideLeftRight
+from osc2tx_runtime.language.actions.modifier import LANE, SIDE
+from osc2tx_runtime.language.actions.registry import LATERAL
+from osc2tx_shared.classes import dataclass
+from osc2tx_shared.rules import Sort, at_least, at_least_one, at_most_one
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
+    from osc2tx_runtime.language.values.parameters import Range
+
+_EDGE = {"left": 0.5, "center": 0.0, "right": -0.5}  # of the width, to the left
+
+__all__ = ["ChangeLane", "KeepLane", "Lane", "Lateral"]
+
+
+@modifier(
+    "lane",
+    slots=(LATERAL,),
+    topics=(LANE,),
+    lanes_only=True,
+    placement=True,
+    places=True,
+    needs=("lanes",),
+)
+@dataclass(frozen=True, slots=True)
+class Lane(MovementModifier):
+    """A lane.
+
+    Attributes:
+        lane: Number counted from one edge of the road, or lanes beside a reference.
+        same_as: Actor whose lane it is.
+        side_of: Actor beside whose lane it is.
+        side: On which side of it.
+        from_: Edge from which lanes are counted, in direction of travel; the outermost is 1.
+        shape: Course on the way there: of the place left of the centre of the lane.
+    """
+
+    shaped_by = AnyLateralShape
+    rules = (
+        at_most_one("same_as", "side_of", "from_"),
+        at_least_one("side", when=["side_of"]),
+        at_least(1, "lane", unless=["side_of"]),  # the outermost one is 1
+        at_least(0, "lane", when=["side_of"]),
+    )
+    lane: int | Callable[[], int] | None = None
+    same_as: PhysicalObject | None = None
+    side_of: PhysicalObject | None = None
+    side: SideLeftRight | None = None
+    from_: SideLeftRight = "right"
+    shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
+
+    @property
+    def number(self) -> int:
+        """Number of the lane; 1 if none is given."""
+        return 1 if self.lane is None else int(now(self.lane))
+
+    @property
+    def reference(self) -> PhysicalObject | None:
+        """The actor it is relative to."""
+        return self.same_as or self.side_of
+
+
+@modifier(
+    "lateral",
+    slots=(LATERAL,),
+    topics=(SIDE,),
+    sorts=(Sort("place beside an actor", given=("side_of",), excludes=(LANE,)),),
+    lanes_only=True,
+    placement=True,
+    places=True,
+    needs=("lanes",),
+)
+@dataclass(frozen=True, slots=True)
+class Lateral(MovementModifier):
+    """Place across the lane, or beside another actor.
+
+    Attributes:
+        distance: Metres to the left, unless `side` says right.
+        distance_range: Instead of it: what it may be at any time.
+        side_of: Actor from which the distance counts; None: the centre of the lane.
+        side: To which side the distance points.
+        measure_by: Own edge `to` edge of the reference (of the lane without `side_of`); `closest`:
+            between the facing sides.
+        shape: Course of the distance, and its value if none is given here.
+    """
+
+    shaped_by = AnyLateralShape
+    rules = (
+        at_most_one("distance", "distance_range"),
+        at_least_one("side_of", when=["measure_by"], values=["closest"]),
+    )
+    distance: Value | None = None
+    distance_range: Range[float] | Callable[[], Range[float]] | None = None
+    side_of: PhysicalObject | None = None
+    side: SideLeftRight = "left"
+    measure_by: LatMeasureBy = "center_to_center"
+    shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
+
+    @property
+    def reference(self) -> PhysicalObject | None:
+        """The actor it is relative to."""
+        return self.side_of
+
+    def offsets(self, own_width: float = 0.0, other_width: float = 0.0) -> tuple[float, float]:
+        """How far (m) the own centre may be left of that of the reference, now.
+
+        Args:
+            own_width: Width of the actor (m).
+            other_width: Width of the reference or of the lane (m).
+
+        Returns:
+            The least and the greatest value; both the same without a range.
+        """
+        low, high = wanted(self.distance, self.distance_range, self.shape)
+        ends = [self.place(value, own_width, other_width) for value in (low, high)]
+        return min(ends), max(ends)
+
+    def offset(self, own_width: float, other_width: float, now: float) -> float:
+        """The allowed place (m) that is nearest to the present one; arguments as above."""
+        low, high = self.offsets(own_width, other_width)
+        return min(max(now, low), high)
+
+    def place(self, value: float, own_width: float, other_width: float) -> float:
+        """How far (m) left of the reference the own centre is at a distance; see `offsets`."""
+        left = -value if self.side == "right" else value
+        if self.measure_by == "closest":
+            reach = 0.5 * (own_width + other_width)
+            return left + (reach if left > 0.0 or (left == 0.0 and self.side == "left") else -reach)
+        own, _, other = self.measure_by.split("_")
+        return left + _EDGE[other] * other_width - _EDGE[own] * own_width
+
+
+@modifier(
+    "change_lane",
+    slots=(LATERAL,),
+    topics=(LANE,),
+    no_start="cannot change the lane at the start",
+    lanes_only=True,
+    needs=("lanes",),
+)
+@dataclass(frozen=True, slots=True)
+class ChangeLane(MovementModifier):
+    """Lanes to the side of the lane at the start of the action.
+
+    Attributes:
+        lane: How many.
+        side: To which side; None: drawn from the seed.
+        shape: As of `lane`.
+    """
+
+    shaped_by = AnyLateralShape
+    lane: int | Callable[[], int] = 1
+    side: SideLeftRight | None = None
+    shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
+
+    @property
+    def number(self) -> int:
+        """How many lanes, now."""
+        return int(now(self.lane))
+
+
+@modifier("keep_lane", slots=(LATERAL,), topics=(LANE,), lanes_only=True, needs=("lanes",))
+@dataclass(frozen=True, slots=True)
+class KeepLane(Modifier):
+    """The lane at the start of the action."""

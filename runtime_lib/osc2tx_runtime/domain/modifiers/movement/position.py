@@ -1,0 +1,176 @@
+"""Modifiers of the position (DSL 8.9.2, 8.9.3, 8.9.13, 8.7.4.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Literal
+
+from osc2tx_runtime.domain.modifiers.base import Modifier, MovementModifier, Value, band_of, wanted
+from osc2tx_runtime.domain.modifiers.registry import modifier
+from osc2tx_runtime.domain.shapes import AnyPositionShape, CommonPositionShape, OwnShape
+from osc2tx_runtime.language.actions.modifier import COURSE
+from osc2tx_runtime.language.actions.registry import LATERAL, LONGITUDINAL
+from osc2tx_shared.classes import dataclass
+from osc2tx_shared.rules import Sort, at_least_one, at_most_one, none_of
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
+    from osc2tx_runtime.domain.points_and_poses import Point, Pose
+    from osc2tx_runtime.language.values.parameters import Range
+
+REFERENCES = ("ahead_of", "behind", "ahead_of_point", "behind_point")
+
+__all__ = ["Distance", "KeepPosition", "Location", "Position"]
+
+
+@modifier(
+    "position",
+    slots=(LONGITUDINAL,),
+    topics=(COURSE,),
+    sorts=(
+        Sort("place on the lane", lacks=("ahead_of", "behind"), excludes=("along",)),
+        Sort(
+            "course of the place",
+            given=("shape",),
+            excludes=(COURSE, "speed", "acceleration", "distance"),
+        ),
+    ),
+    lanes_only=True,
+    while_moving=(
+        at_least_one("ahead_of", "behind", "shape", when=["at"], values=["all"]),
+        none_of("at_point", when=["project_on_route"], values=["false"]),
+    ),
+    placement=True,
+    places=True,
+    orders=("ahead_of", "behind"),
+    amounts=("distance", "time", "distance_range", "time_range"),
+)
+@dataclass(frozen=True, slots=True)
+class Position(MovementModifier):
+    """Place along the road, or in the world.
+
+    Attributes:
+        distance: Metres ahead of or behind a reference, else from the start of the road.
+        time: Seconds times the speed of the one behind, instead of a distance.
+        distance_range: Instead of a distance: what it may be at any time.
+        time_range: Instead of a time: what it may be at any time.
+        ahead_of: Reference.
+        behind: Reference.
+        ahead_of_point: Reference point in the world, projected on the road.
+        behind_point: Likewise.
+        at_point: Point in the world.
+        x: World x (m).
+        y: World y (m).
+        z: World z (m).
+        h: Heading (rad).
+        project_on_route: `at_point` only says how far along the road and on which lane; False:
+            the actor is at the point itself.
+        frame: `carla`: left-handed, y and heading with the opposite sign, box centre.
+        shape: Course of the distance (of the place along the road without a reference), and its
+            value if none is given here.
+    """
+
+    shaped_by = AnyPositionShape
+    rules = (
+        at_most_one("ahead_of", "behind", "ahead_of_point", "behind_point"),
+        at_most_one("distance", "time", "distance_range", "time_range", "at_point", "x"),
+        at_least_one("distance", "time", "distance_range", "time_range", "at_point", "x", "shape"),
+        at_most_one("shape", "time", "time_range"),
+        none_of(*REFERENCES, when=["at_point", "x"]),
+        at_least_one("ahead_of", "behind", when=["time", "time_range"]),
+        at_least_one("y", when=["x"]),
+        at_least_one("x", when=["y"]),
+    )
+    distance: Value | None = None
+    time: Value | None = None
+    distance_range: Range[float] | Callable[[], Range[float]] | None = None
+    time_range: Range[float] | Callable[[], Range[float]] | None = None
+    ahead_of: PhysicalObject | None = None
+    behind: PhysicalObject | None = None
+    ahead_of_point: Point | None = None
+    behind_point: Point | None = None
+    at_point: Point | None = None
+    project_on_route: bool = True
+    x: float | None = None
+    y: float | None = None
+    z: float | None = None
+    h: float | None = None
+    frame: Literal["world", "carla"] = "world"
+    shape: CommonPositionShape | OwnShape[AnyPositionShape] | None = None
+
+    @property
+    def reference(self) -> PhysicalObject | None:
+        """The actor it is relative to."""
+        return self.ahead_of or self.behind
+
+    @property
+    def reference_point(self) -> Point | None:
+        """The point it is relative to."""
+        return self.ahead_of_point or self.behind_point
+
+    @property
+    def ahead(self) -> bool:
+        """True for a place ahead of its reference."""
+        return self.ahead_of is not None or self.ahead_of_point is not None
+
+    @property
+    def timed(self) -> bool:
+        """True if a time says how far it is."""
+        return self.time is not None or self.time_range is not None
+
+    def size(self) -> tuple[float, float]:
+        """Least and greatest distance (m) or time (s) now; both the same without a range."""
+        if self.timed:
+            return band_of(self.time, self.time_range)
+        return wanted(self.distance, self.distance_range, self.shape)
+
+    @property
+    def absolute(self) -> bool:
+        """True for a point in the world."""
+        return self.at_point is not None or self.x is not None
+
+
+@modifier("location", placement=True, places=True)
+@dataclass(frozen=True, slots=True)
+class Location(Modifier):
+    """A fixed pose of the reference point, for objects that never move."""
+
+    pose: Pose
+
+
+@modifier("keep_position", slots=(LONGITUDINAL, LATERAL), topics=(COURSE,), paces=True)
+@dataclass(frozen=True, slots=True)
+class KeepPosition(Modifier):
+    """The place in the world at the start of the action."""
+
+
+@modifier(
+    "distance",
+    slots=(LONGITUDINAL,),
+    sorts=(
+        Sort(
+            "course of the way",
+            given=("shape",),
+            excludes=(COURSE, "speed", "acceleration", "distance"),
+        ),
+    ),
+    no_start="is covered during the action, not at its start",
+    paces=True,
+    bounds=True,
+)
+@dataclass(frozen=True, slots=True)
+class Distance(MovementModifier):
+    """Way (m) covered during the action: it ends then, or takes exactly its duration for it.
+
+    Attributes:
+        distance: Metres.
+        shape: Course of the metres.
+    """
+
+    shaped_by = AnyPositionShape
+    distance: Value
+    shape: CommonPositionShape | OwnShape[AnyPositionShape] | None = None
+
+    def way(self) -> float:
+        """The metres to cover, now."""
+        return wanted(self.distance, None, self.shape)[0]

@@ -1,0 +1,1 @@
+"""Plans of lateral motion: lanes, offsets, lateral speeds."""

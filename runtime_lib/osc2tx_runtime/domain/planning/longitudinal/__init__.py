@@ -1,0 +1,1 @@
+"""Plans of longitudinal motion: speeds, positions over time, goals."""

@@ -1,0 +1,67 @@
+"""Arrival commands: a distance to another actor at the end of a duration."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.domain.planning.motion_action import Refused
+from osc2tx_runtime.world.actor_dimensions import COMFORT
+from osc2tx_runtime.world.commands import Arrive, FollowSpeed
+from osc2tx_runtime.world.measuring.distances import along_lanes, gap_between, headway_between
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.planning.motion_action import MotionAction
+    from osc2tx_runtime.world.commands import KeepGap
+
+__all__ = ["arrival"]
+
+_CHOICES = 200  # times out of a range that are looked at
+
+
+def arrival(action: MotionAction, gap: KeepGap) -> Arrive | None:
+    """The command to have a gap, at the speed of the other one, when the action ends.
+
+    Out of a range of durations the shortest one is taken that is comfortable, else the longest.
+
+    Returns:
+        The command; None if the action ends when the gap is reached, at any time.
+
+    Raises:
+        Refused: There is no way along lanes to the other one.
+    """
+    duration = action.duration
+    if duration is None:
+        return None
+    low, high = duration if isinstance(duration, tuple) else (duration, duration)
+    if math.isinf(high):
+        return None
+    dt = action.context.dt
+    missing, closing = _missing(action, gap)
+    limits = action.limits
+    most = COMFORT * min(limits.acceleration, limits.deceleration)
+    for i in range(_CHOICES + 1):
+        time = max(low + (high - low) * i / _CHOICES, dt)
+        # Evenly falling accelerations, see `guidance`, from the first one to the last.
+        first = (6.0 * missing - 4.0 * closing * time) / (time * time)
+        last = (2.0 * closing * time - 6.0 * missing) / (time * time)
+        if max(abs(first), abs(last)) <= most:
+            break
+    return Arrive(time, gap=gap, speed=FollowSpeed(gap.reference))
+
+
+def _missing(action: MotionAction, gap: KeepGap) -> tuple[float, float]:
+    """Metres that are to be gained, and the speed at which they are gained now."""
+    me, other = action.here, action.world.state(gap.reference)
+    along = along_lanes(action.world.map, other, me)
+    if along is None:
+        raise Refused(f"there is no way along lanes to {gap.reference}")
+    here = along
+    if gap.measure == "gap":
+        here = gap_between(along, me.shape, other.shape)
+    elif gap.measure == "headway":
+        here = headway_between(along, me.shape, other.shape)
+    size = gap.distance or 0.0
+    if gap.time is not None:
+        size = gap.time * other.v
+    return (size if gap.ahead else -size) - here, me.v - other.v

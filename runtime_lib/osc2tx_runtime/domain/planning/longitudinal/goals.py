@@ -1,0 +1,123 @@
+"""Goals of an action: the place or distance at its end, and the distance to it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.domain.modifiers import Acceleration, Along, Distance, Position, Speed
+from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind, pose_of
+from osc2tx_runtime.domain.planning.motion_action import Refused
+from osc2tx_runtime.domain.routes.lane_coordinates import along_lane
+from osc2tx_runtime.opendrive import LanePosition
+from osc2tx_runtime.world.commands import FollowSpeed
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
+    from osc2tx_runtime.domain.points_and_poses import Point
+
+__all__ = [
+    "distance_to_cover",
+    "lasting_position",
+    "position_shape",
+    "speed_at_end",
+    "speeds_of",
+    "watched_place",
+    "way_to",
+    "way_to_goal",
+]
+
+
+def distance_to_cover(action: ModifiedMotion) -> float | None:
+    """Metres after which the movement has reached its goal; None if it has no such goal.
+
+    Raises:
+        Refused: The place is not ahead.
+    """
+    way = None if position_shape(action) else way_to_goal(action)
+    if way is None or watched_place(action) is not None:
+        return None
+    if way[1] < 0.0:
+        raise Refused(f"the place it is to be at lies {-way[1]:.1f} m behind it")
+    if action.duration is None and not action.end_is_known:
+        return max(way[0], 0.0)
+    return None if speed_at_end(action) is not None else max(way[0], 0.0)
+
+
+def watched_place(action: ModifiedMotion) -> Position | None:
+    """The place at the end, if another modifier decides the speed all the time."""
+    position = lasting_position(action)
+    if position is None or position.shape is not None:
+        return None
+    rates = [m for m in action.lasting if isinstance(m, Acceleration)]
+    rules = any(m.at == "all" for m in (*speeds_of(action), *rates))
+    return position if rules else None
+
+
+def position_shape(action: ModifiedMotion) -> Along | Distance | Position | None:
+    """The modifier that has a shape of a position; None if there is none."""
+    for modifier in action.lasting:
+        if isinstance(modifier, Along | Distance | Position) and modifier.shape is not None:
+            return modifier
+    return None
+
+
+def lasting_position(action: ModifiedMotion) -> Position | None:
+    """The place that is not only for the start."""
+    return one_of_kind(action.lasting, Position)
+
+
+def way_to_goal(action: ModifiedMotion) -> tuple[float, float] | None:
+    """Least and greatest way (m) to its goal; None if it has no such goal."""
+    distance = one_of_kind(action.modifiers, Distance)
+    if distance is not None:
+        way = distance.way()
+        return way, way
+    position = lasting_position(action)
+    if position is None or position.reference is not None:
+        return None
+    return way_to(action, position)
+
+
+def way_to(action: ModifiedMotion, position: Position) -> tuple[float, float]:
+    """Least and greatest way (m) along the lane to a place on the road."""
+    here = action.place_of(action.actor.id)
+    low, high = position.size()
+    point: Point | None = position.reference_point
+    if position.absolute:
+        at, _ = pose_of(action.movable, position)
+        way = _way_to_point(action, here, at.x, at.y, at.z)
+        return way, way
+    if point is None:
+        done = along_lane(action.world.map, here)
+        return low - done, high - done
+    way = _way_to_point(action, here, point.x, point.y, point.z)
+    return (way + low, way + high) if position.ahead else (way - high, way - low)
+
+
+def _way_to_point(
+    action: ModifiedMotion, here: LanePosition, x: float, y: float, z: float
+) -> float:
+    on = action.world.map.locate(x, y, z)
+    if on is None:
+        raise Refused(f"no lane is near ({x:g}, {y:g})")
+    way = action.world.map.route_distance(here, LanePosition(on.road, on.lane, on.s))
+    if way is None:
+        raise Refused(f"no lane leads from {action.actor.id} to ({x:g}, {y:g})")
+    return way
+
+
+def speed_at_end(action: ModifiedMotion) -> float | FollowSpeed | None:
+    """The speed (m/s, or that of an actor) to have at the end; None if any will do."""
+    lasting = [m for m in speeds_of(action) if m.at == "end"]
+    if not lasting:
+        return None
+    speed = lasting[0]
+    low, high = speed.difference()
+    if speed.reference is None:
+        return min(max(action.here.v, low), high)
+    return FollowSpeed(speed.reference.id, speed.times, low, high - low)
+
+
+def speeds_of(action: ModifiedMotion) -> list[Speed]:
+    """The modifiers of the speed along the road."""
+    return [m for m in action.modifiers if isinstance(m, Speed) and m.direction == "longitudinal"]

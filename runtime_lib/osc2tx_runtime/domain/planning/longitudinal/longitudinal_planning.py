@@ -1,0 +1,276 @@
+"""The longitudinal command of an action, from its modifiers."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.domain.modifiers import (
+    Acceleration,
+    AlongTrajectory,
+    ChangeSpeed,
+    KeepPosition,
+    Position,
+    Speed,
+)
+from osc2tx_runtime.domain.modifiers.base import course_of, now, own_course, value_of
+from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
+from osc2tx_runtime.domain.planning.feasibility import check_one_way, check_peak, check_rates
+from osc2tx_runtime.domain.planning.motion_action import Refused
+from osc2tx_runtime.domain.planning.path_commands import trajectory_commands
+from osc2tx_runtime.language.actions.registry import LONGITUDINAL
+from osc2tx_runtime.world.commands import (
+    Accelerate,
+    AccelerationChange,
+    Arrive,
+    Command,
+    FollowSpeed,
+    KeepGap,
+    SpeedChange,
+    Standstill,
+)
+from osc2tx_runtime.world.geometry.function_profiles import Mapped
+from osc2tx_runtime.world.longitudinal.execution import (
+    excessive_acceleration,
+    excessive_rate,
+    speed_profile,
+)
+from osc2tx_shared.classes import replace
+
+from .goals import (
+    lasting_position,
+    position_shape,
+    speed_at_end,
+    speeds_of,
+    watched_place,
+    way_to_goal,
+)
+from .position_planning import check_way_to_gap, position_command
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
+    from osc2tx_runtime.world.geometry.profiles import Profile
+
+__all__ = ["speed_at_start", "speed_command"]
+
+
+def speed_command(action: ModifiedMotion) -> Command | None:
+    """What to do with the speed; None if no modifier speaks of it.
+
+    Raises:
+        Refused: It cannot be.
+    """
+    modifiers = action.lasting
+    if one_of_kind(modifiers, KeepPosition) is not None:
+        return SpeedChange(0.0, "constant", None, 0.0) if action.may_jump else Standstill()
+    timed = one_of_kind(modifiers, AlongTrajectory)
+    if timed is not None:
+        offsets = (value_of(timed.start_offset), value_of(timed.end_offset))
+        trajectory = now(timed.trajectory)
+        commands = trajectory_commands(
+            action.world.map, action.here, trajectory, offsets, exact=action.may_jump
+        )
+        return commands[LONGITUDINAL]
+    placed = position_shape(action)
+    if placed is not None:
+        return position_command(action, placed)
+    position = lasting_position(action)
+    if watched_place(action) is not None:
+        return _speed(action)
+    if position is not None and position.reference is not None:
+        return _gap(action, position)
+    if action.duration is not None or action.end_is_known:
+        way = way_to_goal(action)
+        if way is not None:
+            return _in_time(action, *way)
+    change = one_of_kind(modifiers, ChangeSpeed)
+    if change is None:
+        return _speed(action)
+    own, (low, high) = own_course(change.shape), change.difference()
+    if own is not None:
+        return _computed(action, change, Mapped(own, 1.0, action.here.v))
+    target = action.here.v + min(max(0.0, low), high)
+    return _checked(action, _to_speed(action, target, change))
+
+
+def _in_time(action: ModifiedMotion, low: float, high: float) -> Command:
+    """What covers a way in the duration, or stops after it."""
+    time, speed = action.time_left(), action.here.v
+    if time is None or time <= 0.0:
+        raise Refused("a distance in a duration needs one duration, not a range")
+    way = min(max(speed * time, low), high)
+    end = speed_at_end(action)
+    if end is not None:
+        return Arrive(time, way=way, speed=end)
+    rate = 2.0 * (way - speed * time) / (time * time)
+    if speed + rate * time < 0.0:
+        rate = -speed * speed / (2.0 * way) if way > 0.0 else -math.inf
+    _check_acceleration(action, rate)
+    return Accelerate(rate)
+
+
+def _speed(action: ModifiedMotion) -> Command | None:
+    rate = one_of_kind(action.modifiers, Acceleration)
+    lasting = [m for m in speeds_of(action) if m.at != "start"]
+    start = _start_speed(action)
+    if not lasting:
+        if rate is not None:
+            return _acceleration(action, rate, start)
+        if start is not None:
+            _assign(action, start)
+        return None
+    speed = lasting[0]
+    other = 0.0
+    if speed.reference is not None:
+        other = speed.times * action.world.state(speed.reference.id).v
+    if speed.reference is not None and not speed.projected:
+        if start is not None:
+            _assign(action, start)
+        return _following(action, speed, speed.reference.id, other)
+    own, (low, high) = own_course(speed.shape), speed.difference()
+    if own is not None:
+        sign = -1.0 if speed.slower_than is not None else 1.0
+        return _computed(action, speed, Mapped(own, sign, other))
+    low, high = low + other, high + other
+    present = action.here.v if start is None else start
+    command = _to_speed(action, min(max(present, low), high), speed, rate, start)
+    return _checked(action, command)
+
+
+def _following(action: ModifiedMotion, speed: Speed, reference: str, other: float) -> FollowSpeed:
+    """The speed of an actor and so much more, which may have a course of its own."""
+    low, high = speed.difference()
+    if not speed.shaped:
+        return FollowSpeed(reference, speed.times, low, high - low)
+    own, sign = own_course(speed.shape), -1.0 if speed.slower_than is not None else 1.0
+    here = action.here.v - other
+    course: Profile
+    if own is not None:
+        course = Mapped(own, sign, 0.0)
+    else:
+        (profile, peak), limits = speed.course, action.limits
+        check_peak(peak, "m/s^2")
+        in_time = speed.at == "end" and profile != "asap" and peak is None
+        least = min(limits.acceleration, limits.deceleration)
+        even = replace(limits, acceleration=least, deceleration=least)
+        change = SpeedChange(
+            min(max(here, low), high), profile, peak, action.time_left() if in_time else None
+        )
+        course = speed_profile(change, here, even)
+    check_one_way(speed, course)
+    return FollowSpeed(reference, speed.times, course=course)
+
+
+def _computed(action: ModifiedMotion, modifier: Speed | ChangeSpeed, course: Mapped) -> SpeedChange:
+    """The command for a speed that a shape of the scenario gives."""
+    check_one_way(modifier, course)
+    if not action.may_jump:
+        check_rates(action, course)
+    end = 0.0 if math.isinf(course.duration) else course.value(course.duration)
+    return SpeedChange(end, course=course, exact=action.may_jump)
+
+
+def _start_speed(action: ModifiedMotion) -> float | None:
+    """The speed to jump to at the start; None if there is none."""
+    found = [m for m in speeds_of(action) if m.at == "start"]
+    if not found or not action.may_jump:
+        return None
+    low, high = speed_at_start(action, found[0])
+    return min(max(action.here.v, low), high)
+
+
+def speed_at_start(action: ModifiedMotion, speed: Speed) -> tuple[float, float]:
+    """Least and greatest speed (m/s) that a modifier allows now."""
+    low, high = speed.difference()
+    if speed.reference is None:
+        return low, high
+    other = speed.times * action.world.state(speed.reference.id).v
+    return low + other, high + other
+
+
+def _assign(action: ModifiedMotion, value: float) -> None:
+    actor_id, world = action.actor.id, action.world
+    action.effect("speed", value, lambda: world.assign(actor_id, speed=value))
+
+
+def _to_speed(
+    action: ModifiedMotion,
+    target: float,
+    speed: Speed | ChangeSpeed,
+    rate: Acceleration | None = None,
+    start: float | None = None,
+) -> SpeedChange:
+    if action.may_jump and start is None:
+        return SpeedChange(target, "constant", None, 0.0)
+    if rate is not None:
+        return SpeedChange(target, "constant", abs(rate.value(0.0)), start=start)
+    profile, peak = speed.course
+    in_time = speed.at == "end" and profile != "asap" and peak is None
+    return SpeedChange(target, profile, peak, action.time_left() if in_time else None, start)
+
+
+def _checked(action: ModifiedMotion, command: SpeedChange) -> SpeedChange:
+    if command.duration == 0.0:
+        return command  # it may jump
+    start = action.here.v if command.start is None else command.start
+    reason = excessive_rate(command, start, action.limits if action.strict else action.tyres)
+    if reason is not None:
+        raise Refused(reason)
+    return command
+
+
+def _acceleration(action: ModifiedMotion, rate: Acceleration, start: float | None) -> Command:
+    value = rate.value(action.here.a)
+    if not action.may_jump:
+        _check_acceleration(action, value)
+    if start is not None and rate.at == "all" and rate.shape is None:
+        return Accelerate(value, start)
+    if start is not None:
+        _assign(action, start)
+    if rate.at == "start":
+        return AccelerationChange(0.0, start=value)
+    own = own_course(rate.shape)
+    if own is not None:
+        check_one_way(rate, own)
+        return AccelerationChange(value, course=own)
+    if rate.shape is not None:
+        profile, peak = course_of(rate.shape)
+        check_peak(peak, "m/s^3")
+        return AccelerationChange(value, profile, peak)
+    if rate.at == "all":
+        return Accelerate(value)
+    return AccelerationChange(value, duration=action.time_left())
+
+
+def _check_acceleration(action: ModifiedMotion, value: float) -> None:
+    limits = action.limits if action.strict else action.tyres
+    reason = excessive_acceleration(value, action.here.v, limits)
+    if reason is not None:
+        raise Refused(reason)
+
+
+def _gap(action: ModifiedMotion, position: Position) -> Command:
+    """The command for a place ahead of or behind another actor."""
+    reference = position.reference
+    assert reference is not None
+    low, high = position.size()
+    ahead = position.ahead
+    if high <= 0.0 and low < 0.0:  # a negative distance is one on the other side
+        low, high, ahead = -high, -low, not ahead
+    if position.timed and low < 0.0:
+        raise Refused("a range of times ahead and behind at once is none it can keep")
+    gap = KeepGap(
+        reference.id,
+        ahead,
+        "reference",
+        distance=None if position.timed else low,
+        time=low if position.timed else None,
+        spread=high - low,
+        projected=position.projected,
+    )
+    time = action.time_left()
+    if position.monotonous:
+        check_way_to_gap(action, position, time if position.at == "end" else None)
+    if position.at != "end" or time is None or time <= 0.0:
+        return gap
+    return Arrive(time, gap=gap, speed=speed_at_end(action))

@@ -1,0 +1,1 @@
+"""Bases of actions and modifiers, and their registry."""

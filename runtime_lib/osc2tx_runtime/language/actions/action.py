@@ -1,0 +1,104 @@
+"""The base classes of all actions: those of actors, and those that have none."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any, ClassVar, TypedDict
+
+from osc2tx_runtime.errors import UnsupportedError
+from osc2tx_runtime.language.actions.base_action import BaseAction, registered_as, with_blame
+from osc2tx_runtime.language.actions.method import Method
+from osc2tx_runtime.language.tree.duration_limits import Duration
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.actions.modifier import Modifier
+    from osc2tx_runtime.language.declared import BaseActor
+    from osc2tx_runtime.world.commands import Command
+    from osc2tx_runtime.world.measuring.deviation import Deviation
+
+__all__ = ["Action", "ActionOptions", "GlobalAction"]
+
+
+class ActionOptions(TypedDict, total=False):
+    """Keywords that every action takes: `**options: Unpack[ActionOptions]`."""
+
+    duration: Duration | None
+    label: str | None
+
+
+class GlobalAction(BaseAction):
+    """One action that is not associated with an actor (DSL 7.3.8.3): `log("here")`.
+
+    Its constructor takes the arguments, `duration` and `label`.
+    """
+
+
+class Action(BaseAction):
+    """One action of one actor.
+
+    It hands in commands with `self.command`, which act from this instant to the next.
+
+    Attributes:
+        accepts: Types of modifiers the action takes; others are an `UnsupportedError` at setup.
+        physical: It moves the actor, and cannot let it jump (`prefer_non_physical`).
+        actor: Who acts.
+        modifiers: As given.
+        slots: What it claims while it runs; `__init__` of a subclass may narrow it.
+    """
+
+    accepts: ClassVar[tuple[type, ...]] = ()
+    physical: ClassVar[bool] = False
+
+    def __init__(
+        self,
+        actor: BaseActor,
+        *modifiers: Modifier,
+        duration: Duration | None = None,
+        label: str | None = None,
+    ) -> None:
+        self.actor = actor
+        self.modifiers = modifiers
+        self.slots = registered_as(type(self)).slots
+        super().__init__(duration=duration, label=label)
+
+    @property
+    def actor_id(self) -> str:
+        """Who acts."""
+        return self.actor.id
+
+    def become(self, method: Method) -> None:
+        """Take name, slots and ending of the method the action was made for."""
+        if self.slots is self.registered.slots:  # not narrowed by a subclass
+            self.slots = method.slots
+        super().become(method)
+
+    def takes(self, modifier: Modifier) -> bool:
+        """Return whether the action carries out a modifier."""
+        return isinstance(modifier, self.accepts)
+
+    def command(self, slot: str, command: Command) -> None:
+        """Command the actor in a claimed slot until the next call or the end of the action."""
+        self.context.command(self.actor.id, slot, self, command)
+
+    def setup(self, **kwargs: Any) -> None:
+        """Check the modifiers, then take the context."""
+        super().setup(**kwargs)
+        wrong = [m for m in self.modifiers if not with_blame(self, partial(self.takes, m))]
+        if wrong:
+            names = ", ".join(dict.fromkeys(f"{type(modifier).__name__}" for modifier in wrong))
+            raise UnsupportedError(
+                f"{self.action_name} does not take the modifier {names}", self.source or None
+            )
+
+    def _claim(self) -> None:
+        for slot in self.slots:
+            self.context.claim(self.actor.id, slot, self)
+
+    def _release(self, momentary: bool) -> None:
+        for slot in self.slots:
+            self.context.release(self.actor.id, slot, self, momentary)
+
+    def _deviation(self) -> Deviation | None:
+        if not self.slots:
+            return None
+        return self.context.world.deviation(self.actor.id, self.slots)

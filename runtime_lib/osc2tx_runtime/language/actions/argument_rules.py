@@ -1,0 +1,53 @@
+"""Checks the arguments of calls at run time, by the rules that the compiler reads as well."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_shared.rules import Rule, violations
+
+__all__ = ["GivenValues", "check_arguments"]
+
+
+class GivenValues:
+    """Arguments as values, as the rules see them.
+
+    Args:
+        values: By parameter.
+    """
+
+    def __init__(self, values: Mapping[str, Any]) -> None:
+        self._values = values
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._values
+
+    def word(self, name: str) -> str | None:
+        """Return a value as the DSL writes it, if it is a word there; of an object what it is."""
+        value = self._values[name]
+        if isinstance(value, bool):
+            return str(value).lower()
+        word = value if isinstance(value, str) else getattr(value, "kind", None)
+        return word if isinstance(word, str) else None
+
+    def number(self, name: str) -> float | None:
+        """Return a value that is a number; None for one that is read late."""
+        value = self._values[name]
+        return value if isinstance(value, int | float) else None
+
+
+def check_arguments(what: str, rules: Iterable[Rule], given: Mapping[str, Any]) -> None:
+    """Compare arguments with rules.
+
+    Args:
+        what: The call, for the message.
+        rules: What must hold.
+        given: Arguments by parameter.
+
+    Raises:
+        ScenarioError: They break one.
+    """
+    for broken in violations("it", rules, GivenValues(given)):
+        raise ScenarioError(f"{what}: {broken.text}")

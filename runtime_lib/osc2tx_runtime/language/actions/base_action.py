@@ -1,0 +1,238 @@
+"""What actions of actors and global actions share: how they start, last and end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+
+from osc2tx_runtime.errors import OwnCode, ScenarioError, is_own, name_of
+from osc2tx_runtime.language.actions.method import Method
+from osc2tx_runtime.language.tree.base import (
+    FAILURE,
+    INVALID,
+    RUNNING,
+    SUCCESS,
+    Leaf,
+    Status,
+    checked,
+)
+from osc2tx_runtime.language.tree.duration_limits import Duration, DurationLimits
+from osc2tx_shared.rules import Rule
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.world.measuring.deviation import Deviation
+
+__all__ = ["BaseAction", "RefusedAction", "registered_as", "with_blame"]
+
+T = TypeVar("T")
+
+
+class BaseAction(Leaf):
+    """One action.
+
+    Subclasses write `on_start`, `on_update`, `on_stop`. They read the world's snapshot
+    (`self.context.world.state(...)`, fields of actors) and hand in changes of state with
+    `self.effect`, which are carried out at this instant: the action does not end before they are.
+
+    Attributes:
+        method: How the class is registered: name, slots, ending.
+        rules: Which arguments go together (`with`: the modifiers); the compiler knows them as well.
+        duration: As given: seconds, or (least, most) seconds.
+        action_name: `hero change_lane`: the name in the trace, whatever the node is called.
+    """
+
+    method: ClassVar[Method]
+    rules: ClassVar[tuple[Rule, ...]] = ()
+
+    def __init__(self, *, duration: Duration | None = None, label: str | None = None) -> None:
+        super().__init__("")
+        self.duration = duration
+        self.label = label
+        self._limits = None if duration is None else DurationLimits(self, duration)
+        self._start_step = 0
+        self._is_ours = not is_own(type(self))
+        self.registered = registered_as(type(self))
+        self.become(self.registered)
+
+    @property
+    def actor_id(self) -> str | None:
+        """Who acts; None if nobody does."""
+        return None
+
+    def become(self, method: Method) -> None:
+        """Take name and ending of the method the action was made for."""
+        self.registered = method
+        self.action_name = full_name(self.actor_id, method.name)
+        self.name = self.label or self.action_name
+        self.open_ended = method.ends == "open" and self._limits is None
+        self.instant = method.ends == "instant" and self._limits is None
+        self._momentary = method.is_momentary and self._limits is None
+
+    # --- what subclasses write ---
+
+    def on_start(self) -> None:
+        """Start: sample what the action needs, hand in commands. The slots are claimed."""
+
+    def on_update(self) -> Status:
+        """Return RUNNING, SUCCESS or `self.fail(reason)`; called each pass, at the start too."""
+        return RUNNING
+
+    def on_stop(self) -> None:
+        """Clean up; called however the action is left, before its slots are released."""
+
+    # --- what subclasses call ---
+
+    def effect(self, what: str, value: object, apply: Callable[[], None]) -> None:
+        """Ask for a change of state at this instant: of the actor, if there is one.
+
+        Args:
+            what: What changes: `speed`, `lights`.
+            value: The new value; parallel actions may only want equal ones.
+            apply: Carries it out at this instant.
+        """
+        whose = () if self.actor_id is None else (self.actor_id,)
+        self.context.effect((what, *whose), self, value, partial(with_blame, self, apply))
+
+    def length(self) -> int | None:
+        """Return how many steps the action takes; None where only the run can tell.
+
+        A subclass that knows overrides it; a `duration` is known anyway.
+        """
+        ends = self.registered.ends
+        content = 0 if self.registered.is_momentary else None
+        return content if self._limits is None else self._limits.length(content, ends == "open")
+
+    @property
+    def elapsed_steps(self) -> int:
+        """Steps since the start of the action."""
+        return self.context.step - self._start_step
+
+    @property
+    def elapsed(self) -> float:
+        """Seconds since the start of the action."""
+        return self.elapsed_steps * self.context.dt
+
+    # --- how it runs ---
+
+    def look_ahead(self) -> None:
+        """See whether the map has what is asked for, when all is placed and set up.
+
+        Raises:
+            BeyondMapError: Wherever its actor can be by then, it has not.
+        """
+
+    def initialise(self) -> None:
+        """Claim the slots and start."""
+        self._start_step = self.context.step
+        if self._limits is not None:
+            self._limits.begin()
+        self.context.trace.action("start", self)
+        self._claim()
+        with_blame(self, self.on_start)
+
+    def update(self) -> Status:
+        """Update, within the duration."""
+        limits = self._limits
+        status = self._content()
+        if limits is None:
+            return status
+        holds = status is SUCCESS and self.fills_its_time()
+        return limits.judge(RUNNING if holds else status, holds or self.registered.ends == "open")
+
+    def fills_its_time(self) -> bool:
+        """Return whether what it has reached goes on for its duration."""
+        return self.registered.ends != "goal"
+
+    def _content(self) -> Status:
+        """Update; it does not end before its effects are carried out."""
+        if self._is_ours:  # each step of each action comes by here
+            status = self.on_update()
+        else:
+            status = checked(self, with_blame(self, self.on_update))
+        pending = status is SUCCESS and self.context.effects.is_pending(self)
+        return RUNNING if pending else status
+
+    def lateness(self) -> float:
+        """Return that of the duration, if it ends the action."""
+        late = None if self._limits is None else self._limits.late
+        return super().lateness() if late is None else late
+
+    def terminate(self, new_status: Status) -> None:
+        """Clean up, release the slots and write the trace."""
+        try:
+            with_blame(self, self.on_stop)
+        finally:
+            if new_status is INVALID:
+                self.context.effects.withdraw(self)
+            self._release(self._momentary and new_status is SUCCESS)
+            if new_status is FAILURE:
+                self.context.trace.action("fail", self, self.feedback_message)
+            else:
+                reason = "stopped" if new_status is INVALID else None
+                self.context.trace.action("end", self, reason, self._deviation())
+
+    def _claim(self) -> None:
+        """Claim the slots of the actor."""
+
+    def _release(self, momentary: bool) -> None:
+        """Release the slots of the actor.
+
+        Args:
+            momentary: It had them for no time, and changed what they are about.
+        """
+
+    def _deviation(self) -> Deviation | None:
+        """Return how far the actor is from where it was to be, if that was measured."""
+        return None
+
+
+def registered_as(factory: type[BaseAction]) -> Method:
+    """Return how a class is registered; one that is not has a goal and no slots."""
+    method: Method | None = getattr(factory, "method", None)
+    return Method(None, factory.__name__, (), "goal") if method is None else method
+
+
+def full_name(actor_id: str | None, name: str) -> str:
+    """Return the name of an action in the trace, with its actor if there is one."""
+    return name if actor_id is None else f"{actor_id} {name}"
+
+
+def with_blame(action: BaseAction, function: Callable[[], T]) -> T:
+    """Call a function of an action; what an action of the user's own raises is a mistake of its.
+
+    Raises:
+        ScenarioError: If the class of the action does not come from this library.
+    """
+    if action._is_ours:
+        return function()
+    with OwnCode(f"{action.action_name}: {name_of(type(action))} raised", action.source):
+        return function()
+
+
+class RefusedAction(BaseAction):
+    """Stands for an action that nobody carries out, or whose arguments are wrong.
+
+    When it is made nobody knows its place in the scenario; at setup, before the first step, it
+    does, and refuses the run. Until then the tree can be shown and counted like any other.
+
+    Args:
+        name: Of the action, with its actor if there is one.
+        error: Why it cannot.
+        label: Label of the node.
+    """
+
+    def __init__(self, name: str, error: ScenarioError, label: str | None = None) -> None:
+        super().__init__(label=label)
+        self.action_name = name
+        self.name = label or self.action_name
+        self.error = error
+
+    def setup(self, **kwargs: Any) -> None:
+        """Refuse the run.
+
+        Raises:
+            ScenarioError: Always; it names the place.
+        """
+        self.error.source = self.error.source or self.source or None
+        raise self.error

@@ -1,0 +1,53 @@
+"""Registration data of an action: name, slots, how it ends, needs."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from osc2tx_runtime.world.protocol import Feature
+from osc2tx_shared.classes import dataclass
+
+__all__ = ["LATERAL", "LONGITUDINAL", "Ends", "Method"]
+
+LONGITUDINAL = "longitudinal"
+LATERAL = "lateral"
+
+Ends = Literal["goal", "open", "instant", "at_once"]
+
+
+@dataclass(frozen=True, slots=True)
+class Method:
+    """One action.
+
+    Attributes:
+        kind: Actor kind of the DSL (`vehicle`); None for an action that has no actor.
+        name: Method name (`change_lane`).
+        slots: What it controls of the actor: LONGITUDINAL, LATERAL, both or nothing. An action that
+            moves as its modifiers say controls nothing itself.
+        ends: `goal` when its goal is reached, `at_once` with a goal that is reached in the instant
+            in which it starts, `open` only with its surroundings, `instant` at once. What is
+            instant has no goal either, so like an `emit` it bounds no composition.
+        places: Whether its arguments say where the actor is.
+        paces: Whether it sets or holds the speed of the actor.
+        needs: What a world must have to carry it out.
+        undeclared: Why the library does not declare it, if it does not.
+    """
+
+    kind: str | None
+    name: str
+    slots: tuple[str, ...]
+    ends: Ends
+    places: bool = False
+    paces: bool = False
+    needs: tuple[Feature, ...] = ()
+    undeclared: str = ""
+
+    @property
+    def qualified_name(self) -> str:
+        """`vehicle.change_lane`; the name alone if there is no actor."""
+        return self.name if self.kind is None else f"{self.kind}.{self.name}"
+
+    @property
+    def is_momentary(self) -> bool:
+        """Whether it takes no time."""
+        return self.ends in ("instant", "at_once")

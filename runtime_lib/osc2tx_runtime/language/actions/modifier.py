@@ -1,0 +1,89 @@
+"""The base class of all modifiers."""
+
+from __future__ import annotations
+
+from dataclasses import field, fields
+from typing import Any, ClassVar
+
+from osc2tx_runtime.language.actions.argument_rules import check_arguments
+from osc2tx_runtime.world.protocol import Feature
+from osc2tx_shared.classes import dataclass
+from osc2tx_shared.rules import ModifierRules, Rule
+
+__all__ = ["COURSE", "LANE", "SIDE", "Modifier", "ModifierFacts"]
+
+COURSE = "course along the road"
+LANE = "lane"
+SIDE = "place across the lane"
+"""Topics: an action takes one modifier of each."""
+
+
+@dataclass(frozen=True, slots=True)
+class ModifierFacts:
+    """What a modifier is.
+
+    Attributes:
+        rules: What it does to other modifiers of the same action.
+        slots: What it controls of the actor: LONGITUDINAL, LATERAL, both or nothing.
+        places: Whether it says where the actor is.
+        paces: Whether it says how fast the actor is, or where it is at each time.
+        bounds: Whether an open-ended action is over when what it says is reached.
+        placement: Whether an actor can start with it.
+        orders: Parameters that only state an order, such as `faster_than`,
+        amounts: whose amount stands in one of these, or stays open.
+        needs: What a world must have to carry it out.
+        undeclared: Why the library does not declare it, if it does not.
+    """
+
+    rules: ModifierRules = field(default_factory=ModifierRules)
+    slots: tuple[str, ...] = ()
+    places: bool = False
+    paces: bool = False
+    bounds: bool = False
+    placement: bool = False
+    orders: tuple[str, ...] = ()
+    amounts: tuple[str, ...] = ()
+    needs: tuple[Feature, ...] = ()
+    undeclared: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Modifier:
+    """Base of all modifiers.
+
+    Attributes:
+        name: Name in the DSL.
+        facts: What is stated of it at its registration.
+        rules: Which parameters go together; the compiler knows them as well.
+    """
+
+    name: ClassVar[str] = ""
+    facts: ClassVar[ModifierFacts] = ModifierFacts()
+    rules: ClassVar[tuple[Rule, ...]] = ()
+
+    def __post_init__(self) -> None:
+        """Checks the rules. With slots, subclasses cannot reach it by `super()`."""
+        check_arguments(self.name, self.rules, self.given())
+        self.check()
+
+    def check(self) -> None:
+        """Checks what rules cannot say."""
+
+    @property
+    def is_start(self) -> bool:
+        """Whether it is a demand on the start alone."""
+        return getattr(self, "at", "all") == "start" and self.facts.rules.starts
+
+    def given(self) -> dict[str, Any]:
+        """Parameters with values that are not those of a modifier without arguments."""
+        kind = type(self)
+        if kind not in _DEFAULTS:
+            _DEFAULTS[kind] = tuple((field.name, field.default) for field in fields(kind))
+        values = ((name, default, getattr(self, name)) for name, default in _DEFAULTS[kind])
+        return {
+            name: value for name, default, value in values if value is not None and value != default
+        }
+
+
+_DEFAULTS: dict[type[Modifier], tuple[tuple[str, object], ...]] = {}
+"""What the parameters of modifiers are without arguments, of those that were looked at."""

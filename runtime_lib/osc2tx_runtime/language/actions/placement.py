@@ -1,0 +1,30 @@
+"""The record of one `place` call."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from osc2tx_shared.classes import dataclass
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.actions.modifier import Modifier
+    from osc2tx_runtime.language.declared import BaseActor
+
+__all__ = ["Placement"]
+
+
+@dataclass(frozen=True, slots=True)
+class Placement:
+    """Where and how an actor starts.
+
+    Attributes:
+        actor: Who.
+        modifiers: position, lane, speed and so on, as written.
+        source: Place in the scenario.
+        throughout: All of it holds later as well.
+    """
+
+    actor: BaseActor
+    modifiers: tuple[Modifier, ...]
+    source: str
+    throughout: bool = False

@@ -1,0 +1,1 @@
+"""Parameters of a scenario: given, drawn, printed with units."""

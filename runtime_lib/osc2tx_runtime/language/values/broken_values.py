@@ -1,0 +1,85 @@
+"""What to say of values that demands between them, or arithmetic, do not allow."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.language.source_map import SourceMap
+from osc2tx_runtime.language.tree.module_text import failing_part
+from osc2tx_runtime.language.values.written_units import Unit, shown_value
+
+__all__ = ["NO_RESULT", "NoResult", "NotKeptError", "not_computed", "not_kept"]
+
+NoResult = ArithmeticError | IndexError
+"""What an expression raises that has no result: a division by zero, no such element."""
+
+NO_RESULT = (ArithmeticError, IndexError)
+
+
+class NotKeptError(Exception):
+    """A relation that `keep` demands does not hold.
+
+    Args:
+        place: Where it stands in the scenario.
+    """
+
+    def __init__(self, place: str) -> None:
+        super().__init__(place)
+        self.place = place
+
+
+def not_kept(
+    broken: NotKeptError,
+    parameters: Mapping[str, Any],
+    units: Mapping[str, Unit],
+    tried: str,
+    rivals: Sequence[NotKeptError] = (),
+) -> ScenarioError:
+    """Return what to say of a relation, with the values that it is about.
+
+    Args:
+        broken: The relation.
+        parameters: All values.
+        units: Those of them that have one.
+        tried: How often others were drawn, ` in 1000 draws`; empty if none were.
+        rivals: Relations that it contradicts.
+    """
+    text = _relation(broken)
+    words = set(re.findall(r"\w+", text))
+    about = {name: v for name, v in parameters.items() if name in words}
+    values = ", ".join(
+        f"{name}={shown_value(v, units.get(name))}" for name, v in (about or parameters).items()
+    )
+    help_ = f" (the last values: {values})" if tried else f" ({values})" if values else ""
+    what = f"`{text}`" if text else "a constraint"
+    beside = " and ".join(f"`{_relation(each)}` ({each.place})" for each in rivals)
+    together = f" together with {beside}" if beside else ""
+    return ScenarioError(f"{what} does not hold{tried}{together}{help_}", broken.place)
+
+
+def _relation(broken: NotKeptError) -> str:
+    return failing_part(broken)[0].removeprefix("keep(").removesuffix(")")
+
+
+def not_computed(
+    error: NoResult, source_map: SourceMap, kept: int, tried: str = ""
+) -> ScenarioError:
+    """Return what to say of a value that has no result.
+
+    Args:
+        error: Why.
+        source_map: Where things stand in the scenario.
+        kept: How many demands hold before it.
+        tried: See `not_kept`.
+    """
+    text, member = failing_part(error)
+    if member == "keep":
+        place = source_map.of_constraint(kept)
+    else:
+        known = member in source_map.fields
+        place = source_map.of_field(member if known else member.removesuffix("_"))
+    what = f"`{text}`" if text else "a value"
+    return ScenarioError(f"{what} cannot be computed{tried}: {error}", place)

@@ -1,0 +1,229 @@
+"""Values of parameters: given, set, drawn, default; ranges and choices."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any, Generic, TypeAlias, TypeVar
+
+from osc2tx_runtime.errors import ScenarioError, SettingsError
+from osc2tx_runtime.language.values.walks import Draws
+from osc2tx_runtime.language.values.written_units import Unit, read_value, shown_value
+from osc2tx_shared.classes import dataclass
+
+__all__ = [
+    "Choice",
+    "Domain",
+    "Range",
+    "any_of",
+    "at_least",
+    "at_most",
+    "choose",
+    "fixed",
+    "within",
+]
+
+NumberT = TypeVar("NumberT", int, float)
+ValueT = TypeVar("ValueT", bound=bool | int | float | str)
+
+INFINITY: Any = math.inf  # a bound of whole numbers as well
+
+
+@dataclass(frozen=True, slots=True)
+class Range(Generic[NumberT]):
+    """Values from `low` to `high`, SI units; one is drawn from the seed of the run.
+
+    A bound may be infinite: then nothing can be drawn, and a value has to be given.
+    """
+
+    low: NumberT
+    high: NumberT
+
+    def __post_init__(self) -> None:
+        if not self.low <= self.high:
+            raise ValueError(f"within({self.low}, {self.high}): from the lower to the upper bound")
+
+    @property
+    def is_bounded(self) -> bool:
+        """Whether both bounds are finite."""
+        return math.isfinite(self.low) and math.isfinite(self.high)
+
+    def draw(self, generator: Draws) -> NumberT:
+        """Return a value; a whole number if both bounds are."""
+        if isinstance(self.low, int) and isinstance(self.high, int):
+            return generator.randint(self.low, self.high)
+        drawn: Any = generator.uniform(self.low, self.high)
+        return drawn  # type: ignore[no-any-return]
+
+    def __contains__(self, value: Any) -> bool:
+        if isinstance(value, Range):
+            return value.low in self and value.high in self
+        return bool(self.low <= value <= self.high)
+
+    def shown(self, unit: Unit | None) -> str:
+        """Return it in words, in a unit; without one its numbers are in SI units."""
+        low, high = (shown_value(bound, unit) for bound in (self.low, self.high))
+        si = "" if unit is not None else " (SI units)"
+        if not math.isfinite(self.high):
+            return f"at least {low}{si}"
+        if not math.isfinite(self.low):
+            return f"at most {high}{si}"
+        return f"{low} to {high}{si}"
+
+
+@dataclass(frozen=True, slots=True)
+class Choice(Generic[ValueT]):
+    """Values of which one is drawn from the seed of the run."""
+
+    values: tuple[ValueT, ...]
+
+    @property
+    def is_bounded(self) -> bool:
+        """Whether one can be drawn: always."""
+        return True
+
+    def draw(self, generator: Draws) -> ValueT:
+        """Return one of the values."""
+        return generator.choice(self.values)
+
+    def __contains__(self, value: Any) -> bool:
+        return value in self.values
+
+    def shown(self, unit: Unit | None) -> str:
+        """Return its values, in a unit if they have one."""
+        return ", ".join(shown_value(value, unit) for value in self.values)
+
+
+Domain: TypeAlias = Range[Any] | Choice[Any]
+
+
+def within(one: NumberT, other: NumberT) -> Range[NumberT]:
+    """Return the range of a sampled parameter; its bounds may come in either order."""
+    return Range(min(one, other), max(one, other))
+
+
+def at_least(bound: NumberT) -> Range[NumberT]:
+    """Return the range that ends at no upper bound."""
+    return Range(bound, INFINITY)
+
+
+def at_most(bound: NumberT) -> Range[NumberT]:
+    """Return the range that begins at no lower bound."""
+    return Range(-INFINITY, bound)
+
+
+def any_of(*values: ValueT) -> Choice[ValueT]:
+    """Return the set of some values."""
+    return Choice(values)
+
+
+def fixed(value: ValueT) -> ValueT:
+    """Return the only value that the scenario leaves for an enum.
+
+    With `self.mood: Mood = fixed("calm")` a type checker takes it for any value of the type, so
+    it may be compared with others.
+    """
+    return value
+
+
+def choose(
+    name: str,
+    default: Any,
+    domain: Domain | None,
+    generator: Draws,
+    *,
+    given: Any = None,
+    settings: Mapping[str, float | str],
+    unit: Unit | None = None,
+) -> Any:
+    """Return the value of a parameter: as given, else set, else drawn, else its default.
+
+    A range is drawn from whether the value is used or not, so that setting one parameter does
+    not change what is drawn for the next.
+
+    Args:
+        name: Name, in an invoked scenario with the path before it.
+        default: Value, or what it is drawn from, SI units; a type if a value must be given.
+        domain: What is allowed; the default itself where that is a range or choice.
+        generator: Draws.
+        given: Value, or what the caller lets it be drawn from; None for none.
+        settings: What `--set` sets.
+        unit: In which messages speak of it.
+
+    Raises:
+        ScenarioError: If a given value is outside of the domain.
+        SettingsError: If a set one is, or has another type; or if none is given at all.
+    """
+    value = default
+    if isinstance(default, Range | Choice):
+        value = default.draw(generator)
+        domain = domain or default
+    if isinstance(given, Range | Choice):
+        given = draw(name, given, domain, generator, unit)
+    if given is not None:
+        problem = outside(given, domain, unit)
+        if problem:
+            raise ScenarioError(f"{name}={problem}")
+        return given
+    if name not in settings:
+        if isinstance(value, type):
+            allowed = "" if domain is None else f"; the scenario allows {domain.shown(unit)}"
+            raise SettingsError(
+                f"the scenario leaves {name} open{allowed}: give it a value, --set {name}=VALUE"
+            )
+        return value
+    value = fit(name, settings[name], value() if isinstance(value, type) else value, unit)
+    problem = outside(value, domain, unit)
+    if problem:
+        raise SettingsError(f"--set {name}={problem}")
+    return value
+
+
+def draw(
+    name: str, given: Domain, domain: Domain | None, generator: Draws, unit: Unit | None
+) -> Any:
+    """Return a value from what the caller gives and the scenario allows.
+
+    Raises:
+        ScenarioError: If that is nothing, or without end.
+    """
+    if isinstance(given, Range) and isinstance(domain, Range):
+        low, high = max(given.low, domain.low), min(given.high, domain.high)
+        if low > high:
+            asked, allowed = given.shown(unit), domain.shown(unit)
+            raise ScenarioError(f"{name}: {asked} is asked for, the scenario allows {allowed}")
+        given = Range(low, high)
+    if not given.is_bounded:
+        shown = given.shown(unit)
+        raise ScenarioError(f"{name}: {shown} is no finite range to choose from; give a value")
+    return given.draw(generator)
+
+
+def outside(value: Any, domain: Domain | None, unit: Unit | None) -> str:
+    """Return what is wrong with a value that is not in its domain."""
+    if domain is None or value in domain:
+        return ""
+    return f"{shown_value(value, unit)}: the scenario allows {domain.shown(unit)}"
+
+
+def fit(name: str, value: float | str, like: Any, unit: Unit | None) -> Any:
+    """Return a value of the settings in the type of the parameter it is for.
+
+    Raises:
+        SettingsError: If it is none of that type, or in a unit of something else.
+    """
+    if isinstance(like, bool):
+        if isinstance(value, bool):
+            return value
+        if str(value) in ("true", "false"):
+            return str(value) == "true"
+        raise SettingsError(f"--set {name}={value}: write true or false")
+    if isinstance(like, str):
+        return f"{value:g}" if isinstance(value, float) else value
+    if isinstance(value, str):
+        value = read_value(name, value, unit)
+    if isinstance(like, int):
+        if value != int(value):
+            raise SettingsError(f"--set {name}={value}: write a whole number")
+        return int(value)
+    return value

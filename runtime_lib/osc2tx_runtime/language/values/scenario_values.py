@@ -1,0 +1,293 @@
+"""Parameters of a scenario, their draws and constraints; coverage items."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar, Unpack, overload
+
+from osc2tx_runtime.errors import ScenarioError, SettingsError
+from osc2tx_runtime.language.settings import RunSettings
+from osc2tx_runtime.language.source_map import SourceMap
+from osc2tx_runtime.language.tree.coverage import CoverageItem, ItemOptions
+from osc2tx_runtime.language.values.drawing import ATTEMPTS, Drawing
+from osc2tx_runtime.language.values.external_methods import external_function
+from osc2tx_runtime.language.values.parameters import Choice, Domain, NumberT, Range, ValueT, choose
+from osc2tx_runtime.language.values.walks import Draws
+from osc2tx_runtime.language.values.written_units import AnyUnit, Unit, unit_named
+
+__all__ = ["ScenarioValues"]
+
+AnyT = TypeVar("AnyT")
+
+
+class ScenarioValues:
+    """What a scenario chooses before it runs. Generated classes use it in `declare`.
+
+    Args:
+        settings: Of the run.
+        arguments: Values that the caller gives.
+        source_map: Where things stand in the source.
+        caller: The values of the scenario that runs, for one that it invokes.
+        path: Labels of the invocations down to this scenario, for names in settings.
+        key: What draws depend on besides the seed: not on an order of invocations.
+
+    Attributes:
+        settings: Of the run.
+        parameters: Values of the parameters, in order; the scenario that runs also has those of
+            all that it invokes.
+        parameter_units: Of parameters that have one, likewise.
+        has_drawn_values: Whether some value of the scenario that runs, or of one it invokes, was
+            drawn.
+    """
+
+    def __init__(
+        self,
+        settings: RunSettings,
+        arguments: Mapping[str, Any],
+        source_map: SourceMap,
+        *,
+        caller: ScenarioValues | None = None,
+        path: str = "",
+        key: str = "",
+    ) -> None:
+        self.settings = settings
+        self.parameters: dict[str, Any] = {}
+        self.parameter_units: dict[str, Unit] = {}
+        self._arguments = arguments
+        self._source_map = source_map
+        self._composite: set[str] = set()  # lists, ranges and objects that the caller may give
+        self._shared: dict[str, Any] = self.parameters if caller is None else caller._shared
+        self._roles: dict[int, str] = {}
+        self._shared_objects: dict[str, Any] = {} if caller is None else caller._shared_objects
+        self._path = path  # empty for the scenario that runs
+        self._key = key
+        self._first: ScenarioValues = self if caller is None else caller._first
+        self.has_drawn_values = False
+        self._drawing = Drawing(
+            settings.draws_from,
+            key,
+            source_map,
+            self.parameters,
+            self.parameter_units,
+            ATTEMPTS if settings.draws is None else 1,
+        )
+        self._items: dict[str, CoverageItem] = {}
+
+    # --- used by generated classes ---
+
+    @overload
+    def parameter(
+        self,
+        name: str,
+        default: Range[NumberT],
+        domain: Domain | None = None,
+        *,
+        unit: AnyUnit = "",
+    ) -> NumberT: ...
+    @overload
+    def parameter(
+        self,
+        name: str,
+        default: Choice[ValueT],
+        domain: Domain | None = None,
+        *,
+        unit: AnyUnit = "",
+    ) -> ValueT: ...
+    @overload
+    def parameter(
+        self, name: str, default: ValueT, domain: Domain | None = None, *, unit: AnyUnit = ""
+    ) -> ValueT: ...
+    def parameter(
+        self, name: str, default: Any, domain: Domain | None = None, *, unit: AnyUnit = ""
+    ) -> Any:
+        """Return the value of a parameter.
+
+        An argument of the class counts before `--set`, that before a draw from a range, that
+        before the default. Setting one parameter does not change what is drawn for another.
+        Parameters of invoked scenarios are set by path: `--set p1.gap=12`.
+
+        Args:
+            name: Name of the parameter.
+            default: Value, or the values that it is drawn from, SI units.
+            domain: What settings must keep to; the default itself where that is drawn from.
+            unit: In which the scenario speaks of it: `--set` takes all units of its physical
+                type, messages and reports show it in this one.
+        """
+        return self._own(name, default, domain, unit)
+
+    def required(
+        self, name: str, kind: type[ValueT], domain: Domain | None = None, *, unit: AnyUnit = ""
+    ) -> ValueT:
+        """Return the value of a parameter that the scenario leaves open.
+
+        Args:
+            name: Name of the parameter.
+            kind: Type of its value.
+            domain: What the value must keep to.
+            unit: See `parameter`.
+
+        Raises:
+            SettingsError: If neither an argument nor `--set` gives a value.
+        """
+        value: ValueT = self._own(name, kind, domain, unit)
+        return value
+
+    def argument(self, name: str, default: AnyT) -> AnyT:
+        """Return a list, range or object: as the caller gives it, else its default.
+
+        Settings cannot give it, so it is none of the parameters.
+        """
+        self._composite.add(name)
+        value: AnyT = self._arguments.get(name, default)
+        return value
+
+    def required_argument(self, name: str, kind: type[AnyT]) -> AnyT:
+        """Return a list, range or object that the caller has to give.
+
+        Raises:
+            SettingsError: If it does not.
+        """
+        if name not in self._arguments:
+            path = f"{self._path}.{name}" if self._path else name
+            raise SettingsError(
+                f"parameter `{path}` has no value, and `--set` cannot give it one:"
+                " who invokes the scenario must"
+            )
+        value: AnyT = self.argument(name, self._arguments[name])
+        return value
+
+    @overload
+    def global_parameter(
+        self,
+        name: str,
+        default: Range[NumberT],
+        domain: Domain | None = None,
+        *,
+        unit: AnyUnit = "",
+    ) -> NumberT: ...
+    @overload
+    def global_parameter(
+        self,
+        name: str,
+        default: Choice[ValueT],
+        domain: Domain | None = None,
+        *,
+        unit: AnyUnit = "",
+    ) -> ValueT: ...
+    @overload
+    def global_parameter(
+        self, name: str, default: ValueT, domain: Domain | None = None, *, unit: AnyUnit = ""
+    ) -> ValueT: ...
+    def global_parameter(
+        self, name: str, default: Any, domain: Domain | None = None, *, unit: AnyUnit = ""
+    ) -> Any:
+        """Return the value of a global parameter: one for all scenarios of the run."""
+        return self._global(name, default, domain, unit)
+
+    def required_global(
+        self, name: str, kind: type[ValueT], domain: Domain | None = None, *, unit: AnyUnit = ""
+    ) -> ValueT:
+        """Return the value of a global parameter that nobody fixes: `--set` must."""
+        value: ValueT = self._global(name, kind, domain, unit)
+        return value
+
+    def keep(self, holds: bool) -> None:
+        """Demand a relation between values; call it after their declarations.
+
+        If it does not hold, all values that are drawn are drawn anew; after a thousand draws, or
+        if none is drawn, the scenario cannot run.
+        """
+        self._drawing.demand(holds)
+
+    @overload
+    def external(self, path: str) -> Callable[..., object]: ...
+    @overload
+    def external(self, path: str, kind: type[AnyT]) -> Callable[..., AnyT]: ...
+    def external(self, path: str, kind: type | None = None) -> Callable[..., Any]:
+        """Return a function of the user, `module.function`, if the settings allow it.
+
+        Raises:
+            SettingsError: If `--allow-external` does not name it.
+        """
+        place = self._source_map.of_field(path)
+        return external_function(path, kind, self.settings.allow_external, place)
+
+    def cover(
+        self, name: str, value: Callable[[], Any] | None = None, **options: Unpack[ItemOptions]
+    ) -> None:
+        """Sample a value at an event, for the coverage of many runs; call it in `declare`.
+
+        Args:
+            name: Name of the item in the trace.
+            value: Gives the value, SI units; left out for a cross of `items`.
+            **options: See `CoverageItem`; without `at` it is sampled at the end.
+        """
+        self._items[name] = CoverageItem(name=name, kind="cover", value=value, **options)
+
+    def record(
+        self, name: str, value: Callable[[], Any] | None = None, **options: Unpack[ItemOptions]
+    ) -> None:
+        """Sample a value at an event, only to look at it; as `cover`."""
+        self._items[name] = CoverageItem(name=name, kind="record", value=value, **options)
+
+    # --- used by `Scenario` ---
+
+    def _declare_values(self, declare: Callable[[], None]) -> None:
+        """Call `declare`, again while constraints between drawn values do not hold.
+
+        Raises:
+            ScenarioError: If they never hold, or a value cannot be computed.
+        """
+        members, shared = set(vars(self)), dict(self._shared)
+        objects = dict(self._shared_objects)
+
+        def declare_anew() -> None:
+            for name in vars(self).keys() - members:
+                del self.__dict__[name]
+            self.parameters.clear()
+            for kept, before in ((self._shared, shared), (self._shared_objects, objects)):
+                kept.clear()
+                kept.update(before)
+            declare()
+
+        self._drawing.settle(declare_anew)
+
+    def _own(self, name: str, default: Any, domain: Domain | None, unit: AnyUnit) -> Any:
+        path = f"{self._path}.{name}" if self._path else name
+        generator = self._drawing.draws_for(f"{self._key}/{name}")
+        given = self._arguments.get(name)
+        if unit:
+            self.parameter_units[name] = self._first.parameter_units[path] = unit_named(unit)
+        value = self._choose(name, path, default, domain, generator, given)
+        self.parameters[name] = self._shared[path] = value
+        return value
+
+    def _global(self, name: str, default: Any, domain: Domain | None, unit: AnyUnit) -> Any:
+        if unit:
+            self._first.parameter_units[name] = unit_named(unit)
+        if name not in self._shared:
+            generator = self._drawing.draws_for(f"global/{name}")
+            self._shared[name] = self._choose(name, name, default, domain, generator, None)
+        return self._shared[name]
+
+    def _choose(
+        self,
+        name: str,
+        path: str,
+        default: Any,
+        domain: Domain | None,
+        generator: Draws,
+        given: Any,
+    ) -> Any:
+        chosen = self.settings.set
+        if self.settings.draws is not None:
+            generator = self.settings.draws(path)
+        is_open = given is None and path not in chosen
+        if isinstance(default if is_open else given, Range | Choice):
+            self._drawing.has_drawn = self._first.has_drawn_values = True
+        unit = self._first.parameter_units.get(path)
+        try:
+            return choose(path, default, domain, generator, given=given, settings=chosen, unit=unit)
+        except ScenarioError as error:
+            error.source = error.source or self._source_map.of_field(name)
+            raise

@@ -1,0 +1,1 @@
+"""Checks of values and commands that code outside this package hands in."""

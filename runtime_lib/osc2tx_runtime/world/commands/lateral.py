@@ -1,0 +1,189 @@
+"""Commands of the lateral slot."""
+
+from __future__ import annotations
+
+from osc2tx_runtime.enums import DynamicProfile
+from osc2tx_runtime.opendrive import LanePosition
+from osc2tx_runtime.world.geometry.curve import Curve
+from osc2tx_runtime.world.geometry.profiles import Profile
+from osc2tx_shared.classes import dataclass
+
+from .base import Command
+
+__all__ = [
+    "Beside",
+    "FollowCourse",
+    "FollowRoute",
+    "KeepLane",
+    "LaneChange",
+    "LaneOffset",
+    "ReplayCourse",
+    "ReplayTrajectory",
+    "RunOut",
+    "Sideways",
+    "Slant",
+    "Turn",
+]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class KeepLane(Command):
+    """Lateral: stay in the lane at the present offset."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LaneChange(Command):
+    """Lateral: end in another lane.
+
+    Attributes:
+        lanes: Drivable lanes to the left (negative: to the right) of the present one.
+        offset: Metres left of the centre of the target lane at the end.
+        profile: Shape of the lateral speed.
+        rate_peak: Its peak (m/s).
+        duration: Length of the change (s).
+        course: Instead of these three: the offset from the target lane at any time.
+    """
+
+    lanes: int
+    offset: float = 0.0
+    profile: DynamicProfile = "none"
+    rate_peak: float | None = None
+    duration: float | None = None
+    course: Profile | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LaneOffset(Command):
+    """Lateral: reach and hold an offset (m, left positive) in the present lane."""
+
+    offset: float
+    profile: DynamicProfile = "none"
+    rate_peak: float | None = None
+    duration: float | None = None
+    course: Profile | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Turn(Command):
+    """Lateral, actors off the lanes only: take a heading (rad, world).
+
+    Attributes:
+        heading: None: the present one.
+        course: Instead of a heading: what it is at any time since the start.
+        pitch: rad; None: as the road has it, or as it was told before.
+        roll: Likewise.
+    """
+
+    heading: float | None
+    course: Profile | None = None
+    pitch: float | None = None
+    roll: float | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sideways(Command):
+    """Lateral: a speed (m/s) to the left across the lane, reached and then held.
+
+    Attributes:
+        speed: The speed, or the difference to that of the reference.
+        reference: Another actor whose lateral speed counts.
+        factor: Multiplies its lateral speed.
+        course: How the speed is reached; None: at once.
+    """
+
+    speed: float
+    reference: str | None = None
+    factor: float = 1.0
+    course: Profile | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RunOut(Command):
+    """Lateral: have a speed (m/s) to the left across the lane now, and let it run out."""
+
+    speed: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Slant(Command):
+    """Lateral: a heading (rad) against the lane, counter-clockwise.
+
+    Attributes:
+        angle: The heading.
+        course: Instead of it: what it is at any time since the start.
+    """
+
+    angle: float
+    course: Profile | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Beside(Command):
+    """Lateral: reach and hold a distance across the lane to another actor.
+
+    Attributes:
+        reference: The other actor.
+        left: Metres that the own reference point is to be left of the other one.
+        time: Instead: seconds in which the sides would meet at the lateral speed; the actor
+            approaches the reference with the gap over this time.
+        spread: How many metres more to the left it may be.
+        projected: The other one counts as if it went on as it does at the start.
+        duration: Seconds after which the distance is to be reached; None: as is comfortable.
+        course: Instead of a distance: how far left it is to be at any time since the start.
+    """
+
+    reference: str
+    left: float | None = None
+    time: float | None = None
+    spread: float = 0.0
+    projected: bool = False
+    duration: float | None = None
+    course: Profile | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FollowCourse(Command):
+    """Lateral: leave the lanes and steer along a curve, as the limits allow.
+
+    Attributes:
+        curve: Where to.
+        begin: Arc length on it at which to begin (m).
+        end: Arc length at which the goal is reached (m).
+    """
+
+    curve: Curve
+    begin: float
+    end: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FollowRoute(Command):
+    """Lateral: take the branches that lead to a place, and stay in the lane but for `side`.
+
+    Attributes:
+        goal: The place; any lane beside it will do.
+        side: Where to go across the road on the way.
+        ends: It is done at the place, and not when `side` is.
+    """
+
+    goal: LanePosition
+    side: Command | None = None
+    ends: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ReplayCourse(Command):
+    """Lateral: be on a curve exactly, at the own speed; attributes as of `FollowCourse`."""
+
+    curve: Curve
+    begin: float
+    end: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ReplayTrajectory(Command):
+    """Both slots: be on a curve over time exactly; attributes as of `KeepSchedule`."""
+
+    curve: Curve
+    begin: float
+    end: float

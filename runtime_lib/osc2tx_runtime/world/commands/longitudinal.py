@@ -1,0 +1,210 @@
+"""Commands of the longitudinal slot."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from osc2tx_runtime.enums import DynamicProfile
+from osc2tx_runtime.world.geometry.curve import Curve
+from osc2tx_runtime.world.geometry.profiles import Profile
+from osc2tx_shared.classes import dataclass
+
+from .base import Command
+
+__all__ = [
+    "Accelerate",
+    "AccelerationChange",
+    "Arrive",
+    "Careful",
+    "Cover",
+    "FollowSpeed",
+    "GapCourse",
+    "GapMeasure",
+    "KeepGap",
+    "KeepSchedule",
+    "SpeedChange",
+    "Standstill",
+]
+
+GapMeasure = Literal["gap", "headway", "reference"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SpeedChange(Command):
+    """Longitudinal: reach a speed, then hold it.
+
+    Attributes:
+        target: Speed (m/s).
+        profile: Shape of the acceleration.
+        rate_peak: Its peak (m/s^2); None: from the duration or the limits of the actor.
+        duration: Length of the change (s); None: from the peak.
+        start: Speed to begin with (m/s), at once; None: the present one.
+        course: Instead of profile, peak and duration: the speed at any time since the start.
+        exact: With a course: the speed may jump.
+    """
+
+    target: float
+    profile: DynamicProfile = "none"
+    rate_peak: float | None = None
+    duration: float | None = None
+    start: float | None = None
+    course: Profile | None = None
+    exact: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Accelerate(Command):
+    """Longitudinal: a constant acceleration (m/s^2); ends at standstill.
+
+    Attributes:
+        acceleration: m/s^2; None: the present one.
+        start: Speed to begin with (m/s), at once; None: the present one.
+    """
+
+    acceleration: float | None
+    start: float | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AccelerationChange(Command):
+    """Longitudinal: reach an acceleration, then hold it; ends at standstill.
+
+    Attributes:
+        target: Acceleration (m/s^2).
+        profile: Shape of the jerk.
+        rate_peak: Its peak (m/s^3); None: from the duration or the limits of the actor.
+        duration: Length of the change (s); None: from the peak.
+        start: Acceleration to begin with (m/s^2); None: the present one.
+        course: Instead of all these: the acceleration at any time since the start.
+    """
+
+    target: float
+    profile: DynamicProfile = "none"
+    rate_peak: float | None = None
+    duration: float | None = None
+    start: float | None = None
+    course: Profile | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Careful(Command):
+    """Longitudinal: another command, but never so fast as to run into what is ahead.
+
+    Attributes:
+        course: What to do with a free road; None: hold the speed.
+        headway: Seconds to keep behind what is ahead.
+        gap: Metres to keep behind it at standstill.
+    """
+
+    course: Command | None
+    headway: float = 1.5
+    gap: float = 2.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class KeepSchedule(Command):
+    """Longitudinal: be along a curve over time when it says so, as the limits allow.
+
+    Attributes:
+        curve: Its parameter is the time (s).
+        begin: Time on it at which the command starts (s).
+        end: Time at which it ends (s).
+    """
+
+    curve: Curve
+    begin: float
+    end: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FollowSpeed(Command):
+    """Longitudinal: speed of another actor times `factor` plus `difference` (m/s).
+
+    Attributes:
+        reference: The other actor.
+        factor: Multiplies its speed.
+        difference: Least difference (m/s).
+        spread: How much more (m/s) the difference may be.
+        course: Instead of a difference: what it is at any time since the start.
+    """
+
+    reference: str
+    factor: float = 1.0
+    difference: float = 0.0
+    spread: float = 0.0
+    course: Profile | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class KeepGap(Command):
+    """Longitudinal: reach and hold a distance to another actor.
+
+    Attributes:
+        reference: The other actor.
+        ahead: True if this actor is to be ahead of it.
+        measure: Between facing ends ("gap"), fronts ("headway") or reference points.
+        distance: Metres; exclusive with `time`.
+        time: Seconds times the speed of the trailing one.
+        spread: How much more (m or s) it may be.
+        projected: The other one counts as if it went on as it does at the start.
+    """
+
+    reference: str
+    ahead: bool
+    measure: GapMeasure = "gap"
+    distance: float | None = None
+    time: float | None = None
+    spread: float = 0.0
+    projected: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Arrive(Command):
+    """Longitudinal: be somewhere after a time, at a speed of its own if one is given.
+
+    Attributes:
+        duration: Seconds.
+        way: Metres to cover until then; exclusive with `gap`.
+        gap: Place relative to another actor.
+        speed: Speed at the end: a number (m/s), or relative to an actor; None: any.
+    """
+
+    duration: float
+    way: float | None = None
+    gap: KeepGap | None = None
+    speed: float | FollowSpeed | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cover(Command):
+    """Longitudinal: have covered so many metres at any time since the start, then stand.
+
+    Attributes:
+        course: The metres.
+        exact: The speed may jump.
+    """
+
+    course: Profile
+    exact: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class GapCourse(Command):
+    """Longitudinal: be so far ahead of another actor at any time since the start, then hold it.
+
+    Attributes:
+        reference: The other actor.
+        course: Metres between the reference points; negative: behind it.
+        projected: The other one counts as if it went on as it does at the start.
+        exact: The speed may jump.
+    """
+
+    reference: str
+    course: Profile
+    projected: bool = False
+    exact: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Standstill(Command):
+    """Longitudinal: brake as hard as the limits allow, then stand."""

@@ -1,0 +1,116 @@
+"""A plant in which some vehicles are driven from outside; all others are where they are wished."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from osc2tx_runtime.errors import OwnCode, ScenarioError, SettingsError, name_of
+from osc2tx_runtime.opendrive import LanePosition, Pose
+from osc2tx_runtime.world.actor_dimensions import Shape
+from osc2tx_runtime.world.checks.values import problem_of
+from osc2tx_runtime.world.geometry.attitude import tilt_on
+from osc2tx_runtime.world.grip.friction import GRAVITY, adhesion_of
+from osc2tx_runtime.world.measuring.measurement import Measurement
+from osc2tx_runtime.world.plant.plant import EXACT
+from osc2tx_runtime.world.plant.scene import Scene, Setpoint
+from osc2tx_runtime.world.protocol import FEATURES, ActorSpec, ControlMode, Feature
+from osc2tx_runtime.world.surroundings.stop_lines_ahead import StopLines
+
+from .driving import Control, Driver
+from .observing import observe
+from .single_track import SingleTrack
+
+__all__ = ["DriversPlant"]
+
+
+class DriversPlant:
+    """The embedded world with external drivers.
+
+    Args:
+        drivers: By the id of their actor.
+    """
+
+    name = "embedded"
+
+    def __init__(self, drivers: Mapping[str, Driver]) -> None:
+        self._drivers = dict(drivers)
+        self._vehicles: dict[str, SingleTrack] = {}
+        self._lines: StopLines | None = None
+
+    def control(self, actor: str) -> ControlMode:
+        """`external` for those that have a driver."""
+        return "external" if actor in self._drivers else EXACT
+
+    def capabilities(self) -> frozenset[Feature]:
+        """All there are."""
+        return FEATURES
+
+    def shape(self, spec: ActorSpec) -> Shape | None:
+        """That of the scenario."""
+        return None
+
+    def begin(self, scene: Scene) -> Mapping[str, Measurement]:
+        """Put the vehicles where they start.
+
+        Raises:
+            SettingsError: A driver has no vehicle.
+        """
+        setpoints = scene.setpoints
+        for actor in self._drivers:
+            setpoint = setpoints.get(actor)
+            if setpoint is None or not setpoint.spec.shape.wheelbase:
+                raise SettingsError(f"--ego {actor}: {actor} is no vehicle of the scenario")
+            state = setpoint.state
+            pose = Pose(state.x, state.y, state.z, state.h)
+            self._vehicles[actor] = SingleTrack(pose, state.v, state.shape)
+        self._lines = StopLines(scene.map, scene.signals)
+        return {actor: self._measured(scene, setpoints[actor]) for actor in self._drivers}
+
+    def moved(self, scene: Scene) -> Mapping[str, Measurement]:
+        """Ask the drivers, and let their vehicles go one step on.
+
+        Raises:
+            ScenarioError: A driver raises something, or answers no `Control`.
+        """
+        setpoints = scene.setpoints
+        controls = {actor: self._control(actor, scene, setpoints[actor]) for actor in self._drivers}
+        found = {}
+        for actor, control in controls.items():
+            setpoint = setpoints[actor]
+            grip = adhesion_of(scene.road) * GRAVITY
+            self._vehicles[actor].step(control, setpoint.limits, grip, scene.dt)
+            found[actor] = self._measured(scene, setpoint)
+        return found
+
+    def close(self) -> None:
+        """Nothing to leave."""
+
+    def _control(self, actor: str, scene: Scene, setpoint: Setpoint) -> Control:
+        driver = self._drivers[actor]
+        assert self._lines is not None
+        observation = observe(scene, setpoint, self._lines)
+        name = f"the driver of {actor}, {name_of(type(driver))},"
+        with OwnCode(f"{name} raised"):
+            control = driver.step(observation, scene.dt)
+            if not isinstance(control, Control):
+                raise ScenarioError(f"{name} answers a {type(control).__name__}, not a Control")
+            if problem := problem_of(control, Control):
+                raise ScenarioError(f"{name} answers a Control whose {problem}")
+            return Control(float(control.acceleration), float(control.steering))
+
+    def _measured(self, scene: Scene, setpoint: Setpoint) -> Measurement:
+        vehicle, place = self._vehicles[setpoint.spec.id], setpoint.now.lane_position
+        pose = _on_ground(scene, vehicle.pose, place)
+        forwards = vehicle.speed / math.cos(pose.pitch)
+        return Measurement(pose, (forwards, 0.0, 0.0), None, (0.0, 0.0, vehicle.yaw_rate))
+
+
+def _on_ground(scene: Scene, pose: Pose, hint: LanePosition | None) -> Pose:
+    """A pose with the height and the tilt of the road under it."""
+    on = scene.map.locate(pose.x, pose.y, pose.z, pose.h, hint=hint, max_distance=1.0)
+    if on is None:
+        return pose
+    ground = scene.map.pose(on)
+    pitch, roll = tilt_on(ground, pose.h)
+    return Pose(pose.x, pose.y, ground.z, pose.h, pitch, roll)

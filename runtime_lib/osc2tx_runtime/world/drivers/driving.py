@@ -1,0 +1,110 @@
+"""What an external driver sees, and what it answers: the interface for what is under test."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from osc2tx_runtime.opendrive import LanePosition, Pose
+from osc2tx_runtime.world.actor_dimensions import Limits, Shape
+from osc2tx_runtime.world.protocol import LightState
+from osc2tx_runtime.world.surroundings.stop_lines_ahead import StopLine
+from osc2tx_shared.classes import dataclass
+
+__all__ = ["Control", "Driver", "LaneView", "Observation", "OtherActor"]
+
+
+@dataclass(frozen=True, slots=True)
+class Control:
+    """What a driver wants of its vehicle until it is asked again.
+
+    The vehicle does what it can: its limits, the steering of its front wheels, and the grip of the
+    road hold. It does not roll backwards when it brakes.
+
+    Attributes:
+        acceleration: m/s^2 along its axis; negative brakes.
+        steering: Angle (rad) of the front wheels, positive to the left.
+    """
+
+    acceleration: float = 0.0
+    steering: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class LaneView:
+    """The lane under the vehicle.
+
+    Attributes:
+        position: Road, lane, road coordinate (m), offset to the left of the centre (m).
+        width: m.
+        heading: How far (rad) the vehicle is turned to the left of it.
+    """
+
+    position: LanePosition
+    width: float
+    heading: float
+
+
+@dataclass(frozen=True, slots=True)
+class OtherActor:
+    """Another actor in sight.
+
+    Attributes:
+        id: Name in the scenario.
+        kind: Actor kind of the language: `vehicle`, `person`, ...
+        pose: Of its reference point.
+        speed: m/s along its heading.
+        shape: Its box, and where the reference point is in it.
+        ahead: Metres along the lanes from one reference point to the other, negative behind; None
+            if no lanes lead there.
+        left: Metres that it is to the left across the lane; None likewise.
+    """
+
+    id: str
+    kind: str
+    pose: Pose
+    speed: float
+    shape: Shape
+    ahead: float | None
+    left: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Observation:
+    """The world as an external driver sees it at one step.
+
+    World axes are those of the map (x, y in metres, counter-clockwise angles in radians), and
+    the reference point of a vehicle is the middle of its rear axle.
+
+    Attributes:
+        time: Seconds since the start of the scenario.
+        speed: m/s.
+        acceleration: m/s^2 over the last step.
+        pose: Of the reference point.
+        shape: Size of the vehicle, with its wheelbase.
+        limits: What it can do on the road as it is.
+        lane: The lane under it; None off the road.
+        route: Places on the centre of the lanes ahead, every `ROUTE_STEP` metres, at forks along
+            the destination of the actor; empty off the road.
+        others: Other actors in sight, in the order of the cast.
+        stop_line: First line ahead at which a traffic light asks to stop; None if none does.
+        lights: Its own lights.
+    """
+
+    time: float
+    speed: float
+    acceleration: float
+    pose: Pose
+    shape: Shape
+    limits: Limits
+    lane: LaneView | None
+    route: tuple[Pose, ...]
+    others: tuple[OtherActor, ...]
+    stop_line: StopLine | None
+    lights: LightState
+
+
+class Driver(Protocol):
+    """Somebody who drives an actor of the scenario, made anew for each run: `Driver()`."""
+
+    def step(self, observation: Observation, dt: float) -> Control:
+        """Decide what to do until the next step, `dt` seconds from now."""

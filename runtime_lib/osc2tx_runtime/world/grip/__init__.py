@@ -1,0 +1,1 @@
+"""Friction, and the accelerations that the grip of the road allows."""

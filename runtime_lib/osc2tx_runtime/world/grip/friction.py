@@ -1,0 +1,100 @@
+"""Tyre-road friction by weather.
+
+The accelerations of a vehicle stay within the friction circle: the sum of the squares of the one
+along its way and of the one across it is at most (mu g)^2.
+
+The coefficients are a choice of this runtime, one round number for each kind of road. Published
+ones spread with surface, tyre, speed and depth of the water: R. K. Noon, Engineering Analysis of
+Vehicular Accidents (CRC Press, 1994) has 0.5 to 0.6 for wet asphalt and concrete, 0.20 to 0.25 for
+snow, 0.10 to 0.15 for ice. W. Bartlett's reviews of braking tests on dry asphalt have 0.76 with
+locked wheels and 0.82 with antilock brakes, each with a standard deviation of 0.07; the 0.9 here is
+the upper end, so that what is called impossible is. On a dry road nothing is taken from a motion:
+what is beyond it is reported (`feasibility`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Literal
+
+from osc2tx_runtime.world.actor_dimensions import RATE_CAP, Limits
+from osc2tx_shared.classes import replace
+
+__all__ = [
+    "ADHESION",
+    "DRY_ADHESION",
+    "GRAVITY",
+    "RoadCondition",
+    "adhesion_of",
+    "along_limit",
+    "grip",
+    "held_by",
+    "road_condition",
+]
+
+GRAVITY = 9.80665
+"""m/s^2"""
+
+RoadCondition = Literal["dry", "wet", "snow", "ice"]
+
+ADHESION: Mapping[RoadCondition, float] = {"wet": 0.6, "snow": 0.2, "ice": 0.1}
+"""Coefficient of friction of a road: wet, under snow, under ice."""
+
+DRY_ADHESION = 0.9
+"""The same of a dry road; see above."""
+
+_FREEZING = 273.15  # K
+
+_WORDS: Mapping[RoadCondition, str] = {
+    "dry": "",
+    "wet": " on a wet road",
+    "snow": " on snow",
+    "ice": " on ice",
+}
+
+
+def road_condition(environment: Mapping[str, float]) -> RoadCondition:
+    """How the roads are while the weather is so: rain on them freezes below 0 degrees Celsius.
+
+    Roads are wet or white exactly while it rains or snows.
+    """
+    if environment.get("snow_intensity", 0.0) > 0.0:
+        return "snow"
+    if environment.get("rain_intensity", 0.0) > 0.0:
+        return "ice" if environment.get("temperature", _FREEZING) < _FREEZING else "wet"
+    return "dry"
+
+
+def adhesion_of(condition: RoadCondition) -> float:
+    """Coefficient of friction of a road."""
+    return ADHESION.get(condition, DRY_ADHESION)
+
+
+def grip(condition: RoadCondition) -> float:
+    """Largest acceleration (m/s^2) in any direction that commands are held to.
+
+    On a dry road explicit rates beyond `RATE_CAP` are refused, and nothing is held back.
+    """
+    adhesion = ADHESION.get(condition)
+    return RATE_CAP if adhesion is None else adhesion * GRAVITY
+
+
+def held_by(limits: Limits, condition: RoadCondition) -> Limits:
+    """What is left of the limits of a vehicle on a road in this condition."""
+    most = grip(condition)
+    if most >= max(limits.acceleration, limits.deceleration, limits.lateral):
+        return limits
+    return replace(
+        limits,
+        acceleration=min(limits.acceleration, most),
+        deceleration=min(limits.deceleration, most),
+        lateral=min(limits.lateral, most),
+        road=_WORDS[condition],
+    )
+
+
+def along_limit(grip: float, across: float) -> float | None:
+    """Acceleration (m/s^2) that is left along the way beside one across it; None: it slides."""
+    left = grip * grip - across * across
+    return math.sqrt(left) if left >= 0.0 else None

@@ -1,0 +1,1 @@
+"""Execution of lateral commands: lanes, offsets, curves, routes, attitude."""

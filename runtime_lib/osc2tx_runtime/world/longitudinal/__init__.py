@@ -1,0 +1,1 @@
+"""Execution of longitudinal commands: speeds, gaps, positions over time, collision avoidance."""

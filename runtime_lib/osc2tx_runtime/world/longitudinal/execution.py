@@ -1,0 +1,275 @@
+"""Execution of longitudinal commands: closed-form speed over time."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from osc2tx_runtime.errors import UnsupportedError
+from osc2tx_runtime.opendrive import Route
+from osc2tx_runtime.world.actor_dimensions import COMFORT, GENTLE, TYRES, Limits
+from osc2tx_runtime.world.commands import (
+    Accelerate,
+    AccelerationChange,
+    Arrive,
+    Careful,
+    Command,
+    Cover,
+    FollowSpeed,
+    GapCourse,
+    KeepGap,
+    KeepSchedule,
+    ReplayTrajectory,
+    SpeedChange,
+    Standstill,
+)
+from osc2tx_runtime.world.geometry.profiles import (
+    COSINE_PEAK,
+    Cosine,
+    Linear,
+    Profile,
+    SCurve,
+    cosine_duration,
+)
+from osc2tx_runtime.world.protocol import PENDING, REACHED, Progress
+from osc2tx_runtime.world.state import ActorState
+from osc2tx_runtime.world.step_inputs import StepInputs
+
+from .acceleration import AccelerationRun, ConstantAcceleration
+from .arrival_schedule import Schedule, towards
+from .collision_avoidance import Cautious, Hold
+from .gap_control import ArrivalRun, GapRun
+from .position_control import CoverRun, GapCourseRun
+
+__all__ = [
+    "Longitudinal",
+    "ProfileRun",
+    "acceleration_of",
+    "excessive_acceleration",
+    "excessive_rate",
+    "longitudinal_of",
+    "speed_profile",
+]
+
+_SPEED_TOLERANCE = 0.05  # m/s at which a followed speed counts as reached
+
+
+class Longitudinal(Protocol):
+    """A command at work on one actor."""
+
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
+        """Speed (m/s) at the next step; called once per step."""
+
+    def progress(self) -> Progress:
+        """Progress at the present step."""
+
+
+class ProfileRun:
+    """A speed change in closed form."""
+
+    __slots__ = ("_profile", "_steps", "_time")
+
+    def __init__(self, profile: Profile) -> None:
+        self._profile = profile
+        self._steps = 0
+        self._time = 0.0
+
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
+        """Value of the profile, at a time counted in steps."""
+        self._steps += 1
+        self._time = self._steps * inputs.dt
+        return self._profile.value(self._time)
+
+    def progress(self) -> Progress:
+        """Done when the profile has ended."""
+        return REACHED if self._time >= self._profile.duration - 1e-9 else PENDING
+
+    @property
+    def acceleration(self) -> float:
+        """Acceleration (m/s^2) at the present step; zero once the speed is reached."""
+        return 0.0 if self.progress().done else self._profile.rate(self._time)
+
+
+class _CourseRun(ProfileRun):
+    """A speed that a course gives, as long as the limits allow it."""
+
+    __slots__ = ("_failed", "_limits")
+
+    def __init__(self, course: Profile, limits: Limits | None) -> None:
+        super().__init__(course)
+        self._limits = limits
+        self._failed: str | None = None
+
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
+        """Value of the course; the nearest possible one where that cannot be reached."""
+        speed, limits = super().speed_after(me, inputs), self._limits
+        if limits is None:
+            return speed
+        possible = towards(me.v, speed, limits, 1.0 + 1e-9, inputs.dt)
+        if possible != speed and self._failed is None:
+            rate = (speed - me.v) / inputs.dt
+            self._failed = f"its shape asks for {rate:.2f} m/s^2, which is more than it can do"
+        return possible
+
+    def progress(self) -> Progress:
+        """Done at the end of the course."""
+        return super().progress() if self._failed is None else Progress(False, self._failed)
+
+
+class _Following:
+    """Feedback: the speed of another actor, approached within comfortable limits."""
+
+    __slots__ = ("_command", "_done", "_limits", "_steps")
+
+    def __init__(self, command: FollowSpeed, limits: Limits) -> None:
+        self._command = command
+        self._limits = limits
+        self._steps = 0
+        self._done = False
+
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
+        """A step towards the speed of the reference at the present step."""
+        command, course = self._command, self._command.course
+        self._steps += 1
+        other = inputs.state(command.reference)
+        if course is not None:
+            time = self._steps * inputs.dt
+            its_speed = other.v + other.a * inputs.dt  # if it goes on so
+            wanted = its_speed * command.factor + course.value(time)
+            speed = towards(me.v, wanted, self._limits, 1.0, inputs.dt)
+            over = time >= course.duration - 1e-9
+            self._done = over and abs(speed - wanted) < _SPEED_TOLERANCE
+            return speed
+        least = other.v * command.factor + command.difference
+        wanted = min(max(me.v, least), least + command.spread)
+        speed = towards(me.v, wanted, self._limits, COMFORT, inputs.dt)
+        self._done = abs(speed - wanted) < _SPEED_TOLERANCE
+        return speed
+
+    def progress(self) -> Progress:
+        """Done while the speeds agree."""
+        return REACHED if self._done else PENDING
+
+
+def speed_profile(
+    command: SpeedChange, speed: float, limits: Limits, acceleration: float = 0.0
+) -> Profile:
+    """Closed form of a speed change that starts at `speed` (m/s) and `acceleration` (m/s^2).
+
+    `none` and `constant` use comfortable limits where the command gives no rate, `asap` the full
+    ones. Going faster uses the acceleration, going slower the deceleration; a change of direction
+    uses the smaller of both. Where the jerk is limited, the present acceleration goes on first.
+    """
+    target, peak, duration = command.target, command.rate_peak, command.duration
+    if command.course is not None:
+        return command.course
+    change = abs(target - speed)
+    if change == 0.0:
+        return Linear(speed, target, 0.0)
+    limit = _limit(speed, target, limits)
+    rate = COMFORT * limit if peak is None else peak
+    match command.profile:
+        case "asap":
+            most = limit if peak is None else peak
+            return SCurve(speed, target, most, limits.jerk, acceleration)
+        case "constant":
+            return Linear(speed, target, change / rate if duration is None else duration)
+        case "smooth":
+            usual = cosine_duration(change, GENTLE * rate if peak is None else rate)
+            return Cosine(speed, target, usual if duration is None else duration)
+        case _:
+            if duration is not None:
+                return Cosine(speed, target, duration)
+            return SCurve(speed, target, rate, limits.jerk, acceleration)
+
+
+def _limit(speed: float, target: float, limits: Limits) -> float:
+    if speed * target < 0.0:
+        return min(limits.acceleration, limits.deceleration)
+    return limits.acceleration if abs(target) > abs(speed) else limits.deceleration
+
+
+def excessive_rate(command: SpeedChange, speed: float, limits: Limits = TYRES) -> str | None:
+    """Why a speed change cannot be driven; None if it can.
+
+    Args:
+        command: The change.
+        speed: Speed at its start (m/s).
+        limits: Those that must hold: of the actor, or of tyres only.
+    """
+    cap = _limit(speed, command.target, limits)
+    most = f"{cap:.4g} m/s^2{limits.road}"
+    if command.course is not None:
+        return None  # it is looked at as a whole
+    if command.rate_peak is not None and not 0.0 < command.rate_peak <= cap:
+        return f"rate_peak {command.rate_peak:g} m/s^2 is not between 0 and {most}"
+    if command.duration is not None and command.profile != "asap":
+        factor = 1.0 if command.profile == "constant" else COSINE_PEAK
+        change = factor * abs(command.target - speed)
+        if change > cap * command.duration * (1.0 + 1e-9):
+            return (
+                f"{speed:.1f} to {command.target:.1f} m/s in {command.duration:g} s takes more"
+                f" than {most}"
+            )
+    return None
+
+
+def excessive_acceleration(value: float, speed: float, limits: Limits = TYRES) -> str | None:
+    """Why an acceleration (m/s^2) cannot be; None if it can. Arguments as above."""
+    cap = limits.acceleration if value * speed >= 0.0 else limits.deceleration
+    if abs(value) <= cap * (1.0 + 1e-9):
+        return None
+    return (
+        f"an acceleration of {value:.2f} m/s^2 is beyond the {cap:.4g} m/s^2 it can do{limits.road}"
+    )
+
+
+def acceleration_of(run: Longitudinal | None, me: ActorState) -> float:
+    """Acceleration (m/s^2) of this instant: that of a closed form, else the mean of the last step.
+
+    A mean would make what follows depend on the size of the step.
+    """
+    return run.acceleration if isinstance(run, ProfileRun | AccelerationRun) else me.a
+
+
+def longitudinal_of(
+    command: Command, me: ActorState, limits: Limits, route: Route | None = None
+) -> Longitudinal:
+    """Puts a longitudinal command to work on an actor in its present state, on its way.
+
+    The acceleration of this state is that of the very instant, see `acceleration_of`.
+    """
+    speed = me.v
+    match command:
+        case SpeedChange(course=given) if given is not None:
+            return _CourseRun(given, None if command.exact else TYRES)
+        case SpeedChange():
+            if command.start is not None:
+                return ProfileRun(speed_profile(command, command.start, limits))
+            return ProfileRun(speed_profile(command, speed, limits, me.a))
+        case Standstill():
+            return ProfileRun(SCurve(speed, 0.0, limits.deceleration, limits.jerk, me.a))
+        case Accelerate():
+            start = speed if command.start is None else command.start
+            held = me.a if command.acceleration is None else command.acceleration
+            return ConstantAcceleration(held, start)
+        case AccelerationChange():
+            return AccelerationRun(command, me, limits)
+        case Careful():
+            course = command.course
+            inner = None if course is None else longitudinal_of(course, me, limits)
+            return Cautious(command, inner, speed, limits, route)
+        case KeepSchedule():
+            return Schedule(command, me, limits)
+        case ReplayTrajectory():
+            return Hold(speed)
+        case FollowSpeed():
+            return _Following(command, limits)
+        case KeepGap():
+            return GapRun(command, limits)
+        case GapCourse():
+            return GapCourseRun(command, limits)
+        case Cover():
+            return CoverRun(command, limits)
+        case Arrive():
+            return ArrivalRun(command, limits)
+    raise UnsupportedError(f"{type(command).__name__} is no longitudinal command")

@@ -1,0 +1,205 @@
+"""Gap and arrival control: longitudinal commands relative to a place or an actor."""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx_runtime.clock import whole_steps
+from osc2tx_runtime.world.actor_dimensions import COMFORT, Limits
+from osc2tx_runtime.world.commands import Arrive, FollowSpeed, KeepGap
+from osc2tx_runtime.world.geometry.guidance import (
+    mean_rate_to_place,
+    rate_to_place,
+    rate_to_place_and_speed,
+)
+from osc2tx_runtime.world.measuring.deviation import PLACE_TOLERANCE
+from osc2tx_runtime.world.measuring.distances import gap_between, headway_between
+from osc2tx_runtime.world.measuring.projected_motion import Tracked
+from osc2tx_runtime.world.protocol import PENDING, REACHED, Progress
+from osc2tx_runtime.world.state import ActorState
+from osc2tx_runtime.world.step_inputs import StepInputs
+
+from .arrival_schedule import towards
+
+__all__ = ["ArrivalRun", "GapRun", "allowed_gap"]
+
+_SPEED_TOLERANCE = 0.2  # m/s between the speeds at which a gap can count as reached
+_GAP_TOLERANCE = 0.1  # m at which a gap counts as reached
+_HELD = 0.2  # s for which it must stay so
+_UNCORRECTED = 1.0  # s before the end
+_STIFFNESS = 0.4  # of the spring that closes a gap, in units of the limit that counts at the end
+
+
+class GapRun:
+    """Feedback on a distance to another actor.
+
+    A small error decays like that of a critically damped spring, as with tools that read
+    OpenSCENARIO XML; the closing speed grows with the square root of a large one, so that the
+    actor can always still brake. It does not reverse.
+    """
+
+    __slots__ = ("_command", "_failed", "_held", "_limits", "_other")
+
+    def __init__(self, command: KeepGap, limits: Limits) -> None:
+        self._command = command
+        self._limits = limits
+        self._other = Tracked(command.reference, command.projected)
+        self._held = 0.0  # s for which the gap has been as it should
+        self._failed: str | None = None
+
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
+        """A step towards the speed that closes the error."""
+        other = self._other.state(inputs)
+        found = allowed_gap(self._command, me, other, me.v, inputs)
+        if found is None:
+            self._failed = _no_way(self._command)
+            return me.v
+        here, low, high = found
+        error = min(max(here, low), high) - here  # > 0: more speed is needed
+        last = self._limits.acceleration if error < 0.0 else self._limits.deceleration
+        pace = math.sqrt(_STIFFNESS * last)  # 1/s
+        soon = abs(error + 0.5 * (other.v - me.v) * inputs.dt)  # in the middle of the step
+        closing = min(0.5 * pace * soon, math.sqrt(2.0 * COMFORT * last * soon))
+        its_speed = other.v + other.a * inputs.dt  # if it goes on so
+        goal = max(its_speed + math.copysign(closing, error), 0.0)
+        if error == 0.0 and low < high:
+            goal = me.v if low < here < high else goal  # anywhere in the range will do
+        blend = 1.0 - math.exp(-2.0 * pace * inputs.dt)
+        # Its acceleration counts as its own: who has the gap keeps it while the other one changes.
+        wanted = me.v + other.a * inputs.dt + blend * (goal - me.v - other.a * inputs.dt)
+        speed = towards(me.v, max(wanted, 0.0), self._limits, 1.0, inputs.dt)
+        close = low < high or abs(me.v - other.v) < _SPEED_TOLERANCE
+        near = abs(error) < _GAP_TOLERANCE and close
+        self._held = self._held + inputs.dt if near else 0.0
+        return speed
+
+    def progress(self) -> Progress:
+        """Done when the gap has been held for a while."""
+        return Progress(self._held >= _HELD - 1e-9, self._failed)
+
+
+class ArrivalRun:
+    """Is somewhere when its time is over.
+
+    In each step it takes the acceleration of `guidance` for a goal that goes on at its speed. That
+    answers an error the harder the less time is left, so what a driven actor is off its reference
+    in the last second is not corrected but judged at the end.
+    """
+
+    def __init__(self, command: Arrive, limits: Limits) -> None:
+        self._command = command
+        self._limits = limits
+        gap = command.gap
+        self._other = None if gap is None else Tracked(gap.reference, gap.projected)
+        self._steps: int | None = None  # to go
+        self._last_steps = 0
+        self._covered = 0.0
+        self._left_off = 0.0  # m that it is further on than the guidance counts on
+        self._near = _GAP_TOLERANCE
+        self._progress = PENDING
+
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
+        """One step on the way there; afterwards the same speed."""
+        dt = inputs.dt
+        if self._steps is None:
+            self._steps = max(whole_steps(self._command.duration, dt), 1)
+            self._last_steps = whole_steps(_UNCORRECTED, dt)
+        if self._steps == 0:
+            return me.v
+        end = self._end_speed(inputs)
+        found = self._rest(me, inputs, self._steps * dt, end)
+        if found is None:
+            assert self._command.gap is not None
+            self._progress = Progress(False, _no_way(self._command.gap))
+            return me.v
+        rest, moving = found
+        rate = self._rate(me.v, rest + self._left_off, moving, end, dt)
+        speed = towards(me.v, me.v + rate * dt, self._limits, 1.0, dt)
+        if me.v >= 0.0 > speed:
+            speed = 0.0
+        step = 0.5 * (me.v + speed) * dt
+        self._covered += step
+        self._steps -= 1
+        if self._steps == 0:
+            self._judge(rest + moving * dt - step, speed, end)
+        return speed
+
+    def slid(self, along: float) -> None:
+        """Counts what a measured step was longer."""
+        self._near = PLACE_TOLERANCE
+        self._covered += along
+        if self._steps is not None and self._steps <= self._last_steps:
+            self._left_off += along
+
+    def _end_speed(self, inputs: StepInputs) -> float | None:
+        wanted = self._command.speed
+        if isinstance(wanted, FollowSpeed):
+            return inputs.state(wanted.reference).v * wanted.factor + wanted.difference
+        return wanted
+
+    def _rest(
+        self, me: ActorState, inputs: StepInputs, time: float, end: float | None
+    ) -> tuple[float, float] | None:
+        """Metres from here to the goal, and the speed of the goal (m/s)."""
+        gap = self._command.gap
+        if gap is None or self._other is None:
+            return (self._command.way or 0.0) - self._covered, 0.0
+        other = self._other.state(inputs)
+        found = allowed_gap(gap, me, other, me.v if end is None else end, inputs)
+        if found is None:
+            return None
+        here, low, high = found
+        steady = here + (me.v - other.v) * time
+        return min(max(steady, low), high) - here, other.v
+
+    def _rate(self, v: float, rest: float, moving: float, end: float | None, dt: float) -> float:
+        n = self._steps or 1
+        missing = rest - (v - moving) * n * dt
+        if end is not None:
+            return rate_to_place_and_speed(n, dt, missing, end - v)
+        if v > 0.0 > v + mean_rate_to_place(n, dt, missing) * n * dt:
+            gain = rest + moving * n * dt  # it has to stop there before the time is over
+            return -v * v / (2.0 * gain) if gain > 0.0 else -self._limits.deceleration
+        return rate_to_place(n, dt, missing)
+
+    def _judge(self, missed: float, speed: float, end: float | None) -> None:
+        limits = self._limits
+        can = f"it can do {limits.acceleration:g} and -{limits.deceleration:g} m/s^2"
+        if abs(missed) > self._near:
+            side = "short of" if missed > 0.0 else "beyond"
+            reason = f"when its time is over it is {abs(missed):.1f} m {side} its place; {can}"
+            self._progress = Progress(False, reason)
+        elif end is not None and abs(speed - end) > _SPEED_TOLERANCE:
+            reason = f"it comes to its place at {speed:.1f} m/s, not {end:.1f} m/s; {can}"
+            self._progress = Progress(False, reason)
+        else:
+            self._progress = REACHED
+
+    def progress(self) -> Progress:
+        """Done or failed when the time is over."""
+        return self._progress
+
+
+def allowed_gap(
+    command: KeepGap, me: ActorState, other: ActorState, own_speed: float, inputs: StepInputs
+) -> tuple[float, float, float] | None:
+    """Where the actor is ahead of the other one (m), and between what it may be."""
+    along = inputs.along(other, me)
+    if along is None:
+        return None
+    match command.measure:
+        case "gap":
+            here = gap_between(along, me.shape, other.shape)
+        case "headway":
+            here = headway_between(along, me.shape, other.shape)
+        case "reference":
+            here = along
+    low, high = command.distance or 0.0, (command.distance or 0.0) + command.spread
+    if command.time is not None:
+        trailing = max(other.v if command.ahead else own_speed, 0.0)
+        low, high = command.time * trailing, (command.time + command.spread) * trailing
+    return (here, low, high) if command.ahead else (here, -high, -low)
+
+
+def _no_way(command: KeepGap) -> str:
+    return f"there is no way along lanes to {command.reference}"

@@ -1,0 +1,48 @@
+"""The speed of a vehicle of whose speed nothing is said: held, but less through bends.
+
+A scenario that says a speed gets it, in bends too; what is beyond grip is reported. One that says
+none leaves it to a driver, who takes bends comfortably (`bends_ahead`) and gains the speed again
+behind them. On a straight road the speed is held to the last bit.
+"""
+
+from __future__ import annotations
+
+from osc2tx_runtime.opendrive import Route
+from osc2tx_runtime.world.actor_dimensions import COMFORT, Limits
+from osc2tx_runtime.world.state import ActorState
+from osc2tx_runtime.world.step_inputs import StepInputs
+
+__all__ = ["OpenSpeed"]
+
+
+class OpenSpeed:
+    """A driver without a command for the speed."""
+
+    __slots__ = ("_held",)
+
+    def __init__(self) -> None:
+        self._held = 0.0  # m/s to gain again behind a bend; no more than the present speed: none
+
+    def forget(self) -> None:
+        """Somebody has said a speed."""
+        self._held = 0.0
+
+    def speed_after(
+        self, me: ActorState, inputs: StepInputs, route: Route | None, limits: Limits
+    ) -> float:
+        """Speed (m/s) at the next step.
+
+        Args:
+            me: Who drives.
+            inputs: The snapshot.
+            route: Its way at forks.
+            limits: Of the vehicle on the road as it is.
+        """
+        held = max(self._held, me.v)
+        fastest = inputs.bend(me, route, limits)
+        if me.v >= held and fastest >= held:
+            return me.v
+        self._held = held
+        slowest = me.v - COMFORT * limits.deceleration * inputs.dt
+        rising = me.v + COMFORT * limits.acceleration * inputs.dt
+        return max(min(held, fastest, rising), slowest, 0.0)

@@ -1,0 +1,137 @@
+"""Longitudinal commands that give the position over time.
+
+The place after each step is the one of the course, not what a mean of two speeds would make of it,
+so that no error adds up. What the limits do not allow is made up for as soon as they do.
+"""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx_runtime.world.actor_dimensions import TYRES, Limits
+from osc2tx_runtime.world.commands import Cover, GapCourse
+from osc2tx_runtime.world.geometry.profiles import Profile
+from osc2tx_runtime.world.measuring.projected_motion import Tracked
+from osc2tx_runtime.world.protocol import PENDING, REACHED, Progress
+from osc2tx_runtime.world.state import ActorState
+from osc2tx_runtime.world.step_inputs import StepInputs
+
+from .arrival_schedule import towards
+
+__all__ = ["CoverRun", "GapCourseRun", "PlacedRun"]
+
+_NEAR = 0.1  # m: how far from its place an actor may be at the end
+_CATCH_UP = 2.0  # 1/s: how fast what is missing is made up for
+_JUST_BEFORE = 1e-9  # s
+
+
+class PlacedRun:
+    """Is where a course says.
+
+    Attributes:
+        path: Metres of the last step; None if they are those of its mean speed.
+    """
+
+    def __init__(self, course: Profile, exact: bool, limits: Limits) -> None:
+        self._course = course
+        self._exact = exact
+        self._limits = limits if limits.road else TYRES
+        self._steps = 0
+        self._failed: str | None = None
+        self._done = False
+        self.path: float | None = None
+
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
+        """Speed (m/s) at the next step; called once per step."""
+        raise NotImplementedError
+
+    def progress(self) -> Progress:
+        """Done at the end of the course."""
+        if self._failed is not None:
+            return Progress(False, self._failed)
+        return REACHED if self._done else PENDING
+
+    def _step(self, me: ActorState, way: float, rate: float, dt: float) -> float:
+        """Speed after a step of so many metres with this rate at its end, as the limits allow."""
+        if self._exact:
+            self.path = way
+            return rate
+        wanted = rate + _CATCH_UP * (way - 0.5 * (me.v + rate) * dt)
+        possible = towards(me.v, rate, self._limits, 1.0, dt)
+        straight = abs(possible - rate) < 1e-9 and abs(way - 0.5 * (me.v + rate) * dt) < _NEAR
+        self.path = way if straight else None
+        return rate if straight else towards(me.v, wanted, self._limits, 1.0, dt)
+
+    def _rate(self, t: float) -> float:
+        """Rate at a time; at the very end the one just before it."""
+        end = self._course.duration
+        return self._course.rate(end - _JUST_BEFORE if math.isclose(t, end) else t)
+
+    def _judge(self, t: float, missed: float) -> None:
+        """Whether it is there when the course ends."""
+        if self._done or t < self._course.duration - 1e-9:
+            return
+        self._done = True
+        if abs(missed) > _NEAR:
+            side = "short of" if missed > 0.0 else "beyond"
+            self._failed = f"at the end of its shape it is {abs(missed):.1f} m {side} its place"
+
+
+class CoverRun(PlacedRun):
+    """Has covered so many metres at any time; then it stands."""
+
+    def __init__(self, command: Cover, limits: Limits) -> None:
+        super().__init__(command.course, command.exact, limits)
+        self._covered = 0.0
+        self._before: tuple[float, float] | None = None  # speeds of the last step
+
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
+        """Speed at the next step."""
+        dt = inputs.dt
+        self._note(me.v, dt)
+        self._steps += 1
+        t = self._steps * dt
+        way = self._course.value(t) - self._covered
+        speed = self._step(me, way, self._rate(t), dt)
+        self._before = (me.v, speed)
+        self._judge(t, way - (0.5 * (me.v + speed) * dt if self.path is None else self.path))
+        return speed
+
+    def slid(self, along: float) -> None:
+        """Counts what a measured step was longer."""
+        self._covered += along
+
+    def _note(self, speed: float, dt: float) -> None:
+        """Counts the last step; who was slowed down did not do all of it."""
+        if self._before is None:
+            return
+        before, planned = self._before
+        as_planned = speed == planned and self.path is not None
+        self._covered += (self.path or 0.0) if as_planned else 0.5 * (before + speed) * dt
+
+
+class GapCourseRun(PlacedRun):
+    """Is so far ahead of another actor at any time; then it holds the last distance."""
+
+    def __init__(self, command: GapCourse, limits: Limits) -> None:
+        super().__init__(command.course, command.exact, limits)
+        self._reference = command.reference
+        self._other = Tracked(command.reference, command.projected)
+
+    def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
+        """Speed at the next step, if the other one goes on with its acceleration."""
+        dt = inputs.dt
+        self._steps += 1
+        t = self._steps * dt
+        other = self._other.state(inputs)
+        here = inputs.along(other, me)
+        if here is None:
+            self._failed = f"there is no way along lanes to {self._reference}"
+            return me.v
+        its_speed = other.v + other.a * dt
+        its_way = 0.5 * (other.v + its_speed) * dt
+        way = self._course.value(t) - here + its_way
+        speed = self._step(me, way, self._rate(t) + its_speed, dt)
+        step = 0.5 * (me.v + speed) * dt if self.path is None else self.path
+        self._judge(t, way - step)
+        return speed

@@ -1,0 +1,1 @@
+"""Measurements of states: distances, velocities, contacts, deviations from a reference."""

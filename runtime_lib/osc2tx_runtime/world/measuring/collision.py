@@ -1,0 +1,233 @@
+"""Collision detection of moving bounding boxes, swept over a step."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from osc2tx_runtime.world.state import ActorState
+
+__all__ = ["Box", "Swept", "apart", "box_of", "contact_interval", "overlapping", "swept", "touch"]
+
+_NEAR = 1e-4  # m to which contacts of turning boxes are found
+
+
+class Box(NamedTuple):
+    """An upright box on the ground.
+
+    Attributes:
+        x: World x of the centre (m).
+        y: World y of the centre (m).
+        low: World z of the bottom (m).
+        high: World z of the top (m).
+        cos: Cosine of the heading.
+        sin: Sine of the heading.
+        half_length: Metres.
+        half_width: Metres.
+        reach_x: How far it reaches from the centre along the x axis of the world (m).
+        reach_y: The same along the y axis (m).
+    """
+
+    x: float
+    y: float
+    low: float
+    high: float
+    cos: float
+    sin: float
+    half_length: float
+    half_width: float
+    reach_x: float
+    reach_y: float
+
+
+def box_of(state: ActorState) -> Box:
+    """Bounding box of an actor."""
+    x, y, z, h = state[:4]
+    shape = state.shape
+    c, n = math.cos(h), math.sin(h)
+    half, width = 0.5 * shape.length, 0.5 * shape.width
+    ahead = half - shape.rear
+    return Box(
+        x + ahead * c,
+        y + ahead * n,
+        z,
+        z + shape.height,
+        c,
+        n,
+        half,
+        width,
+        half * abs(c) + width * abs(n),
+        half * abs(n) + width * abs(c),
+    )
+
+
+def contact_interval(
+    a: Box, b: Box, dx: float, dy: float, slack: float = 0.0
+) -> tuple[float, float] | None:
+    """Times between which b, moving by (dx, dy) per unit of time against a, touches a.
+
+    Exact for boxes that do not turn. None if they never touch, or come as near as `slack` (m);
+    heights are not looked at.
+    """
+    px, py = b.x - a.x, b.y - a.y
+    entry, leave = -math.inf, math.inf
+    for ux, uy, both in _axes(a, b):
+        reach = both + slack
+        p = px * ux + py * uy
+        q = dx * ux + dy * uy
+        if abs(q) < 1e-12:
+            if abs(p) > reach:
+                return None
+            continue
+        first, last = (-reach - p) / q, (reach - p) / q
+        if first > last:
+            first, last = last, first
+        entry, leave = max(entry, first), min(leave, last)
+        if entry > leave:
+            return None
+    return entry, leave
+
+
+def apart(a: Box, b: Box) -> tuple[float, float, float]:
+    """Metres that two boxes are apart along the axis that separates them best, and that axis.
+
+    Not positive if they have a common point.
+    """
+    px, py = b.x - a.x, b.y - a.y
+    return max([(abs(px * ux + py * uy) - reach, ux, uy) for ux, uy, reach in _axes(a, b)])
+
+
+def _axes(a: Box, b: Box) -> tuple[tuple[float, float, float], ...]:
+    """The four separating axes: both axes of both boxes, each with the sum of the half extents."""
+    cross = abs(a.cos * b.sin - a.sin * b.cos)
+    along = abs(a.cos * b.cos + a.sin * b.sin)
+    reach_a = b.half_length * along + b.half_width * cross
+    broad_a = b.half_length * cross + b.half_width * along
+    reach_b = a.half_length * along + a.half_width * cross
+    broad_b = a.half_length * cross + a.half_width * along
+    return (
+        (a.cos, a.sin, a.half_length + reach_a),
+        (-a.sin, a.cos, a.half_width + broad_a),
+        (b.cos, b.sin, b.half_length + reach_b),
+        (-b.sin, b.cos, b.half_width + broad_b),
+    )
+
+
+def overlapping(a: Box, b: Box) -> bool:
+    """True if two boxes have a common point."""
+    if a.low > b.high or b.low > a.high:
+        return False
+    if abs(a.x - b.x) > a.reach_x + b.reach_x or abs(a.y - b.y) > a.reach_y + b.reach_y:
+        return False
+    return contact_interval(a, b, 0.0, 0.0) is not None
+
+
+class Swept(NamedTuple):
+    """A box on its way through a step.
+
+    Attributes:
+        begin: The box at the begin of the step.
+        end: The box at its end.
+        left: Least x that it covers (m).
+        right: Greatest x.
+        low: Least y.
+        high: Greatest y.
+    """
+
+    begin: Box
+    end: Box
+    left: float
+    right: float
+    low: float
+    high: float
+
+
+def touch(one: Swept, other: Swept) -> bool:
+    """True if two boxes touch at any time of a step."""
+    if one.left > other.right or other.left > one.right:
+        return False
+    if one.low > other.high or other.low > one.high:
+        return False
+    a, a_end, b, b_end = one.begin, one.end, other.begin, other.end
+    if min(a.low, a_end.low) > max(b.high, b_end.high):
+        return False
+    if min(b.low, b_end.low) > max(a.high, a_end.high):
+        return False
+    turns = _turn(a, a_end), _turn(b, b_end)
+    if not any(turns):
+        return _meet(a, a_end, b, b_end, 0.0)
+    if contact_interval(a, b, 0.0, 0.0) is not None:
+        return True
+    return _meet_turning((a, a_end, turns[0]), (b, b_end, turns[1]), 0.0, 1.0)
+
+
+def _meet(a: Box, a_end: Box, b: Box, b_end: Box, slack: float) -> bool:
+    """True if two boxes that do not turn come nearer than `slack` (m) on their way."""
+    moving = contact_interval(
+        a, b, b_end.x - b.x - a_end.x + a.x, b_end.y - b.y - a_end.y + a.y, slack
+    )
+    return moving is not None and moving[0] <= 1.0 and moving[1] >= 0.0
+
+
+_Sweep = tuple[Box, Box, float]
+"""A box at begin and end of a step, and how much it turns (rad)."""
+
+
+def _meet_turning(one: _Sweep, other: _Sweep, begin: float, end: float) -> bool:
+    """True if two boxes touch within a part of a step.
+
+    Within the part they are taken as they stand in the middle of it. Their corners are then off by
+    at most half of the turn times their distance from the centre: who stays farther apart does not
+    touch, else the halves of the part are looked at, until that is less than `_NEAR`.
+    """
+    middle = 0.5 * (begin + end)
+    a, a_end = _part(one, begin, end)
+    b, b_end = _part(other, begin, end)
+    slack = (end - begin) * (_swing(one) + _swing(other))
+    if not _meet(a, a_end, b, b_end, slack):
+        return False
+    if slack < _NEAR:
+        return _meet(a, a_end, b, b_end, 0.0)
+    return _meet_turning(one, other, begin, middle) or _meet_turning(one, other, middle, end)
+
+
+def _swing(sweep: _Sweep) -> float:
+    """Metres by which the corners of a box turn in half a step."""
+    box, _, turn = sweep
+    return 0.5 * abs(turn) * math.hypot(box.half_length, box.half_width)
+
+
+def _part(sweep: _Sweep, begin: float, end: float) -> tuple[Box, Box]:
+    """A box at both ends of a part of a step, turned as in the middle of it."""
+    box, goal, turn = sweep
+    heading = math.atan2(box.sin, box.cos) + 0.5 * (begin + end) * turn
+    turned = box._replace(cos=math.cos(heading), sin=math.sin(heading))
+    return _moved(turned, goal, begin), _moved(turned, goal, end)
+
+
+def _moved(box: Box, goal: Box, share: float) -> Box:
+    """A box on its way, without turning."""
+    x, y = box.x + share * (goal.x - box.x), box.y + share * (goal.y - box.y)
+    return box._replace(x=x, y=y)
+
+
+def _turn(begin: Box, end: Box) -> float:
+    """How much a box turns in a step (rad)."""
+    if begin.cos == end.cos and begin.sin == end.sin:
+        return 0.0
+    sin = begin.cos * end.sin - begin.sin * end.cos
+    return math.atan2(sin, begin.cos * end.cos + begin.sin * end.sin)
+
+
+def swept(b: Box, e: Box) -> Swept:
+    """What a box covers on the way through a step."""
+    x = b.reach_x if b.reach_x > e.reach_x else e.reach_x
+    y = b.reach_y if b.reach_y > e.reach_y else e.reach_y
+    # In between one that turns reaches farther, but not beyond its corners.
+    if b.cos != e.cos or b.sin != e.sin:
+        turn = abs(_turn(b, e))
+        bulge = math.hypot(b.half_length, b.half_width) * (1.0 - math.cos(min(0.5 * turn, 1.6)))
+        x, y = x + bulge, y + bulge
+    left, right = (b.x, e.x) if b.x < e.x else (e.x, b.x)
+    low, high = (b.y, e.y) if b.y < e.y else (e.y, b.y)
+    return Swept(b, e, left - x, right + x, low - y, high + y)

@@ -1,0 +1,62 @@
+"""How far a measured actor is from where it is to be."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from osc2tx_runtime.world.geometry.curve import turn_between
+from osc2tx_runtime.world.state import ActorState
+
+__all__ = [
+    "ACCELERATION_TOLERANCE",
+    "HEADING_TOLERANCE",
+    "OFF_ITS_PATH",
+    "PATIENCE",
+    "PLACE_TOLERANCE",
+    "SPEED_TOLERANCE",
+    "STANDSTILL",
+    "Deviation",
+]
+
+STANDSTILL = 0.05
+"""m/s: who was measured slower than that stands."""
+SPEED_TOLERANCE = 0.5
+"""m/s off the wished speed that count as reached; at standstill none do."""
+ACCELERATION_TOLERANCE = 0.5
+"""m/s^2 off the wished acceleration that count as reached."""
+PLACE_TOLERANCE = 0.5
+"""m beside the wished path that count as on it."""
+HEADING_TOLERANCE = math.radians(3.0)
+"""rad off the wished heading that count as so."""
+PATIENCE = 5.0
+"""s after the end of its reference at which an actor has to be there."""
+OFF_ITS_PATH = 1.0
+"""m beside its path at which an actor has left it, if it stays so for a second."""
+
+
+class Deviation(NamedTuple):
+    """How far an actor is from where it is to be.
+
+    Attributes:
+        speed: m/s it is too fast.
+        place: m it is to the left of its path.
+        heading: rad it is turned to the left of it.
+        late: s since the reference has come to the end of what it is to do.
+    """
+
+    speed: float
+    place: float
+    heading: float
+    late: float = 0.0
+
+    @classmethod
+    def of(cls, state: ActorState, reference: ActorState, late: float = 0.0) -> Deviation:
+        """Compare a measured state with its reference."""
+        dx, dy, h = state.x - reference.x, state.y - reference.y, reference.h
+        return cls(
+            state.v - reference.v,
+            dy * math.cos(h) - dx * math.sin(h),
+            turn_between(h, state.h),
+            late,
+        )

@@ -1,0 +1,1 @@
+"""Motion of one actor over one step, trailers included, and its limits."""

@@ -1,0 +1,251 @@
+"""The commands of one actor, and their execution."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import field
+
+from osc2tx_runtime.opendrive import Pose, RoadMap
+from osc2tx_runtime.world.commands import Command, FollowRoute, KeepLane, RunOut, Turn
+from osc2tx_runtime.world.geometry.lane_return import turn_from
+from osc2tx_runtime.world.lateral.attitude_control import Turning
+from osc2tx_runtime.world.lateral.curve_following import Replay, TimedReplay, course_of
+from osc2tx_runtime.world.lateral.execution import HoldOffset, Impossible, Shift, lateral_of
+from osc2tx_runtime.world.lateral.route_following import Way
+from osc2tx_runtime.world.longitudinal.acceleration import AssignedSpeed, ConstantAcceleration
+from osc2tx_runtime.world.longitudinal.collision_avoidance import Cautious
+from osc2tx_runtime.world.longitudinal.execution import ProfileRun, acceleration_of, longitudinal_of
+from osc2tx_runtime.world.longitudinal.gap_control import ArrivalRun
+from osc2tx_runtime.world.longitudinal.position_control import CoverRun
+from osc2tx_runtime.world.measuring.measurement import MeasuredMotion
+from osc2tx_runtime.world.protocol import LATERAL, LONGITUDINAL, PENDING, REACHED, Progress
+from osc2tx_runtime.world.state import ActorState
+from osc2tx_runtime.world.step_inputs import StepInputs
+from osc2tx_runtime.world.tracking.expectations import Expectation, expected
+from osc2tx_runtime.world.tracking.tracking import Tracking
+from osc2tx_shared.classes import dataclass
+
+from .actor_step import MovingActor
+
+__all__ = ["CommandedActor"]
+
+STEADY = frozenset({type(None), AssignedSpeed, ConstantAcceleration, HoldOffset, ProfileRun, Shift})
+"""Kinds of commands at work that cannot fail."""
+
+
+@dataclass
+class CommandedActor(MovingActor):
+    """An actor with what it is asked for.
+
+    Attributes:
+        follows: It does what its commands say; False if somebody else drives it, and they are only
+            expected of it.
+        tracking: How well it follows, if it was measured.
+        motion: How it moves, if that was measured.
+        heading: Heading (rad) of its reference when grip was last looked at.
+        aside: Speed across its lane (m/s) then; None off the lanes.
+    """
+
+    follows: bool = True
+    _expected: dict[str, Expectation] = field(default_factory=dict)
+    tracking: Tracking | None = None
+    motion: MeasuredMotion | None = None
+    heading: float | None = None
+    aside: float | None = None
+    _last: tuple[Progress, Progress] | None = None  # progress when it was asked for news
+
+    def progress(self, slot: str) -> Progress:
+        """Progress of the command in a slot, by reference and measurement."""
+        if not self.follows:
+            expectation = self._expected.get(slot)
+            return REACHED if expectation is None else expectation.progress()
+        wished = self.speed_progress() if slot == LONGITUDINAL else self.side_progress()
+        return wished if self.tracking is None else self.tracking.progress(slot, wished)
+
+    @property
+    def is_physical(self) -> bool:
+        """Whether it moves as its commands want it, and nobody put it there."""
+        if not self.follows or self._unphysical:
+            return False
+        return not isinstance(self._course, Replay | TimedReplay)
+
+    def pursue(self, slot: str, command: Command | None, road_map: RoadMap) -> None:
+        """Puts the command of a slot to work; None holds the speed, or keeps the lane."""
+        self._unphysical.discard(slot)
+        if command is not None and command.unphysical:
+            self._unphysical.add(slot)
+        if not self.follows:
+            self._expected[slot] = expected(command, self.state, road_map, self.route)
+        elif slot == LONGITUDINAL:
+            self.pursue_speed(command)
+        else:
+            self.pursue_side(command, road_map)
+
+    def observe(self, inputs: StepInputs) -> None:
+        """Sees after a step what has come of what is expected."""
+        for expectation in self._expected.values():
+            expectation.look(self.state, inputs)
+
+    def pursue_speed(self, command: Command | None) -> None:
+        """Puts a longitudinal command to work; None holds the speed."""
+        self.upset()
+        if self.tracking is not None:
+            self.tracking.forget(LONGITUDINAL)
+        if command is None:
+            if self._speed is not None:
+                self._speed = None
+                self._open.forget()
+            return
+        slips = self.wheels is not None and self.wheels.slipping
+        now = self.reference.a if slips else acceleration_of(self._speed, self.reference)
+        state = self.reference._replace(a=now)
+        self._speed = longitudinal_of(command, state, self.limits, self.route)
+
+    def go_on_with(self, speed: float, acceleration: float) -> None:
+        """Goes on from an assigned speed (m/s) and acceleration (m/s^2) until a command comes.
+
+        A speed alone is what it has at this instant; nothing is said of what follows.
+        """
+        self.upset()
+        self._open.forget()
+        self._speed = (
+            ConstantAcceleration(acceleration, speed) if acceleration else AssignedSpeed(speed)
+        )
+
+    def pursue_side(self, command: Command | None, road_map: RoadMap) -> None:
+        """Puts a lateral command to work; None keeps the lane, or returns to one."""
+        self.upset()
+        if self.tracking is not None:
+            self.tracking.forget(LATERAL)
+        if self._way is not None:
+            self.route, self._way = self._way.before, None
+        if isinstance(command, FollowRoute):
+            self._way = Way(command, road_map, self.route)
+            self.route, command = self._way.route, command.side or KeepLane()
+        course = course_of(command, self.reference, self.limits)
+        if course is not None:
+            self._course, self.bound, self.home = course, None, None
+            self._side = HoldOffset()
+            return
+        returned = self._course is not None
+        if returned:
+            self._course = None
+            self._return_to_lane(road_map)
+            if self.bound is not None and (command is None or isinstance(command, KeepLane)):
+                return  # on its way to the middle of the lane
+        if self.home is not None:
+            held = command is None or isinstance(command, KeepLane)
+            self._side = HoldOffset() if held else Impossible(f"{self.spec.id} is in no lane yet")
+            return
+        if self.bound is None:
+            self._pursue_heading(command)
+            return
+        state = self.reference
+        here, rate = state.lane_position or self.bound, state.lateral_speed
+        if returned:
+            here, rate = self.bound, state.v * math.sin(turn_from(road_map, self.bound, state))
+        before = self.bound
+        self.bound, self._side = lateral_of(
+            command,
+            road_map,
+            before,
+            here,
+            (state.x, state.y, rate),
+            self._side,
+            self.limits,
+        )
+        if self.bound is not before:
+            self.residual = None  # it counts from where it is
+
+    def _pursue_heading(self, command: Command | None) -> None:
+        self._turning = Turning(command) if isinstance(command, Turn) else None
+        self._side = HoldOffset()
+        if command is not None and not isinstance(command, KeepLane | Turn):
+            self._side = Impossible(
+                f"{self.spec.id} is not on a driving lane, so it cannot change or follow one"
+            )
+
+    def is_steady(self) -> bool:
+        """Sees whether what it is told cannot fail: it goes on in closed form, and alone."""
+        self.steady = (
+            self.follows
+            and type(self._speed) in STEADY
+            and type(self._side) in STEADY
+            and self._course is None
+            and self._way is None
+            and self.blocked is None
+            and self.tracking is None
+            and not (self.wheels is not None and self.wheels.limited)
+        )
+        return self.steady
+
+    def has_news(self) -> bool:
+        """Whether progress may be another than when this was asked before."""
+        if not (self.steady or self.is_steady()):
+            self._last = None
+            return True
+        before, self._last = self._last, (self.speed_progress(), self.side_progress())
+        return self._last != before
+
+    def upset(self) -> None:
+        """As of all who move; its progress is to be looked at."""
+        super().upset()
+        self._last = None
+
+    def speed_progress(self) -> Progress:
+        """Progress of the longitudinal command, by the reference."""
+        if self._hindrance is not None:
+            return Progress(False, self._hindrance)
+        progress = REACHED if self._speed is None else self._speed.progress()
+        lags = self.wheels is not None and self.wheels.slipping
+        return PENDING if lags and progress.done else progress
+
+    @property
+    def _hindrance(self) -> str | None:
+        """Why it cannot go on; the end of the road is none for who wanted to go to it."""
+        sliding = None if self.wheels is None else self.wheels.sliding
+        arrived = self._way is not None and self._way.progress().done
+        return sliding if arrived else self.blocked or sliding
+
+    def side_progress(self) -> Progress:
+        """Progress of the lateral command, by the reference."""
+        if self._hindrance is not None:
+            return Progress(False, self._hindrance)
+        if self._course is not None:
+            return self._course.progress()
+        if self._way is not None and self._way.ends:
+            return self._way.progress()
+        lost = isinstance(self._side, Impossible)
+        if self.bound is not None or self.home is not None or lost:
+            return self._side.progress()
+        return REACHED if self._turning is None else self._turning.progress(self.reference)
+
+    def drift(self, aside: float, road_map: RoadMap) -> None:
+        """Has a lateral speed (m/s) at the start."""
+        if self.bound is not None:
+            self.settle(self.on_lane(self.bound, self.reference.v, aside, 0.0, road_map))
+            self.pursue_side(RunOut(aside), road_map)
+
+    # --- what a controller follows -------------------------------------------------------------
+
+    def settle(self, state: ActorState) -> None:
+        """Is where it was wished."""
+        self.state = self.reference = state
+
+    def slid(self, along: float) -> None:
+        """Its reference is so many metres further along its path than its commands count on."""
+        if self._course is not None:
+            self._course.slid(along)
+        if isinstance(self._speed, ArrivalRun | Cautious | CoverRun):
+            self._speed.slid(along)
+
+    def course_ahead(self, way: float) -> Pose | None:
+        """Place so many metres on along its course; None if it follows none."""
+        return None if self._course is None else self._course.ahead(way)
+
+    def offset_after(self, seconds: float, rate: float) -> float:
+        """Offset in its lane some time from now, if it moves to the left so fast (m/s)."""
+        assert self.bound is not None
+        if isinstance(self._side, Shift):
+            return self._side.offset_in(seconds)
+        return self.bound.offset + rate * seconds

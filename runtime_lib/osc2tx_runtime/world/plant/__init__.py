@@ -1,0 +1,1 @@
+"""The interface to what moves the actors: setpoints out, measurements back."""

@@ -1,0 +1,143 @@
+"""Where measured actors are, and where their references go on from there.
+
+The reference of a driven actor keeps its speed and its place across the path, and comes abreast of
+the actor along it: otherwise half of every error of the speed would add up, and the two would
+never meet again. Of an actor that somebody else drives, the measured state is the reference.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping
+
+from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap
+from osc2tx_runtime.world.geometry.lane_neighbours import seen_along
+from osc2tx_runtime.world.geometry.lane_return import abreast
+from osc2tx_runtime.world.measuring.deviation import STANDSTILL
+from osc2tx_runtime.world.measuring.measurement import MeasuredMotion, Measurement
+from osc2tx_runtime.world.motion.actor_motion import CommandedActor
+from osc2tx_runtime.world.motion.couplings import Couplings
+from osc2tx_runtime.world.protocol import LATERAL, LONGITUDINAL
+from osc2tx_runtime.world.state import ActorState
+from osc2tx_runtime.world.tracking.tracking import Tracking
+
+__all__ = ["arrive"]
+
+
+def arrive(
+    cast: Mapping[str, CommandedActor],
+    wished: list[ActorState],
+    found: Mapping[str, Measurement],
+    jumped: Collection[str],
+    couplings: Couplings,
+    road_map: RoadMap,
+    dt: float,
+) -> list[ActorState]:
+    """Put the actors where they have come to.
+
+    Args:
+        cast: The actors.
+        wished: Where they were to come, in the same order.
+        found: Those that were measured; the others are there.
+        jumped: Who was put somewhere, which is no motion.
+        couplings: Who is towed; trailers are where their tows have come to.
+        road_map: The map.
+        dt: Length of the step (s); 0 before step 0.
+
+    Returns:
+        Their states, in the same order.
+    """
+    members = tuple(cast.values())
+    for actor in jumped:
+        cast[actor].motion = None
+    measured = {actor for actor in found if not couplings.is_towed(actor)}
+    states = [
+        (
+            measured_state(member, found[member.spec.id], road_map, dt)
+            if member.spec.id in measured
+            else wish
+        )
+        for member, wish in zip(members, wished, strict=True)
+    ]
+    if dt:
+        couplings.draw(cast, states, dt, road_map)
+    for member, state, wish in zip(members, states, wished, strict=True):
+        if member.spec.id not in measured:
+            member.settle(state)
+            member.motion = member.tracking = None
+        elif member.follows:
+            track(member, state, wish, road_map, dt)
+        else:
+            observe(member, state, road_map)
+    return states
+
+
+def track(
+    member: CommandedActor, state: ActorState, wished: ActorState, road_map: RoadMap, dt: float
+) -> None:
+    """Put a driven actor where it was measured, and its reference beside it."""
+    member.state = state
+    member.upset()
+    member.reference = anchored(member, wished, road_map)
+    if member.tracking is None:
+        member.tracking = Tracking()
+    wished_progress = {LONGITUDINAL: member.speed_progress(), LATERAL: member.side_progress()}
+    member.tracking.step(state, member.reference, wished_progress, dt)
+
+
+def observe(member: CommandedActor, state: ActorState, road_map: RoadMap) -> None:
+    """Put an actor that somebody else drives where it was measured."""
+    member.settle(state)
+    place = state.lane_position
+    if place is not None and road_map.lane_type(place.road, place.lane, place.s) not in DRIVING:
+        place = None
+    member.bound = place if member.spec.lane_bound else None
+
+
+def measured_state(
+    member: CommandedActor, found: Measurement, road_map: RoadMap, dt: float
+) -> ActorState:
+    """State of an actor that was measured: on which lane it is, and how it moves on it."""
+    before = member.state
+    pose, (forwards, left, up) = found.pose, found.velocity
+    forwards = forwards * math.cos(pose.pitch) + up * math.sin(pose.pitch)  # on the ground
+    on = member.lane_at(pose, before.lane_position, road_map)
+    rate = 0.0
+    if on is not None:
+        if member.spec.lane_bound:
+            on = seen_along(road_map, on, pose.h)
+        turn = pose.h - road_map.pose(on).h
+        rate = forwards * math.sin(turn) + left * math.cos(turn)
+    if member.motion is None or not dt:
+        member.motion = MeasuredMotion(found)
+    else:
+        member.motion.step(found, dt)
+    if abs(forwards) < STANDSTILL:
+        forwards = 0.0
+    x, y, z, h, pitch, roll = pose
+    return ActorState(
+        x, y, z, h, forwards, member.motion.forwards, on, rate, before.shape, pitch, roll
+    )
+
+
+def anchored(member: CommandedActor, wished: ActorState, road_map: RoadMap) -> ActorState:
+    """The reference of an actor abreast of its measured state.
+
+    Args:
+        member: The actor, with its measured state.
+        wished: The reference at the end of the step, as it was wished.
+        road_map: The map.
+    """
+    state = member.state
+    along = (state.x - wished.x) * math.cos(wished.h) + (state.y - wished.y) * math.sin(wished.h)
+    member.slid(along)
+    bound = member.bound
+    if bound is None:
+        x, y = wished.x + along * math.cos(wished.h), wished.y + along * math.sin(wished.h)
+        return wished._replace(x=x, y=y)
+    left = member.left or bound
+    on = abreast(road_map, LanePosition(left.road, left.lane, left.s), state, member.route)
+    if on is None:
+        return wished
+    member.bound = LanePosition(on.road, on.lane, on.s, bound.offset)
+    return member.on_lane(member.bound, wished.v, wished.lateral_speed, wished.a, road_map)

@@ -1,0 +1,208 @@
+"""What a plant is to bring about in one step: states of the actors, lights, weather, signals."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Route
+from osc2tx_runtime.world.actor_dimensions import Limits
+from osc2tx_runtime.world.grip.friction import ADHESION, RoadCondition
+from osc2tx_runtime.world.motion.actor_motion import CommandedActor
+from osc2tx_runtime.world.motion.couplings import Couplings
+from osc2tx_runtime.world.protocol import ActorSpec, LightState, Note
+from osc2tx_runtime.world.state import ActorState
+from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
+
+from .weather_effects import Lights, Surroundings
+
+__all__ = ["Scene", "Setpoint", "pose_ahead"]
+
+_SLOW = 1.0  # m/s: slower ones look ahead as if they had this speed
+
+
+def pose_ahead(member: CommandedActor, state: ActorState, way: float, road_map: RoadMap) -> Pose:
+    """Where an actor will be after so many metres, if it goes on as it is commanded.
+
+    Args:
+        member: The actor, whose commands have reached `state`.
+        state: Where to look from.
+        way: Metres along its path; negative: backwards.
+        road_map: The map.
+    """
+    if member.bound is not None:
+        return _along_lane(member, member.bound, state, way, road_map)
+    ahead = member.course_ahead(way)
+    if ahead is not None:
+        return ahead
+    if member.home is not None:
+        on = road_map.advance(member.home, way, member.route)
+        return _straight(road_map.pose(on.position), way - on.travelled)
+    return _straight(Pose(state.x, state.y, state.z, state.h), way)
+
+
+def _along_lane(
+    member: CommandedActor, lane: LanePosition, state: ActorState, way: float, road_map: RoadMap
+) -> Pose:
+    on = road_map.advance(lane, way, member.route)
+    place = on.position
+    seconds = abs(way) / max(abs(state.v), _SLOW)
+    offset = member.offset_after(seconds, state.lateral_speed) if way > 0.0 else lane.offset
+    pose = road_map.pose(LanePosition(place.road, place.lane, place.s, offset))
+    return _straight(pose, way - on.travelled)
+
+
+def _straight(pose: Pose, way: float) -> Pose:
+    if abs(way) < 1e-6:
+        return pose
+    x, y = pose.x + way * math.cos(pose.h), pose.y + way * math.sin(pose.h)
+    return pose._replace(x=x, y=y)
+
+
+class Setpoint:
+    """What one actor is to do in a step.
+
+    Attributes:
+        spec: What it is.
+        now: Its state at the begin of the step.
+        state: The one it is to have at the end.
+        jumps: It is put there, instead of moving there.
+        kicked: It has the speed of `state` at once (`assign_speed`).
+        towed: It hangs on another actor, so it is there exactly.
+        route: What decides at forks; None: the smallest change of heading.
+    """
+
+    def __init__(
+        self,
+        member: CommandedActor,
+        state: ActorState,
+        road_map: RoadMap,
+        *,
+        jumps: bool,
+        kicked: bool,
+        towed: bool,
+    ) -> None:
+        self.spec: ActorSpec = member.spec
+        self.now = member.state
+        self.state = state
+        self.jumps, self.kicked, self.towed = jumps, kicked, towed
+        self.route: Route | None = member.route
+        self._member = member
+        self._map = road_map
+
+    @property
+    def limits(self) -> Limits:
+        """What it can do on the road as it is."""
+        return self._member.limits
+
+    def ahead(self, way: float) -> Pose:
+        """Where its path leads, so many metres on from `state`; negative: where it comes from."""
+        return pose_ahead(self._member, self.state, way, self._map)
+
+
+class Scene:
+    """A step as the world wants it; its attributes are those of the present step.
+
+    Attributes:
+        map: The road map.
+        dt: Length of a step (s).
+        step: Number of the step that is made; 0 before the first one.
+        signals: The traffic lights. `states(id)` is what a light is to show; `lit()` says which
+            ones the scenario has switched, `observe` notes what the simulator shows by itself.
+    """
+
+    def __init__(
+        self,
+        road_map: RoadMap,
+        dt: float,
+        signals: Signals,
+        lights: Lights,
+        surroundings: Surroundings,
+        couplings: Couplings,
+    ) -> None:
+        self.map, self.dt, self.step = road_map, dt, 0
+        self.signals = signals
+        self._lights, self._surroundings, self._couplings = lights, surroundings, couplings
+        self._members: Sequence[CommandedActor] = ()
+        self._wished: Sequence[ActorState] = ()
+        self._jumped: frozenset[str] | set[str] = frozenset()
+        self._kicked: frozenset[str] | set[str] = frozenset()
+        self._setpoints: Mapping[str, Setpoint] | None = None
+        self._notes: list[Note] = []
+        self._warnings: dict[str, None] = {}
+
+    def wish(
+        self,
+        members: Sequence[CommandedActor],
+        states: Sequence[ActorState],
+        jumped: frozenset[str] | set[str],
+        kicked: frozenset[str] | set[str],
+    ) -> None:
+        """Takes what the actors are to do in the next step."""
+        self._members, self._wished = members, states
+        self._jumped, self._kicked = jumped, kicked
+        self._setpoints = None
+
+    @property
+    def setpoints(self) -> Mapping[str, Setpoint]:
+        """What each actor is to do, in the order of the cast."""
+        if self._setpoints is None:  # nobody asks in the embedded world
+            self._setpoints = self._make_setpoints()
+        return self._setpoints
+
+    def _make_setpoints(self) -> Mapping[str, Setpoint]:
+        return {
+            member.spec.id: Setpoint(
+                member,
+                state,
+                self.map,
+                jumps=member.spec.id in self._jumped,
+                kicked=member.spec.id in self._kicked,
+                towed=self._couplings.is_towed(member.spec.id),
+            )
+            for member, state in zip(self._members, self._wished, strict=True)
+        }
+
+    @property
+    def lights(self) -> Mapping[str, LightState]:
+        """Lights that vehicles are to show."""
+        return self._lights.all
+
+    @property
+    def environment(self) -> Mapping[str, float]:
+        """Weather and sun as they are to be, SI units; only what somebody has said."""
+        return self._surroundings.values
+
+    @property
+    def road(self) -> RoadCondition:
+        """Condition of the roads."""
+        return self._surroundings.road
+
+    @property
+    def adhesion(self) -> float:
+        """Coefficient of friction of the roads, where a dry one counts as 1."""
+        return ADHESION.get(self._surroundings.road, 1.0)
+
+    def note(self, kind: str, **values: Any) -> None:
+        """Writes a line into the trace at the end of this step."""
+        self._notes.append((kind, values))
+
+    def note_jack_knife(self, tow: str, trailer: str, angle: float) -> None:
+        """Says that a trailer stands across its towing vehicle (rad), as no bar can."""
+        degrees, time = round(math.degrees(angle), 1), self.step * self.dt
+        self.note("jack_knife", actor=trailer, tow=tow, angle=degrees)
+        self.warn(f"{trailer} jack-knifes at {time:.2f} s: it stands at {degrees:g}° to {tow}")
+
+    def warn(self, text: str) -> None:
+        """Says once what cannot be as the scenario wants it, in a run that goes on all the same."""
+        self._warnings[text] = None
+
+    def warnings(self) -> tuple[str, ...]:
+        """What was said with `warn`, in order."""
+        return tuple(self._warnings)
+
+    def take_notes(self) -> Sequence[Note]:
+        """Hands over the notes since the last call."""
+        notes, self._notes = self._notes, []
+        return notes

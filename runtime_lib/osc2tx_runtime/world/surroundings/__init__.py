@@ -1,0 +1,1 @@
+"""Traffic lights, stop lines, sun and moon."""

@@ -1,0 +1,261 @@
+"""What is expected of an actor that somebody else drives: goals that are measured, not commanded.
+
+An expectation is reached as soon as the actor was measured where the command wants it, in its own
+time and by a course of its own; what has a duration has to be reached by then, as always. Standing
+or going on is expected of nobody.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from osc2tx_runtime.opendrive import LanePosition, RoadMap, Route
+from osc2tx_runtime.world.commands import (
+    Accelerate,
+    AccelerationChange,
+    Arrive,
+    Beside,
+    Careful,
+    Command,
+    Cover,
+    FollowCourse,
+    FollowRoute,
+    FollowSpeed,
+    GapCourse,
+    KeepGap,
+    KeepLane,
+    KeepSchedule,
+    LaneChange,
+    LaneOffset,
+    Sideways,
+    Slant,
+    SpeedChange,
+    Standstill,
+    Turn,
+)
+from osc2tx_runtime.world.geometry.curve import turn_between
+from osc2tx_runtime.world.geometry.lane_neighbours import lane_beside
+from osc2tx_runtime.world.geometry.profiles import Profile
+from osc2tx_runtime.world.lateral.route_following import Way
+from osc2tx_runtime.world.measuring.deviation import (
+    ACCELERATION_TOLERANCE,
+    HEADING_TOLERANCE,
+    PLACE_TOLERANCE,
+    SPEED_TOLERANCE,
+)
+from osc2tx_runtime.world.measuring.distances import side_gap
+from osc2tx_runtime.world.protocol import PENDING, REACHED, Progress
+from osc2tx_runtime.world.state import ActorState
+from osc2tx_runtime.world.step_inputs import StepInputs
+
+from .timed_expectations import Arrival, Timetable, gap_error, speed_error
+
+__all__ = ["Expectation", "expected"]
+
+_JOINED = 1.0  # m from a path at which one is on it
+
+Judge = Callable[[ActorState, StepInputs], Progress]
+
+
+class Expectation:
+    """What one slot of an actor is expected to come to.
+
+    Args:
+        judge: Looks at its state after a step.
+    """
+
+    def __init__(self, judge: Judge) -> None:
+        self._judge = judge
+        self._progress = PENDING
+
+    def look(self, state: ActorState, inputs: StepInputs) -> None:
+        """See how far it is after a step."""
+        self._progress = self._judge(state, inputs)
+
+    def progress(self) -> Progress:
+        """Reached while the actor is there; failed if that cannot be judged."""
+        return self._progress
+
+
+def expected(
+    command: Command | None, state: ActorState, road_map: RoadMap, route: Route | None
+) -> Expectation:
+    """Return what a command means for somebody who is not commanded.
+
+    Args:
+        command: The command.
+        state: Of the actor, when it is given.
+        road_map: The map.
+        route: What decides at forks.
+    """
+    return Expectation(_judge(command, state, road_map, route))
+
+
+def _judge(
+    command: Command | None, state: ActorState, road_map: RoadMap, route: Route | None
+) -> Judge:
+    match command:
+        case None | KeepLane():
+            return lambda me, inputs: REACHED
+        case Careful():
+            return _judge(command.course, state, road_map, route)
+        case SpeedChange() | Standstill() | FollowSpeed() | Accelerate() | AccelerationChange():
+            return _speed(command, state)
+        case KeepGap() | GapCourse():
+            return _gap(command)
+        case Arrive():
+            return Arrival(command)
+        case Cover(course=course):
+            return Arrival(Arrive(course.duration, way=_last(course, 0.0)))
+        case KeepSchedule():
+            return Timetable(command)
+        case LaneChange() | LaneOffset():
+            return _lane(command, state, road_map)
+        case Sideways() | Slant() | Turn():
+            return _heading(command, road_map)
+        case Beside():
+            return _beside(command)
+        case FollowRoute():
+            return _route(command, road_map, route)
+        case FollowCourse():
+            return _path(command)
+    failed = Progress(False, f"{type(command).__name__} can only be commanded, not expected")
+    return lambda me, inputs: failed
+
+
+def _near(error: float, tolerance: float) -> Progress:
+    return REACHED if abs(error) <= tolerance else PENDING
+
+
+def _last(course: Profile | None, otherwise: float) -> float:
+    """Where a course ends; without one, what is wanted."""
+    return otherwise if course is None else course.value(course.duration)
+
+
+def _speed(
+    command: SpeedChange | Standstill | FollowSpeed | Accelerate | AccelerationChange,
+    state: ActorState,
+) -> Judge:
+    match command:
+        case SpeedChange(target=speed, course=course):
+            goal = _last(course, speed)
+            return lambda me, inputs: _near(me.v - goal, SPEED_TOLERANCE)
+        case Standstill():
+            return lambda me, inputs: _near(me.v, 0.0)
+        case FollowSpeed():
+            return lambda me, inputs: _near(speed_error(command, me, inputs), SPEED_TOLERANCE)
+        case Accelerate(acceleration=rate):
+            wanted = state.a if rate is None else rate
+        case AccelerationChange(target=target, course=course):
+            wanted = _last(course, target)
+    return lambda me, inputs: _near(me.a - wanted, ACCELERATION_TOLERANCE)
+
+
+def _gap(command: KeepGap | GapCourse) -> Judge:
+    no_way = Progress(False, f"there is no way along lanes to {command.reference}")
+
+    def judge(me: ActorState, inputs: StepInputs) -> Progress:
+        if isinstance(command, KeepGap):
+            error = gap_error(command, me, inputs)
+        else:
+            here = inputs.along(inputs.state(command.reference), me)
+            error = None if here is None else _last(command.course, 0.0) - here
+        return no_way if error is None else _near(error, PLACE_TOLERANCE)
+
+    return judge
+
+
+def _heading(command: Sideways | Slant | Turn, road_map: RoadMap) -> Judge:
+    """How an actor is turned, in the world or against its lane, or moves across the lane."""
+    match command:
+        case Turn(heading=heading, course=course):
+            if heading is None and course is None:
+                return lambda me, inputs: REACHED  # pitch and roll are what the road makes of them
+            goal = _last(course, heading or 0.0)
+            return lambda me, inputs: _near(turn_between(goal, me.h), HEADING_TOLERANCE)
+        case Sideways():
+            return lambda me, inputs: _near(_missing_rate(command, me, inputs), SPEED_TOLERANCE)
+        case Slant(angle=angle, course=course):
+            goal = _last(course, angle)
+
+    def judge(me: ActorState, inputs: StepInputs) -> Progress:
+        if me.lane_position is None:
+            return PENDING
+        turn = turn_between(road_map.pose(me.lane_position).h, me.h)
+        return _near(turn_between(goal, turn), HEADING_TOLERANCE)
+
+    return judge
+
+
+def _missing_rate(command: Sideways, me: ActorState, inputs: StepInputs) -> float:
+    """How much (m/s) an actor moves to the left too slowly."""
+    other = command.reference
+    moving = 0.0 if other is None else command.factor * inputs.state(other).lateral_speed
+    return _last(command.course, command.speed) + moving - me.lateral_speed
+
+
+def _beside(command: Beside) -> Judge:
+    no_way = Progress(False, f"there is no way along lanes to {command.reference}")
+    low = _last(command.course, command.left or 0.0)
+
+    def judge(me: ActorState, inputs: StepInputs) -> Progress:
+        other = inputs.state(command.reference)
+        to_left = inputs.aside(me, other)
+        if to_left is None:
+            return no_way
+        if command.time is not None:
+            closing = side_gap(to_left, me.shape, other.shape) / command.time
+            return _near(other.lateral_speed - closing - me.lateral_speed, SPEED_TOLERANCE)
+        return _near(-to_left - min(max(-to_left, low), low + command.spread), PLACE_TOLERANCE)
+
+    return judge
+
+
+def _lane(command: LaneChange | LaneOffset, state: ActorState, road_map: RoadMap) -> Judge:
+    here = state.lane_position
+    lanes = command.lanes if isinstance(command, LaneChange) else 0
+    target = None if here is None else lane_beside(road_map, here, lanes)
+    offset = _last(command.course, command.offset)
+    if target is None:
+        failed = Progress(False, "there is no such lane where it is")
+        return lambda me, inputs: failed
+    goal = target
+
+    def judge(me: ActorState, inputs: StepInputs) -> Progress:
+        nonlocal goal
+        place = me.lane_position
+        if place is None:
+            return PENDING
+        ahead = road_map.route_distance(goal, place)
+        if ahead is not None:  # the lane goes on, under whatever number
+            lane = road_map.advance(LanePosition(goal.road, goal.lane, goal.s), ahead).position
+            goal = lane._replace(offset=goal.offset)
+        there = (place.road, place.lane) == (goal.road, goal.lane)
+        return _near(place.offset - goal.offset - offset, PLACE_TOLERANCE) if there else PENDING
+
+    return judge
+
+
+def _route(command: FollowRoute, road_map: RoadMap, before: Route | None) -> Judge:
+    way = Way(command, road_map, before)
+
+    def judge(me: ActorState, inputs: StepInputs) -> Progress:
+        if me.lane_position is not None:
+            way.look(me.lane_position, abs(me.v) * inputs.dt)
+        return way.progress()
+
+    return judge
+
+
+def _path(command: FollowCourse) -> Judge:
+    along, joined = command.begin, False
+
+    def judge(me: ActorState, inputs: StepInputs) -> Progress:
+        nonlocal along, joined
+        along = command.curve.nearest(me.x, me.y, along, max(2.0 * abs(me.v) * inputs.dt, 1.0))
+        away = command.curve.distance_to(me.x, me.y, along)
+        joined = joined or away <= _JOINED
+        over = along >= command.end - PLACE_TOLERANCE
+        return REACHED if joined and over and away <= _JOINED else PENDING
+
+    return judge

@@ -1,0 +1,97 @@
+"""How well a driven actor follows its reference, and when what it is to do counts as done.
+
+A command is done when its reference has come to the end *and* the actor was measured there, within
+the tolerances. An actor that does not get there in time, or leaves its path, fails its
+command with the figures.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from osc2tx_runtime.world.measuring.deviation import (
+    HEADING_TOLERANCE,
+    OFF_ITS_PATH,
+    PATIENCE,
+    PLACE_TOLERANCE,
+    SPEED_TOLERANCE,
+    Deviation,
+)
+from osc2tx_runtime.world.protocol import LONGITUDINAL, PENDING, REACHED, Progress
+from osc2tx_runtime.world.state import ActorState
+
+__all__ = ["Tracking"]
+
+_LEFT = 1.0  # s beside its path after which an actor has left it
+
+
+class Tracking:
+    """The deviations of one actor over its steps."""
+
+    def __init__(self) -> None:
+        self._deviation: Deviation | None = None
+        self._standing = False  # the reference
+        self._late: dict[str, float] = {}
+        self._astray = 0.0  # s beside its path
+
+    def step(
+        self,
+        state: ActorState,
+        reference: ActorState,
+        wished: Mapping[str, Progress],
+        dt: float,
+    ) -> None:
+        """Note a step.
+
+        Args:
+            state: Measured at its end.
+            reference: As wished at its end.
+            wished: Progress of the reference in each slot.
+            dt: Its length (s).
+        """
+        self._deviation = Deviation.of(state, reference)
+        self._standing = reference.v == 0.0
+        for slot, progress in wished.items():
+            late = self._late.get(slot, -dt) + dt
+            self._late[slot] = late if progress.done else -dt
+        astray = abs(self._deviation.place) > OFF_ITS_PATH
+        self._astray = self._astray + dt if astray else 0.0
+
+    def forget(self, slot: str) -> None:
+        """Begin anew with a command of a slot."""
+        self._late.pop(slot, None)
+
+    def deviation(self, slots: Sequence[str]) -> Deviation | None:
+        """How far it is off; None before it was measured."""
+        if self._deviation is None:
+            return None
+        late = max((self._late.get(slot, 0.0) for slot in slots), default=0.0)
+        return self._deviation._replace(late=max(late, 0.0))
+
+    def progress(self, slot: str, wished: Progress) -> Progress:
+        """Progress of what is asked for in a slot, given that of the reference."""
+        if wished.failed is not None or self._deviation is None:
+            return wished
+        off = self._deviation
+        if self._astray > _LEFT:
+            return Progress(False, f"it came {abs(off.place):.1f} m off its path")
+        if not wished.done:
+            return PENDING
+        missed = self._missed(slot, off)
+        if missed is None:
+            return REACHED
+        if self._late.get(slot, 0.0) > PATIENCE:
+            return Progress(False, f"{missed}, {PATIENCE:g} s after it was to be there")
+        return PENDING
+
+    def _missed(self, slot: str, off: Deviation) -> str | None:
+        """What is wrong at the present step; None if all is within the tolerances."""
+        if slot == LONGITUDINAL:
+            most = 0.0 if self._standing else SPEED_TOLERANCE
+            return f"it is {off.speed:+.2f} m/s off its speed" if abs(off.speed) > most else None
+        if abs(off.place) > PLACE_TOLERANCE:
+            return f"it is {abs(off.place):.2f} m beside its path"
+        if abs(off.heading) > HEADING_TOLERANCE:
+            return f"it is turned {math.degrees(off.heading):+.1f} degrees off its path"
+        return None

@@ -1,0 +1,1 @@
+"""Modules that compiler and runtime share; they import the standard library alone."""

@@ -1,0 +1,104 @@
+"""Snapshots: plain data that some code made, kept for the next process.
+
+A snapshot is data, not code: whoever could write one for us could at most make wrong what is read
+from it, and even that takes write access to a folder of the user's own (`own_files`). What is
+damaged, or was made of something else, by other code or by another Python, is not used either.
+"""
+
+from __future__ import annotations
+
+import marshal
+import os
+import sys
+import time
+from pathlib import Path
+from typing import Any
+from zlib import crc32
+
+from osc2tx_shared.cache.own_files import cache_folder, read_own, write_own
+
+_CHECKSUM = 4  # bytes of the checksum behind the magic word
+_STARTED = time.time_ns()
+
+Stamp = tuple[object, ...]
+
+
+class Snapshots:
+    """The snapshots of one kind.
+
+    Args:
+        kind: The first line of their files: what they are, the number of their form, and the
+            version of the code if it has one.
+        code: The folder of the code that makes them.
+        parts: The folders below it whose modules decide what is in them.
+    """
+
+    def __init__(self, kind: str, code: Path, parts: tuple[str, ...]) -> None:
+        self._magic = f"{kind}\n".encode()
+        self._code, self._parts = code, parts
+
+    def path(self, name: str) -> Path | None:
+        """Return the file of a snapshot, `None` if there is no cache.
+
+        Installations do not overwrite those of others.
+        """
+        folder = cache_folder()
+        place = crc32(str(self._code).encode("utf-8", "surrogateescape"))
+        tag = sys.implementation.cache_tag
+        return folder and folder / f"{name}-{tag}-{place:08x}.snapshot"
+
+    def load(self, name: str, made_of: object) -> Any | None:
+        """Return the data of a snapshot that can be trusted, `None` if there is none.
+
+        Args:
+            name: Of the snapshot.
+            made_of: What the data are to be made of, as plain data.
+        """
+        path, stamp = self.path(name), self._stamp()
+        if path is None or stamp is None:
+            return None
+        found = read_own(path)
+        if found is None or not found.startswith(self._magic):
+            return None
+        start = len(self._magic) + _CHECKSUM
+        if found[len(self._magic) : start] != _checksum(found[start:]):
+            return None
+        try:
+            found_stamp, found_source, data = marshal.loads(found[start:])
+        except (EOFError, ValueError, TypeError):
+            return None
+        return data if (found_stamp, found_source) == (stamp, made_of) else None
+
+    def save(self, name: str, made_of: Any, data: Any) -> Path | None:
+        """Keep plain data for the next process; return the file if that was possible."""
+        path, stamp = self.path(name), self._stamp()
+        if path is None or stamp is None:
+            return None
+        contents: Any = (stamp, made_of, data)
+        content = marshal.dumps(contents)
+        is_kept = write_own(path, self._magic + _checksum(content) + content)
+        return path if is_kept else None
+
+    def _stamp(self) -> Stamp | None:
+        """Return what identifies the code: Python, and its files.
+
+        `None` if that cannot be told: the files are not there, or changed after this process began.
+        """
+        files: list[tuple[str, int, int]] = []
+        try:
+            for part in self._parts:
+                with os.scandir(self._code / part) as entries:
+                    for entry in entries:
+                        if entry.name.endswith(".py"):
+                            status = entry.stat()
+                            files.append((entry.name, status.st_size, status.st_mtime_ns))
+        except OSError:
+            return None
+        if not files or max(changed for _, _, changed in files) > _STARTED:
+            return None
+        return (sys.version_info[:3], *sorted(files))
+
+
+def _checksum(content: bytes) -> bytes:
+    """Against damage only; against malice stands that nobody else may write to the folder."""
+    return crc32(content).to_bytes(_CHECKSUM, "big")

@@ -1,0 +1,273 @@
+"""Which modifiers of one action go together.
+
+A modifier is of a *sort* by what is said with it: a `speed` with `direction: lateral` is another
+thing than one along the road. Modifiers that speak of the same *topic* exclude each other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import Generic, Literal, Protocol, TypeVar
+
+from osc2tx_shared.classes import dataclass
+from osc2tx_shared.rules.arguments import Given, Rule, none_of, violations
+
+LATERAL_SPEED = "lateral speed"
+
+CONTRADICTIONS = ((("movement_mode", "monotonous"), ("option", "prefer_non_physical")),)
+"""Arguments that contradict each other in the modifiers of one action."""
+
+STARTING = (none_of("shape", when=["at"], values=["start"]),)
+"""What says nothing about a start, in any modifier."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sort:
+    """What a modifier is with some arguments.
+
+    Attributes:
+        name: Of the sort.
+        given: Parameters of which one is given,
+        value: with this value; empty: with any.
+        lacks: None of these is given.
+        excludes: Topics and modifiers for which it leaves no room.
+    """
+
+    name: str
+    given: tuple[str, ...] = ()
+    value: str = ""
+    lacks: tuple[str, ...] = ()
+    excludes: tuple[str, ...] = ()
+
+    def has(self, given: Given) -> bool:
+        """Whether a modifier with these arguments is of the sort."""
+        if any(name in given for name in self.lacks):
+            return False
+        words = [given.word(name) for name in self.given if name in given]
+        return not self.given or any(not self.value or word == self.value for word in words)
+
+
+@dataclass(frozen=True, slots=True)
+class ModifierRules:
+    """What one modifier does to others in the same action.
+
+    Attributes:
+        topics: What it speaks of; an action takes one modifier of each topic.
+        excludes: Topics and modifiers for which it leaves no room besides.
+        sorts: What it is with some arguments.
+        starts: Whether `at: start` makes it a demand on the start alone.
+        no_start: Why it says nothing of a start; empty if it does.
+        lanes_only: Whether it is only for actors that follow lanes, but for the start.
+        while_moving: Rules of its arguments in an action, unlike at a start.
+    """
+
+    topics: tuple[str, ...] = ()
+    excludes: tuple[str, ...] = ()
+    sorts: tuple[Sort, ...] = ()
+    starts: bool = False
+    no_start: str = ""
+    lanes_only: bool = False
+    while_moving: tuple[Rule, ...] = ()
+
+
+class Call(Protocol):
+    """A modifier of an action."""
+
+    @property
+    def name(self) -> str:
+        """Name of the modifier."""
+
+    @property
+    def at(self) -> str:
+        """`start`, `end` or `all`."""
+
+    @property
+    def given(self) -> Given:
+        """Its arguments, `at` among them."""
+
+    @property
+    def shaped(self) -> bool:
+        """Whether it surely says how its value is reached."""
+
+
+CallT = TypeVar("CallT", bound=Call)
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """What is known about the length of an action.
+
+    Attributes:
+        has_duration: Whether it has a duration of its own.
+        end_is_known: Whether it is known in advance when it ends; None if only the run tells.
+    """
+
+    has_duration: bool
+    end_is_known: bool | None
+
+
+@dataclass(frozen=True, slots=True)
+class Clash(Generic[CallT]):
+    """What does not go together.
+
+    Attributes:
+        kind: `same thing`: two modifiers, of which one may stay; `twice`; `contradiction` of two
+            arguments; `no start`: it says nothing of one; `rule`: a rule of its arguments.
+        calls: The modifiers, the offending one last.
+        text: What is wrong, but for `same thing` and `twice`.
+        parameter: The argument that is wrong, if it is one.
+    """
+
+    kind: Literal["same thing", "twice", "contradiction", "no start", "rule"]
+    calls: tuple[CallT, ...]
+    text: str = ""
+    parameter: str | None = None
+
+
+def sorts_of(call: Call, known: Mapping[str, ModifierRules]) -> Mapping[str, Collection[str]]:
+    """Return the name of a modifier, or what it is instead, and its sorts.
+
+    Each comes with the topics and modifiers for which it leaves no room.
+    """
+    rules = known.get(call.name, ModifierRules())
+    sorts = {sort.name: sort.excludes for sort in rules.sorts if sort.has(call.given)}
+    return sorts if LATERAL_SPEED in sorts else {call.name: rules.excludes, **sorts}
+
+
+def is_across(call: Call, known: Mapping[str, ModifierRules]) -> bool:
+    """Whether it is a speed across the lane, which leaves room for everything along it."""
+    return LATERAL_SPEED in sorts_of(call, known)
+
+
+def clashes(
+    calls: Sequence[CallT], known: Mapping[str, ModifierRules], timing: Timing
+) -> Iterator[Clash[CallT]]:
+    """Yield what does not go together in the modifiers of an action.
+
+    Args:
+        calls: The modifiers, in their order.
+        known: Rules of all modifiers by name.
+        timing: What is known about the length of the action.
+    """
+    action = _Action(calls, known, timing)
+    yield from action.same_things()
+    yield from action.twice()
+    yield from action.starts()
+    yield from action.contradictions()
+    for call in action.lasting:
+        for broken in violations(f"`{call.name}`", known[call.name].while_moving, call.given):
+            yield Clash("rule", (call,), broken.text, broken.parameter)
+
+
+class _Action(Generic[CallT]):
+    def __init__(
+        self, calls: Sequence[CallT], known: Mapping[str, ModifierRules], timing: Timing
+    ) -> None:
+        self.calls = [call for call in calls if call.name in known]
+        self.known = known
+        self.timing = timing
+        self.lasting = [call for call in self.calls if not self._is_start(call)]
+
+    def same_things(self) -> Iterator[Clash[CallT]]:
+        """Yield pairs that speak of the same thing, each once."""
+        seen: set[frozenset[int]] = set()
+        for pair in self._same_things():
+            identity = frozenset(map(id, pair))
+            if identity not in seen:
+                yield Clash("same thing", pair)
+            seen.add(identity)
+
+    def _same_things(self) -> Iterator[tuple[CallT, CallT]]:
+        for call in self.lasting:
+            yield from self._excluded_by(call)
+        yield from self._ways()
+        topics = dict.fromkeys(t for call in self.lasting for t in self.known[call.name].topics)
+        for topic in topics:
+            first, *others = self._about((topic,))
+            yield from ((first, other) for other in others if other.name != first.name)
+
+    def _excluded_by(self, call: CallT) -> Iterator[tuple[CallT, CallT]]:
+        """Yield the modifiers for which one leaves no room, though those go together."""
+        sorts = sorts_of(call, self.known)
+        for sort in sorted(sorts):
+            for other in self._about(sorts[sort]):
+                arrives = sort in ("speed", "acceleration") and other.name == "position"
+                if other is call or (arrives and self._has_room_for_place()):
+                    continue
+                if not is_across(other, self.known):
+                    yield call, other
+
+    def _ways(self) -> Iterator[tuple[CallT, CallT]]:
+        """Yield rates beside a distance to cover, where the time for it is known."""
+        if not (self.timing.has_duration or self.timing.end_is_known):
+            return
+        rates = self._named("acceleration")
+        if not self._arrives():
+            rates = [*self._speeds(), *rates]
+        yield from ((rate, way) for rate in rates for way in self._named("distance"))
+
+    def _has_room_for_place(self) -> bool:
+        """Whether there can be a place beside speeds and accelerations: at the end."""
+        places = self._named("position")
+        rates = [*self._speeds(), *self._named("acceleration")]
+        if any("shape" in place.given or place.at != "end" for place in places):
+            return False
+        return self._arrives() or all(rate.at == "all" for rate in rates)
+
+    def _arrives(self) -> bool:
+        """Whether a place and a speed at the end of a known time are asked for."""
+        return (
+            self.timing.end_is_known is not False
+            and all(speed.at == "end" and not speed.shaped for speed in self._speeds())
+            and all(place.at == "end" for place in self._named("position"))
+        )
+
+    def twice(self) -> Iterator[Clash[CallT]]:
+        """Yield modifiers that stand there twice, both for the start or both for later."""
+        found: dict[tuple[str, bool, bool], CallT] = {}
+        for call in self.calls:
+            subject = call.name, is_across(call, self.known), self._is_start(call)
+            if subject in found:
+                yield Clash("twice", (found[subject], call))
+            found.setdefault(subject, call)
+
+    def starts(self) -> Iterator[Clash[CallT]]:
+        """Yield what says nothing about the start that it is said of."""
+        for call in self.calls:
+            if call.at != "start":
+                continue
+            reason = self.known[call.name].no_start
+            if reason:
+                yield Clash("no start", (call,), reason)
+                continue
+            for broken in violations(f"`{call.name}`", STARTING, call.given):
+                yield Clash("rule", (call,), broken.text, broken.parameter)
+
+    def contradictions(self) -> Iterator[Clash[CallT]]:
+        """Yield arguments that contradict each other."""
+        for (one, value), (other, rival) in CONTRADICTIONS:
+            first = [c for c in self.calls if one in c.given and c.given.word(one) == value]
+            second = [c for c in self.calls if other in c.given and c.given.word(other) == rival]
+            if first and second:
+                text = f"`{value}` and `{rival}` exclude each other"
+                yield Clash("contradiction", (first[-1], second[-1]), text, other)
+
+    # --- modifiers -------------------------------------------------------------------------------
+
+    def _is_start(self, call: CallT) -> bool:
+        return call.at == "start" and self.known[call.name].starts
+
+    def _about(self, what: Collection[str]) -> list[CallT]:
+        """Return the lasting modifiers that have one of these names, or speak of such a topic."""
+        return [
+            call
+            for call in self.lasting
+            if call.name in what or any(topic in what for topic in self.known[call.name].topics)
+        ]
+
+    def _named(self, name: str) -> list[CallT]:
+        return [call for call in self.lasting if call.name == name]
+
+    def _speeds(self) -> list[CallT]:
+        """Return the speeds along the road."""
+        return [call for call in self._named("speed") if not is_across(call, self.known)]

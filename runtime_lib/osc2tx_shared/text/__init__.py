@@ -1,0 +1,45 @@
+r"""Text from files and arguments on its way out: to terminals, logs and files.
+
+Names, strings, comments, paths and values of options are text of others. Where they are shown,
+what steers a terminal, turns the direction of writing or begins a line of its own is written as an
+escape (`\x1b`, `\u202e`, `\n`), and what a CI server would obey (`::error::`) is broken up.
+
+`escapes` says how a text looks in a line, in JSON and in XML. `printing` is the only place where
+osc2tx and its runtime write to standard output and standard error, and cleans all of it. The
+package imports nothing but the standard library.
+"""
+
+from __future__ import annotations
+
+from osc2tx_shared.text.escapes import in_json, in_xml, visible, without_commands
+from osc2tx_shared.text.printing import (
+    READER_HAS_GONE,
+    OutputError,
+    clear_status,
+    complain,
+    expect_output,
+    explain,
+    is_watched,
+    put,
+    put_document,
+    say,
+    show_status,
+)
+
+__all__ = [
+    "READER_HAS_GONE",
+    "OutputError",
+    "clear_status",
+    "complain",
+    "expect_output",
+    "explain",
+    "in_json",
+    "in_xml",
+    "is_watched",
+    "put",
+    "put_document",
+    "say",
+    "show_status",
+    "visible",
+    "without_commands",
+]

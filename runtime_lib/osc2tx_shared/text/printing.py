@@ -1,0 +1,157 @@
+"""The only way to standard output and standard error."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from contextlib import suppress
+from typing import Literal, TextIO
+
+from osc2tx_shared.text.escapes import visible, without_commands
+
+__all__ = [
+    "READER_HAS_GONE",
+    "OutputError",
+    "clear_status",
+    "complain",
+    "expect_output",
+    "explain",
+    "is_watched",
+    "put",
+    "put_document",
+    "say",
+    "show_status",
+]
+
+UNWRITABLE = 4
+READER_HAS_GONE = 141  # as shells have it: 128 + SIGPIPE
+
+_COLOR = re.compile("(\x1b\\[[0-9;]*m)")
+
+
+def _stand_in(name: Literal["stdout", "stderr"]) -> bool:
+    """Put a stream in the place of one that the process was started without.
+
+    Libraries take it for granted that there is one, and a file of ours must not get its number.
+    Who closes standard error wants no messages; the exit code still says how it went.
+    """
+    if getattr(sys, name) is None:
+        setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
+        return True
+    return False
+
+
+_stand_in("stderr")
+_HAS_NO_OUTPUT = _stand_in("stdout")
+
+
+class OutputError(Exception):
+    """Standard output or standard error takes no text.
+
+    Attributes:
+        exit_code: What the process returns: 141 if the reader has gone, as `head` does.
+    """
+
+    def __init__(self, name: str, reason: str, exit_code: int = UNWRITABLE) -> None:
+        super().__init__(f"{name} cannot be written: {reason}")
+        self.exit_code = exit_code
+
+
+def explain(error: OutputError) -> int:
+    """Say why an output failed, if somebody may still read it; return the exit code."""
+    if error.exit_code != READER_HAS_GONE:
+        with suppress(OutputError):
+            complain(f"error: {error}")
+    return error.exit_code
+
+
+def is_watched(*, err: bool = True) -> bool:
+    """Whether standard error, or standard output, is a terminal."""
+    return (sys.stderr if err else sys.stdout).isatty()
+
+
+def expect_output() -> None:
+    """Refuse to go on without standard output; for libraries that would print into nothing.
+
+    Raises:
+        OutputError: If the process was started without it.
+    """
+    if _HAS_NO_OUTPUT:
+        raise OutputError("standard output", "it is closed")
+
+
+def say(line: str) -> None:
+    """Print a line; what would end it is escaped."""
+    _write("stdout", f"{without_commands(visible(line))}\n")
+
+
+def complain(line: str) -> None:
+    """Print a line on standard error."""
+    _write("stderr", f"{without_commands(visible(line))}\n")
+
+
+def put(text: str, *, err: bool = False, colored: bool = False) -> None:
+    """Print lines of text.
+
+    Args:
+        text: The lines. Whoever puts them together has made sure that no part of one ends it.
+        err: On standard error.
+        colored: Let the sequences for colors pass.
+    """
+    clean = _clean_colored if colored else _clean
+    lines = map(clean, text.removesuffix("\n").split("\n"))
+    _write("stderr" if err else "stdout", "\n".join(lines) + "\n")
+
+
+def put_document(text: str) -> None:
+    """Print a document for programs as it is: whoever made it has escaped what stands in it."""
+    _write("stdout", text)
+
+
+def show_status(text: str) -> None:
+    """Show a line on the terminal that the next one replaces."""
+    _write("stderr", f"\r\033[K{_clean(text)}")
+
+
+def clear_status() -> None:
+    """Wipe the line of `show_status`."""
+    _write("stderr", "\r\033[K")
+
+
+def _clean(line: str) -> str:
+    return without_commands("\t".join(map(visible, line.split("\t"))))
+
+
+def _clean_colored(line: str) -> str:
+    parts = _COLOR.split(line)
+    parts[::2] = map(_clean, parts[::2])
+    return "".join(parts)
+
+
+def _write(name: Literal["stdout", "stderr"], text: str) -> None:
+    """Write to a stream of the process; what it has no characters for is escaped.
+
+    Raises:
+        OutputError: If it is full or not read any more, or standard output is closed.
+    """
+    stream: TextIO = getattr(sys, name)
+    told = f"standard {'output' if name == 'stdout' else 'error'}"
+    if name == "stdout":
+        expect_output()
+    encoding = stream.encoding or "utf-8"
+    try:
+        stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
+        stream.flush()
+    except OSError as error:
+        _abandon(stream)
+        code = READER_HAS_GONE if isinstance(error, BrokenPipeError) else UNWRITABLE
+        raise OutputError(told, error.strerror or str(error), code) from None
+
+
+def _abandon(stream: TextIO) -> None:
+    """Lead a stream nowhere, or the interpreter complains when it ends about what is left in it."""
+    try:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+    except (OSError, ValueError):  # a stream of a test, or of another program
+        return
