@@ -5,7 +5,7 @@ A diagnostic is data (code, severity, message, spans, help); a stage puts it int
 
 Modules, in reading order: `source` (texts and spans), `model` (the diagnostic itself), `codes` (the
 registry of codes and their explanations), `sink` (collecting and ordering), `suppressions`
-(comments that silence warnings), `report` (the diagnostics of a run), `render` (its output formats).
+(comments that silence warnings), `report` (the diagnostics of a run), `render` (its formats).
 `suggestions` finds the nearest name ("did you mean").
 """
 
