@@ -43,16 +43,16 @@ def _report(
     judge: _Durations, member: ast.Composition | ast.Invocation, sink: DiagnosticSink
 ) -> None:
     given = judge.given(member)
-    own = judge.own_length(member) if given is None else given
+    length = judge.own_length(member) if given is None else given
     until = judge.until(member)
-    if own is None or until is None:
+    if length is None or until is None:
         return
     ends, span = until
-    if ends[0] > own[1] + SLACK:
-        when = f"later than the {_text(own)} that it takes"
-    elif ends[1] < own[0] - SLACK:
-        when = f"earlier than the {_text(own)} that it takes"
-    else:
+    if ends[0] > length[1] + SLACK:
+        when = f"later than the {_text(length)} that it takes"
+    elif given is not None and ends[1] < given[0] - SLACK:
+        when = f"earlier than its duration of {_text(given)}"
+    else:  # ending a member early is what `until` is for
         return
     other = judge.span_of_duration(member)
     sink.report(
