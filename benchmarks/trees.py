@@ -8,7 +8,6 @@ import py_trees
 from costs import best, growth, upto
 from py_trees.common import ParallelPolicy, Status
 
-from osc2tx_runtime.domain.map.search import SHIPPED
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.tree import (
     Behaviour,
@@ -26,6 +25,7 @@ from osc2tx_runtime.opendrive import read_map
 from osc2tx_runtime.running.loop import settle
 from osc2tx_runtime.running.runner import setup_tree
 from osc2tx_runtime.world import EmbeddedWorld
+from osc2tx_shared.map_files import SHIPPED
 
 LEAVES = (10, 100, 1000)
 DEPTHS = (10, 50, 200)

@@ -18,6 +18,7 @@ from osc2tx.compilation import stages
 from osc2tx.compilation.file_reports import LossEntry, apply_suppressions
 from osc2tx.compilation.imports import ImportLoader, Lookup, leads_outside, look_up
 from osc2tx.compilation.inputs import is_unicode
+from osc2tx.compilation.map_files import report_missing_maps
 from osc2tx.compilation.products import Output, files_of_module, files_of_xml
 from osc2tx.compilation.siblings import find_siblings
 from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
@@ -171,6 +172,7 @@ class Compilation:
 
             with room_for_trees():
                 check_support(self.ir, self.sink)
+        self._report_missing_maps(self.ir)
         self.is_complete = not self._failed()
         if self.options.target == "xosc":
             self._report_losses()
@@ -293,6 +295,12 @@ class Compilation:
             LossEntry(scenario.name, scenario.xml is not None, scenario.report.summary())
             for scenario in self.xml
         )
+
+    def _report_missing_maps(self, module: Module) -> None:
+        """Report maps that are not there, and note where they were looked for."""
+        folders = [self.path.parent, *map(Path, self.options.xml.map_path)]
+        for place in report_missing_maps(module, folders, self.sink):
+            self.lookups[place] = look_up(place)
 
     def _report_losses(self) -> None:
         """Report what keeps scenarios from being XML."""

@@ -92,7 +92,7 @@ from osc2tx.ir.nodes import (
     Placement,
     Scenario,
 )
-from osc2tx.ir.traversal import applied_with, children, constant, is_live, rewrite, walk
+from osc2tx.ir.traversal import applied_with, bounds, children, constant, is_live, rewrite, walk
 from osc2tx.ir.user_types import (
     ActionParameter,
     UserAction,
@@ -194,6 +194,7 @@ __all__ = [
     "Variable",
     "Wait",
     "applied_with",
+    "bounds",
     "children",
     "condition_expressions",
     "constant",

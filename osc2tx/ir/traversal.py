@@ -5,7 +5,9 @@ from __future__ import annotations
 import operator
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import fields
-from typing import Any
+from math import inf
+from types import MappingProxyType
+from typing import Any, TypeAlias
 
 from osc2tx.ir.behaviors import ModifierCall
 from osc2tx.ir.expressions import (
@@ -40,6 +42,8 @@ from osc2tx.ir.expressions import (
 from osc2tx.ir.values import ExpressionBase
 from osc2tx_shared.classes import replace
 
+Bounds: TypeAlias = tuple[float, float]
+
 OPERATIONS: Mapping[str, Callable[[float, float], float]] = {
     "+": operator.add,
     "-": operator.sub,
@@ -50,23 +54,63 @@ OPERATIONS: Mapping[str, Callable[[float, float], float]] = {
 
 def constant(expression: Expression) -> float | None:
     """Return the value of an expression of numbers alone; `None` if it has others in it."""
-    values: list[float] = []
+    found = bounds(expression)
+    return None if found is None else found[0]
+
+
+def bounds(
+    expression: Expression, values: Mapping[str, Expression] = MappingProxyType({})
+) -> Bounds | None:
+    """Return the least and the greatest value of an expression of numbers; `None` if unknown.
+
+    Args:
+        expression: The expression.
+        values: Values and domains of parameters, by name.
+    """
+    found: list[Bounds] = []
     for part in _postfix(expression):
         match part:
             case Literal(value=int() | float() as value) if not isinstance(value, bool):
-                values.append(value)
+                found.append((value, value))
             case Quantity():
-                values.append(part.si)
-            case Unary(operator="-"):
-                values.append(-values.pop())
-            case Binary(operator=sign) if sign in OPERATIONS:
-                right, left = values.pop(), values.pop()
-                if sign == "/" and right == 0.0:
+                found.append((part.si, part.si))
+            case FieldRef(name=name) if name in values:
+                of_parameter = _bounds_of_domain(values[name])
+                if of_parameter is None:
                     return None
-                values.append(OPERATIONS[sign](left, right))
+                found.append(of_parameter)
+            case Unary(operator="-"):
+                low, high = found.pop()
+                found.append((-high, -low))
+            case Binary(operator=sign) if sign in OPERATIONS:
+                right, left = found.pop(), found.pop()
+                if sign == "/" and right[0] <= 0.0 <= right[1]:
+                    return None
+                corners = [OPERATIONS[sign](one, other) for one in left for other in right]
+                found.append((min(corners), max(corners)))
             case _:
                 return None
-    return values[0]
+    return found[0]
+
+
+def _bounds_of_domain(domain: Expression) -> Bounds | None:
+    """Return the least and the greatest of a value, a range or a set of numbers."""
+    match domain:
+        case RangeValue(lower=lower, upper=upper):
+            ends = [bounds(lower), bounds(upper)]
+        case HalfRange(bound=bound, is_lower=is_lower):
+            end = constant(bound)
+            if end is None:
+                return None
+            return (end, inf) if is_lower else (-inf, end)
+        case Choices(elements=elements):
+            ends = [bounds(element) for element in elements]
+        case _:
+            return bounds(domain)
+    known = [end for end in ends if end is not None]
+    if not known or len(known) < len(ends):
+        return None
+    return min(low for low, _ in known), max(high for _, high in known)
 
 
 def _postfix(expression: Expression) -> list[Expression]:

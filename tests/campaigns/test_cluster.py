@@ -26,7 +26,7 @@ from osc2tx_runtime import RunSettings
 from osc2tx_runtime.campaigns import Plan
 from osc2tx_runtime.campaigns.remote import parcel_of, run_rows
 from osc2tx_runtime.campaigns.worker import Refused
-from osc2tx_runtime.domain.map.search import SHIPPED
+from osc2tx_shared.map_files import SHIPPED
 from tests.campaigns.deaths import die_twenty_times
 from tests.campaigns.kit import TRIANGLE, Here, calm, digest, plan_of, run
 from tests.campaigns.test_search import search

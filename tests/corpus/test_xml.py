@@ -8,7 +8,7 @@ import pytest
 
 from osc2tx.options import XmlOptions
 from osc2tx_runtime import RunSettings
-from osc2tx_runtime.domain.map.search import SHIPPED
+from osc2tx_shared.map_files import SHIPPED
 from tests.corpus.report import INVALID, OPTIONS, manifest, roots_of
 from tests.unit.backends.xosc.documents import compiled
 from tests.xosc.parity import FINE, Given, check, is_measured, played, scenarios

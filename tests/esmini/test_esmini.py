@@ -20,7 +20,7 @@ import pytest
 from osc2tx.backends.xosc import XmlScenario, emit
 from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx_runtime import RunSettings
-from osc2tx_runtime.domain.map.search import SHIPPED
+from osc2tx_shared.map_files import SHIPPED
 from tests.processes import HANGING
 from tests.unit.backends.xosc.documents import PLAIN, compiled
 from tests.xosc.case_study import OPTIONS, SCENARIO, maps_in, run_settings, xml_options

@@ -13,8 +13,8 @@ from osc2tx.backends.xosc.report import Grade, Metres
 from osc2tx.backends.xosc.xml.profiles import PROFILES
 from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx_runtime import RunSettings
-from osc2tx_runtime.domain.map.search import SHIPPED
 from osc2tx_runtime.opendrive import RoadMap, read_map
+from osc2tx_shared.map_files import SHIPPED
 from tests.unit.backends.xosc.documents import PLAIN, compiled, documents
 from tests.xosc.conditions import BY_THE_STANDARD, Reading
 from tests.xosc.played import KEPT, Difference, Played, compare, values_of, world

@@ -6,7 +6,9 @@ import math
 
 from osc2tx.analysis.constraints.collect import Constraint
 from osc2tx.analysis.constraints.domains import Choice, Domain, Interval, Number
+from osc2tx.analysis.constraints.operation_list import OperationListBuilder
 from osc2tx.analysis.constraints.propagation import ParameterDomain
+from osc2tx.analysis.constraints.solver import values_on
 from osc2tx.analysis.tree_walk import nodes_below
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
@@ -16,9 +18,35 @@ MOST_CHOICES = 6
 
 
 def format_range(model: SemanticModel, parameter: ParameterDomain) -> str:
-    """Return what a bounded parameter can be, as `in [80kph..95kph]`."""
+    """Return what a bounded parameter can be, as `in [80kph..95kph]` or `in {12m, 40m}`."""
     unit = unit_of(model, parameter.constraints)
+    listed = _listed(model, parameter, unit)
+    if listed:
+        return f"in {_format_values(listed)}"
     return f"in {format_domain(parameter.domain, parameter.type, unit)}"
+
+
+def _listed(
+    model: SemanticModel, parameter: ParameterDomain, unit: sym.UnitSymbol | None
+) -> list[str]:
+    """Return the numbers of the list that a parameter is in; none if it is in no list of numbers.
+
+    The domain of such a parameter is the interval around them; what is outside of it is left out.
+    """
+    domain = parameter.domain
+    if not isinstance(parameter.range, ast.ListLiteral) or not isinstance(domain, Interval):
+        return []
+    place = parameter.constraints[-1].place
+    found: list[str] = []
+    for element in parameter.range.elements:
+        operations = OperationListBuilder(model).write(element, place.locate)
+        value = values_on(operations, {})[-1]
+        if not isinstance(value, Interval) or not value.is_point:
+            return []
+        if domain.contains(value.lower):
+            fits = unit is not None and unit.type == parameter.type
+            found.append(format_number(value.lower, unit if fits else None))
+    return list(dict.fromkeys(found))
 
 
 def format_free(model: SemanticModel, parameter: ParameterDomain) -> str:
@@ -60,8 +88,13 @@ def _format_choice(domain: Choice, type_: types.Type) -> str:
         texts = [m.name for m in type_.symbol.members.values() if m.value in domain.values]
     else:
         texts = [_literal(value) for value in sorted(domain.values, key=str)]
+    return _format_values(texts)
+
+
+def _format_values(texts: list[str]) -> str:
+    """Return a set of values as text."""
     shown = ", ".join(texts[:MOST_CHOICES]) + (", ..." if len(texts) > MOST_CHOICES else "")
-    return f"[{shown}]"
+    return f"{{{shown}}}"
 
 
 def _literal(value: object) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import TypeAlias
 
 from osc2tx import ir
@@ -17,11 +18,15 @@ class GivenArguments:
 
     Args:
         given: The arguments.
+        values: Values and domains of the scenario's parameters, by name.
     """
 
-    def __init__(self, given: Given) -> None:
-        """Take them."""
+    def __init__(
+        self, given: Given, values: Mapping[str, ir.Expression] = MappingProxyType({})
+    ) -> None:
+        """See the class."""
         self._given = given
+        self._values = values
 
     def __contains__(self, name: str) -> bool:
         return name in self._given
@@ -31,10 +36,13 @@ class GivenArguments:
         argument = self._given[name]
         return word(argument) if isinstance(argument, ir.Argument) else argument
 
-    def number(self, name: str) -> float | None:
-        """Return the number that an argument is, if the compiler knows it."""
+    def greatest(self, name: str) -> float | None:
+        """Return the greatest number that an argument can be, if the compiler knows it."""
         argument = self._given[name]
-        return ir.constant(argument.value) if isinstance(argument, ir.Argument) else None
+        if not isinstance(argument, ir.Argument):
+            return None
+        found = ir.bounds(argument.value, self._values)
+        return None if found is None else found[1]
 
     def span(self, name: str | None, call: Span) -> Span:
         """Return where an argument stands, or the call where it does not."""

@@ -49,6 +49,7 @@ class CallCheck:
         declared = (d for d in declarations if isinstance(d, ir.Actor | ir.Struct))
         self._lineages = {each.name: each.lineage for each in declared}
         self._values = {d.name: d.value for d in declarations if isinstance(d, ir.Parameter)}
+        self._domains = domains_of(declarations)
         self._combinations = CombinationCheck(library, objects, sink, self._lineages)
         self._library = library
         self._objects = objects
@@ -211,9 +212,16 @@ class CallCheck:
         arguments: tuple[ir.Argument, ...],
         others: Given = MappingProxyType({}),
     ) -> None:
-        given = GivenArguments({**by_name(arguments), **others})
+        given = GivenArguments({**by_name(arguments), **others}, self._domains)
         for broken in violations(subject, rules, given):
             self._sink.report("OSC513", given.span(broken.parameter, span), broken.text)
+
+
+def domains_of(declarations: Iterable[ir.Declaration]) -> dict[str, ir.Expression]:
+    """Return values and domains of parameters by name, of those that no run may give any value."""
+    parameters = [each for each in declarations if isinstance(each, ir.Parameter)]
+    found = ((each.name, each.value if each.is_fixed else each.domain) for each in parameters)
+    return {name: domain for name, domain in found if domain is not None}
 
 
 def _with_article(word: str) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import PurePosixPath
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.call_support import CallCheck
+from osc2tx.backends.py_trees.call_support import CallCheck, domains_of
 from osc2tx.backends.py_trees.naming import identifier, module_name
 from osc2tx.backends.py_trees.object_support import ObjectCheck
 from osc2tx.backends.py_trees.own_names import declarations, has_module, is_own
@@ -63,6 +63,7 @@ class _SupportCheck:
         self.own = own
         self.sink = sink
         self.objects = object_tables()
+        self.domains = domains_of(declarations)
         self.calls = CallCheck(catalogue(), self.objects, sink, self.expressions, declarations)
 
     def run(self, scenario: ir.Scenario) -> None:
@@ -180,8 +181,8 @@ class _SupportCheck:
 
     def at_least_zero(self, duration: ir.Expression) -> None:
         for value in ir.children(duration) if isinstance(duration, ir.RangeValue) else (duration,):
-            seconds = ir.constant(value)
-            if seconds is not None and seconds < 0.0:
+            seconds = ir.bounds(value, self.domains)
+            if seconds is not None and seconds[1] < 0.0:
                 self.sink.report("OSC513", value.span, "a duration cannot be negative")
 
     def time(self, value: ir.Expression) -> None:

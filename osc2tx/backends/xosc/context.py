@@ -9,7 +9,7 @@ from pathlib import Path
 from osc2tx import ir
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.map_search import MapSegment
-from osc2tx.backends.xosc.facts.maps import Pose, Roads, map_places, roads_of
+from osc2tx.backends.xosc.facts.maps import Pose, Roads, roads_of
 from osc2tx.backends.xosc.logical.parameter_choices import NOTHING_OPEN, Choosing
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, LossReport, Remedy
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
@@ -20,6 +20,7 @@ from osc2tx.backends.xosc.xml.profiles import PROFILES, ToolProfile
 from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions, XmlVersion
+from osc2tx_shared.map_files import places_in_project
 
 _NUMBERS = {"false": "0", "true": "1"}
 
@@ -90,7 +91,7 @@ class Context:
         self.map_file = self._map_file()
         folders = [*([folder] if folder else []), *map(Path, options.map_path)]
         self.roads: Roads | None = roads_of(self.map_file, folders)
-        self.map_places = tuple(map_places(self.map_file, folders))
+        self.map_places = places_in_project(self.map_file, folders)
         self.states: dict[str, ActorState] = {}
         self.at_start: dict[str, ActorState] = {}
         self.start_poses: dict[str, Pose] = {}

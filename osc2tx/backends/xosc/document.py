@@ -11,13 +11,13 @@ from osc2tx.backends.xosc.conditions.flow import Flow, at_time, single
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.entities import scenario_objects
 from osc2tx.backends.xosc.entities.init_actions import initial_actions
-from osc2tx.backends.xosc.facts.maps import DEFAULT_MAP
 from osc2tx.backends.xosc.flattening.flatten import Flattener
 from osc2tx.backends.xosc.flattening.storyboard.storyboard import StoryboardWriter
 from osc2tx.backends.xosc.logical.parameters import declaration
 from osc2tx.backends.xosc.xml.adapting import adapted
 from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx.ir.source_text import condensed
+from osc2tx_shared.map_files import DEFAULT_MAP
 
 DATE = "2000-01-01T00:00:00"
 """The schema asks for a date; a real one would change the file each day."""

@@ -20,6 +20,7 @@ from osc2tx.semantics.declarations.resolve_types import (
     report_unknown_behavior,
 )
 from osc2tx.semantics.expressions.methods import resolve_call, type_itself
+from osc2tx.semantics.names.actions_on_structs import actions_on
 from osc2tx.semantics.names.everyday_words import OUTPUT
 from osc2tx.semantics.names.unknown_names import report_unimported
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
@@ -232,7 +233,12 @@ def _find_of_actor(
         return None
     if not isinstance(type_, ActorType):
         assert node.actor is not None
-        r.report("OSC301", node.actor.span, f"`{type_}` is not an actor; it has no behaviors")
+        r.report(
+            "OSC301",
+            node.actor.span,
+            f"`{type_}` is not an actor; it has no behaviors",
+            help=actions_on(r, type_, node),
+        )
         return None
     found = find_behavior(r, type_.symbol, node.behavior, env.context)
     if found is None:

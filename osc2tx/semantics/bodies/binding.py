@@ -38,7 +38,7 @@ class _Written(dict[str, ast.Expression]):
     def word(self, name: str) -> None:
         """No rule looks at words."""
 
-    def number(self, name: str) -> None:
+    def greatest(self, name: str) -> None:
         """No rule looks at numbers."""
 
 

@@ -42,8 +42,8 @@ class Given(Protocol):
         Of an object it is the type (`path`).
         """
 
-    def number(self, name: str, /) -> float | None:
-        """Return the number that an argument is; None if it is none, or not known yet."""
+    def greatest(self, name: str, /) -> float | None:
+        """Return the greatest number that an argument can be; None if that is not known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,12 +114,12 @@ def _violations(
             yield Violation(found[0], f"{subject} leaves no room for `{found[0]}`")
         case "at_least":
             for name in found:
-                number = given.number(name)
+                number = given.greatest(name)
                 if number is not None and number < rule.least:
                     yield Violation(name, f"`{name}` must not be less than {rule.least}")
         case "above":
             for name in found:
-                number = given.number(name)
+                number = given.greatest(name)
                 if number is not None and number <= rule.least:
                     yield Violation(name, f"`{name}` must be above {rule.least}")
 

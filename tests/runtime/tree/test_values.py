@@ -83,7 +83,7 @@ def test_what_no_draw_fits_is_an_error() -> None:
         ({"gap": "wide"}, "--set gap=wide: write a number"),
         ({"gap": 3.0}, "leaves lanes open; the scenario allows at most 4"),
         ({"gap": 3.0, "lanes": 2.5}, "--set lanes=2.5: write a whole number"),
-        ({"gap": 3.0, "lanes": 2.0, "color": "green"}, "--set color=green: .* red, blue"),
+        ({"gap": 3.0, "lanes": 2.0, "color": "green"}, "--set color=green: .* {red, blue}"),
     ],
 )
 def test_settings_are_checked(chosen: dict[str, Any], message: str) -> None:

@@ -110,3 +110,43 @@ def test_sarif_links_only_to_addresses(shell: Shell) -> None:
         ended = shell(*sarif, address)
         assert ended.code == 2
         assert "no address" in ended.err
+
+
+ON_A_MAP = """\
+import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario top:
+    road: map with:
+        keep(it.map_file == "{map}.xodr")
+    ego: vehicle
+    do ego.drive(duration: 1s)
+"""
+
+
+def test_a_map_that_is_not_there(shell: Shell) -> None:
+    """It is looked for beside the file, in the folders that are given, and among those shipped."""
+    shell.write("a.osc", ON_A_MAP.format(map="highwy"))
+    (shell.folder / "maps").mkdir()
+    ended = shell("check", "--map-path", "maps", "a.osc")
+    assert ended.code == 0
+    assert "a.osc:7:29: warning[OSC443]: there is no map `highwy.xodr`" in ended.err
+    assert "searched in the folder of the file, `maps`, the maps of the runtime" in ended.err
+    assert "did you mean `highway.xodr`?" in ended.err
+    for place in ("highwy.xodr", "maps/highwy.xodr"):
+        path = shell.write(place, "")
+        assert "OSC443" not in shell("check", "--map-path", "maps", "a.osc").err
+        path.unlink()
+    shell.write("a.osc", ON_A_MAP.format(map="highway"))
+    assert "OSC443" not in shell("check", "a.osc").err
+
+
+def test_both_values_of_a_set_are_named(shell: Shell) -> None:
+    place = (
+        "lane(1, at: start)\n        position(gap, at: start)\n        speed(gap / 1s, at: start)\n"
+    )
+    field = "    gap: length with:\n        keep(it in [12m, 40m])\n    do"
+    text = ON_A_MAP.format(map="highway").replace("    do", field)
+    shell.write("a.osc", text.replace("(duration: 1s)", f"(duration: 1s) with:\n        {place}"))
+    assert "logical (open: gap in {12m, 40m})" in shell("check", "a.osc").out

@@ -9,7 +9,7 @@ import pytest
 from lxml import etree
 
 from osc2tx.building.manifest import MANIFEST_NAME
-from osc2tx_runtime.domain.map.search import DEFAULT_MAP, SHIPPED
+from osc2tx_shared.map_files import DEFAULT_MAP, SHIPPED
 from tests.unit.building.projects import listing
 from tests.unit.cli.shell import Shell
 

@@ -9,7 +9,7 @@ from typing import Literal, cast
 
 from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx_runtime.domain.map.search import DEFAULT_MAP, SUFFIXES, find_map
+from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.domain.routes.lane_coordinates import road_entry
 from osc2tx_runtime.domain.routes.road_paths import way_through
 from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
@@ -26,8 +26,9 @@ from osc2tx_runtime.world.geometry.lane_neighbours import (
 from osc2tx_runtime.world.longitudinal.bends_ahead import BendsAhead
 from osc2tx_runtime.world.surroundings.traffic_light_lamps import Lamp, lamps_that_mean, meaning_of
 from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
+from osc2tx_shared.map_files import DEFAULT_MAP
 
-__all__ = ["DEFAULT_MAP", "Lamp", "LanePosition", "Pose", "Roads", "map_places", "roads_of"]
+__all__ = ["Lamp", "LanePosition", "Pose", "Roads", "roads_of"]
 
 
 MOST_MAPS = 32
@@ -223,20 +224,6 @@ def roads_of(map_file: str | None, folders: Sequence[Path]) -> Roads | None:
         return _read_now(find_map(map_file, [f for f in folders if f.exists()]))
     except InputError:
         return None
-
-
-def map_places(map_file: str | None, folders: Sequence[Path]) -> list[Path]:
-    """Return where a map is looked for, outside of the runtime library."""
-    wanted = Path(map_file or DEFAULT_MAP)
-    if wanted.is_absolute() or ".." in wanted.parts:
-        return []
-    return [
-        place
-        for entry in folders
-        for place in (
-            [entry] if entry.is_file() else [entry / f"{wanted}{suffix}" for suffix in SUFFIXES]
-        )
-    ]
 
 
 def _read_now(path: Path) -> Roads:

@@ -6,12 +6,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from osc2tx_runtime.errors import InputError
+from osc2tx_shared.map_files import DEFAULT_MAP, map_names, map_places
 
-__all__ = ["DEFAULT_MAP", "SHIPPED", "find_map"]
+__all__ = ["find_map"]
 
-SHIPPED = Path(__file__).parents[2] / "maps"
-DEFAULT_MAP = "highway.xodr"
-SUFFIXES = ("", ".xodr")
 LONGEST_SHOWN = 80
 
 
@@ -44,13 +42,11 @@ def _find(name: str | None, folders: Sequence[Path]) -> Path:
         if not entry.is_dir():
             raise InputError(f"--map-path {entry}: there is no such folder or file")
     wanted = name or DEFAULT_MAP
-    for folder in (*folders, SHIPPED):
-        for suffix in SUFFIXES:
-            path = folder / f"{wanted}{suffix}"
-            if path.is_file():
-                return path
+    for path in map_places(wanted, folders):
+        if path.is_file():
+            return path
     searched = ", ".join([*map(str, folders), "the maps of osc2tx_runtime"])
-    shipped = ", ".join(sorted(path.name for path in SHIPPED.glob("*.xodr")))
+    shipped = ", ".join(map_names(()))
     raise InputError(
         f"map `{_short(wanted)}` not found in {searched}; give its folder with --map-path."
         f" Shipped maps: {shipped or 'none'}"

@@ -16,7 +16,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, get_args
 
-from osc2tx_runtime.domain.map.search import SHIPPED
 from osc2tx_runtime.domain.signals.traffic_lights import (
     Bulbs,
     Shown,
@@ -26,6 +25,7 @@ from osc2tx_runtime.domain.signals.traffic_lights import (
 )
 from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import InputError
+from osc2tx_shared.map_files import SHIPPED
 
 __all__ = ["read_control_file"]
 

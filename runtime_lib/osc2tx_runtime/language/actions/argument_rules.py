@@ -32,7 +32,7 @@ class GivenValues:
         word = value if isinstance(value, str) else getattr(value, "kind", None)
         return word if isinstance(word, str) else None
 
-    def number(self, name: str) -> float | None:
+    def greatest(self, name: str) -> float | None:
         """Return a value that is a number; None for one that is read late."""
         value = self._values[name]
         return value if isinstance(value, int | float) else None

@@ -91,7 +91,7 @@ class Choice(Generic[ValueT]):
 
     def shown(self, unit: Unit | None) -> str:
         """Return its values, in a unit if they have one."""
-        return ", ".join(shown_value(value, unit) for value in self.values)
+        return f"{{{', '.join(shown_value(value, unit) for value in self.values)}}}"
 
 
 Domain: TypeAlias = Range[Any] | Choice[Any]

@@ -1,0 +1,85 @@
+"""Maps that scenarios name: are they there?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx_shared.map_files import map_names, map_places, places_in_project
+
+if TYPE_CHECKING:
+    from osc2tx import ir
+    from osc2tx.diagnostics import DiagnosticSink, Span
+
+__all__ = ["report_missing_maps"]
+
+
+class _NamedMap(NamedTuple):
+    """A map that a scenario names, and where."""
+
+    name: str
+    span: Span
+
+
+def report_missing_maps(
+    module: ir.Module, folders: Sequence[Path], sink: DiagnosticSink
+) -> list[Path]:
+    """Report maps that no folder has.
+
+    Args:
+        module: The scenarios.
+        folders: The folder of the file; folders with maps, or the map itself.
+        sink: Takes OSC443.
+
+    Returns:
+        Where maps were looked for in the project, so that a change is noticed.
+    """
+    looked_for: list[Path] = []
+    reported: set[str] = set()
+    for named in _named_maps(module):
+        if named.name in reported:
+            continue
+        reported.add(named.name)
+        looked_for += places_in_project(named.name, folders)
+        try:
+            is_found = any(place.is_file() for place in map_places(named.name, folders))
+        except (OSError, ValueError):  # a name that no file can have
+            is_found = False
+        if is_found:
+            continue
+        given = [f"`{folder}`" for folder in folders[1:]]
+        searched = ", ".join(["the folder of the file", *given, "the maps of the runtime"])
+        sink.report(
+            "OSC443",
+            named.span,
+            f"there is no map `{named.name:.80}`",
+            notes=[f"searched in {searched}"],
+            help=did_you_mean(named.name, map_names([f for f in folders if f.is_dir()]))
+            or "give the folder of the map with `--map-path`, or `map-path` in the settings file",
+        )
+    return looked_for
+
+
+def _named_maps(module: ir.Module) -> Iterator[_NamedMap]:
+    """Yield the maps that scenarios name by `map_file` or `set_map_file`."""
+    from osc2tx import ir
+
+    for scenario in module.scenarios:
+        for declaration in scenario.declarations:
+            if isinstance(declaration, ir.Actor) and "map" in declaration.lineage:
+                for value in declaration.values:
+                    if value.path == ("map_file",):
+                        yield from _text(value.value)
+        for placement in scenario.placements:
+            for call in placement.modifiers:
+                if call.name == "set_map_file":
+                    yield from _text(call.arguments[0].value)
+
+
+def _text(value: ir.Expression) -> Iterator[_NamedMap]:
+    from osc2tx import ir
+
+    if isinstance(value, ir.Literal) and isinstance(value.value, str):
+        yield _NamedMap(value.value, value.span)

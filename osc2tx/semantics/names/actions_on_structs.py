@@ -1,0 +1,64 @@
+"""Actions of actors that change a struct: structs themselves have no behaviors (§7.3.8)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from osc2tx.semantics.resolution import Resolution
+from osc2tx.semantics.symbols import ActionSymbol, FieldSymbol
+from osc2tx.semantics.types import ListType, StructType, Type
+from osc2tx.syntax import ast
+
+__all__ = ["actions_on"]
+
+
+def actions_on(r: Resolution, type_: Type, node: ast.Invocation) -> str | None:
+    """Return a help text that names the actions which change a struct.
+
+    Args:
+        r: The state of the pass.
+        type_: The type of what stands in place of an actor.
+        node: The invocation.
+
+    Returns:
+        The action that has the name of the invocation, else all actions that take such a struct,
+        else the action of the struct's own name (`rain`); `None` if there is none.
+    """
+    if not isinstance(type_, StructType):
+        return None
+    name, called = node.behavior.text, list(_actions(r))
+    taking = [(action, p) for action in called for p in _parameters_of_type(action, type_)]
+    for action, parameter in taking:
+        if action.name == name and node.actor is not None:
+            return _call(action, f"{parameter}: {node.actor.span.text}, …")
+    for action in called:
+        if action.name == name:
+            return _call(action, "…")
+    if taking:
+        names = sorted({f"`{action.qualified_name}`" for action, _ in taking})
+        return f"actions that change it: {', '.join(names)}"
+    own = next((action for action in called if action.name == type_.symbol.name), None)
+    return None if own is None else f"`{own.qualified_name}` changes it"
+
+
+def _call(action: ActionSymbol, arguments: str) -> str:
+    actor = action.actor.name if action.actor else ""
+    return f"write `<{actor}>.{action.name}({arguments})` with an actor of type `{actor}`"
+
+
+def _actions(r: Resolution) -> Iterator[ActionSymbol]:
+    """Yield all actions of actors."""
+    for layer in r.scope.layers():
+        for group in layer.behaviors.values():
+            for symbol in group:
+                if isinstance(symbol, ActionSymbol) and symbol.actor is not None:
+                    yield symbol
+
+
+def _parameters_of_type(action: ActionSymbol, type_: StructType) -> Iterator[str]:
+    """Yield the parameters of an action that are such a struct, or a list of them."""
+    for member in action.members.values():
+        if isinstance(member, FieldSymbol) and not member.is_variable:
+            found = member.type.element if isinstance(member.type, ListType) else member.type
+            if found == type_:
+                yield member.name
