@@ -73,7 +73,7 @@ def declared() -> tuple[Declarations, Declarations]:
     actions: Declarations = {}
     modifiers: Declarations = {}
     preludes = [d.prelude for d in DIALECTS.values() if d.prelude is not None]
-    for name in (stdlib.DOMAIN, *preludes):
+    for name in (*stdlib.LIBRARY, *preludes):
         for standard in ("2.2", "2.1"):
             for node in stdlib.library_file(name, standard).statements:
                 match node:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from functools import cache, partial
 
-from osc2tx.stdlib import DOMAIN, TYPES, library_file, member_meanings
+from osc2tx.stdlib import LIBRARY, library_file, member_meanings
 from osc2tx.syntax import ast
 from osc2tx_shared.classes import dataclass
 
@@ -106,7 +106,7 @@ def _only(member: Member, version: str) -> Member:
 
 
 def _of_version(standard: str) -> Iterator[Declaration]:
-    for name in (TYPES, DOMAIN):
+    for name in LIBRARY:
         statements = library_file(name, standard).statements
         units: dict[str, list[str]] = {}
         for statement in statements:

@@ -17,6 +17,8 @@ from osc2tx.syntax import ast, parse
 
 __all__ = [
     "DOMAIN",
+    "EXTENSIONS",
+    "LIBRARY",
     "TYPES",
     "library_file",
     "library_source",
@@ -24,7 +26,8 @@ __all__ = [
     "parse_library_file",
 ]
 
-TYPES, DOMAIN = "types.osc", "domain.osc"
+TYPES, DOMAIN, EXTENSIONS = "types.osc", "domain.osc", "extensions.osc"
+LIBRARY = (TYPES, DOMAIN, EXTENSIONS)  # in the order of loading
 
 _FOLDER = Path(__file__).parent
 _TAGGED_LINE = re.compile(r"^(.*)#! (since|until) (\d+\.\d+)[ \t]*$", re.MULTILINE)

@@ -54,7 +54,7 @@ def declared_items() -> Sequence[Item]:
     """Return all items, by kind and then in the order of the library."""
     found: dict[tuple[Kind, str], Item] = {}
     for standard in STANDARDS:
-        for name in (stdlib.TYPES, stdlib.DOMAIN):
+        for name in stdlib.LIBRARY:
             for kind, item, parameters in _items(stdlib.library_file(name, standard)):
                 known = found.setdefault((kind, item), Item(kind, item, parameters))
                 known.parameters = parameters

@@ -50,7 +50,7 @@ print(json.dumps(found))
 SCENARIO = """\
 import osc.standard.all
 
-namespace null use std, stdtypes
+namespace null use std, stdtypes, osc2tx
 
 scenario top:
     road: map with:
@@ -152,7 +152,7 @@ def test_the_module_knows_them_and_the_world_carries_them_out(answers: dict[str,
     assert "self.ego.swerve(" in module
     assert "wobble(" in module
     assert answers["offset"] == pytest.approx(1.25, abs=0.01)
-    assert answers["entry"] == ["8.8.3.99", "open", ["lateral"], ["lanes"]]
+    assert answers["entry"] == ["", "open", ["lateral"], ["lanes"]]
 
 
 def test_actors_have_a_typed_method(copy: Path, answers: dict[str, object]) -> None:

@@ -13,7 +13,7 @@ from osc2tx.semantics.expressions import infer
 from osc2tx.semantics.resolution import Resolution
 from osc2tx.semantics.scope import Scope
 from osc2tx.semantics.symbols import FieldSymbol, ModifierSymbol
-from osc2tx.stdlib import DOMAIN, TYPES, library_file
+from osc2tx.stdlib import LIBRARY, TYPES, library_file
 from osc2tx.syntax import ast
 from osc2tx_shared.classes import dataclass
 
@@ -77,7 +77,7 @@ def build_library(standard: str, dialect: Dialect, modules: str) -> Library:
     scope = Scope()
     resolution = Resolution(scope, sink, Relaxations(dialect), standard, infer)
     collector = Collector(scope, sink, resolution.relaxations, origin="library")
-    names = {"none": (), "types": (TYPES,), "all": (TYPES, DOMAIN)}[modules]
+    names = {"none": (), "types": (TYPES,), "all": LIBRARY}[modules]
     for name in names:
         collector.collect_file(library_file(name, standard))
     if dialect.prelude is not None and modules == "all":

@@ -9,20 +9,17 @@ import pytest
 
 from osc2tx.catalogue import catalogue
 from osc2tx.reference import Entry, as_data, as_markdown, as_text, entries, find
-from osc2tx.stdlib import member_meanings
+from osc2tx.stdlib import LIBRARY, member_meanings
 from tests.end_to_end.harness import REPOSITORY
 from tests.unit.cli.shell import Shell
 
-LIBRARY = "".join(
-    (REPOSITORY / "osc2tx/stdlib" / name).read_text(encoding="utf-8")
-    for name in ("types.osc", "domain.osc")
+TEXT = "".join(
+    (REPOSITORY / "osc2tx/stdlib" / name).read_text(encoding="utf-8") for name in LIBRARY
 )
 
 
 def test_every_declaration_of_the_library_has_an_entry() -> None:
-    declared = re.findall(
-        r"^(actor|action|modifier|struct|enum|type) ([\w.]+)", LIBRARY, re.MULTILINE
-    )
+    declared = re.findall(r"^(actor|action|modifier|struct|enum|type) ([\w.]+)", TEXT, re.MULTILINE)
     assert {each.key for each in entries()} == {f"{kind} {name}" for kind, name in declared}
 
 

@@ -8,7 +8,7 @@ from osc2tx.options import STANDARDS, Standard
 from osc2tx.semantics.declarations.library import shared_library
 from osc2tx.semantics.dialects import DIALECTS
 from osc2tx.semantics.symbols import ActionSymbol, EnumSymbol, TypeSymbol
-from osc2tx.stdlib import DOMAIN, library_source
+from osc2tx.stdlib import LIBRARY, library_source
 from tests.unit.semantics.support import build_text, codes
 
 HEAD = "import osc.standard\n\n"
@@ -21,7 +21,7 @@ EXTENSION = "extend vehicle:\n    nickname: string\n\nextend color: [pink]\n"
 def test_every_action_of_the_text_is_declared(standard: Standard, dialect: str) -> None:
     scope = shared_library(standard, dialect, "all").scope
     found = [s.qualified_name for s in scope.declared if isinstance(s, ActionSymbol)]
-    files = [DOMAIN] if dialect == "asam" else [DOMAIN, f"dialects/{dialect}.osc"]
+    files = [*LIBRARY] if dialect == "asam" else [*LIBRARY, f"dialects/{dialect}.osc"]
     text = "".join(library_source(file, standard).text for file in files)
     assert sorted(found) == sorted(re.findall(r"^action ([\w.]+)", text, re.MULTILINE))
 

@@ -1,7 +1,6 @@
 """The standard library against the tables of the standard, name by name."""
 
 from dataclasses import fields
-from pathlib import Path
 
 import pytest
 
@@ -21,8 +20,9 @@ from osc2tx.semantics.symbols import (
     TypeSymbol,
 )
 from osc2tx.semantics.types import SI_BASES
+from osc2tx.stdlib import EXTENSIONS
 from osc2tx.syntax import ast
-from tests.unit.stdlib.domain_tables import Compound, Method, Parameter, Tables, Unit, read_tables
+from tests.unit.stdlib.standard_tables import Compound, Method, Parameter, Tables, Unit, read_tables
 
 # What the library has and the tables have not, with the reason.
 FIELDS = {
@@ -64,14 +64,19 @@ def standard(request: pytest.FixtureRequest) -> str:
 
 
 @pytest.fixture
-def expected(test_data: Path, standard: str) -> Tables:
-    return read_tables(test_data / "spec" / "domain.md", standard)
+def expected(standard: str) -> Tables:
+    return read_tables(standard)
 
 
 @pytest.fixture
 def library(standard: str) -> Tables:
     """The loaded library in the form of the tables; tests print them, and a scope is endless."""
     return as_tables(shared_library(standard, "asam", "all").scope)
+
+
+def declared_by_the_standard(scope: Scope) -> list[Symbol]:
+    """Return what the library declares, without the additions of osc2tx."""
+    return [s for s in scope.declared if s.span.source.name != f"<library>/{EXTENSIONS}"]
 
 
 def as_tables(scope: Scope) -> Tables:
@@ -82,7 +87,7 @@ def as_tables(scope: Scope) -> Tables:
         ActionSymbol: tables.actions,
         ModifierSymbol: tables.modifiers,
     }
-    for symbol in scope.declared:
+    for symbol in declared_by_the_standard(scope):
         match symbol:
             case PhysicalTypeSymbol():
                 powers = zip(SI_BASES, symbol.dimension.exponents, strict=True)
@@ -95,7 +100,7 @@ def as_tables(scope: Scope) -> Tables:
                 place = places[type(symbol)]
                 assert name not in place
                 place[name] = as_compound(symbol)
-    for owner in (*scope.declared, *scope.primitives.values()):
+    for owner in (*declared_by_the_standard(scope), *scope.primitives.values()):
         for member in owner.members.values() if isinstance(owner, TypeSymbol) else ():
             if isinstance(member, MethodSymbol):
                 parameters = tuple(map(as_parameter, member.parameters))
@@ -174,7 +179,7 @@ def test_enums(library: Tables, expected: Tables) -> None:
 def test_compounds(library: Tables, expected: Tables, kind: str) -> None:
     found: dict[str, Compound] = getattr(library, kind)
     wanted: dict[str, Compound] = getattr(expected, kind)
-    assert found.keys() == wanted.keys()
+    assert found.keys() == wanted.keys(), "additions of osc2tx belong into stdlib/extensions.osc"
     for name, compound in wanted.items():
         assert found[name] == with_additions(name, compound, found[name]), name
 
@@ -186,14 +191,14 @@ def test_methods(library: Tables, expected: Tables) -> None:
         assert library.methods[name] == Method(parameters, method.result), name
 
 
-def test_namespaces(test_data: Path, standard: str) -> None:
-    page = (test_data / "spec" / "domain.md").read_text(encoding="utf-8")
-    basic = page[page.index("## 3 Basic") : page.index("## 4 String")]
+def test_namespaces(expected: Tables, standard: str) -> None:
     scope = shared_library(standard, "asam", "all").scope
-    found = {(type(s).__name__, qualified(s)): s.namespace for s in scope.declared}
+    found = {(type(s).__name__, qualified(s)): s.namespace for s in declared_by_the_standard(scope)}
+    extensions = {s.namespace for s in scope.declared} - {"std", "stdtypes"}
     del scope
+    assert extensions <= {"osc2tx"}
     for (kind, name), namespace in found.items():
-        is_basic = kind == "StructSymbol" and f"\n| `{name}`" in basic
+        is_basic = kind == "StructSymbol" and name in expected.basic
         wanted = is_basic or kind in ("PhysicalTypeSymbol", "UnitSymbol")
         assert namespace == ("stdtypes" if wanted else "std"), name
 

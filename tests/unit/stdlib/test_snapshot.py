@@ -17,7 +17,7 @@ from osc2tx.diagnostics import SourceFile
 from osc2tx.semantics import DIALECTS, ModelBuilder, dump_model
 from osc2tx.semantics.builder import DiagnosticSink
 from osc2tx.semantics.declarations import library
-from osc2tx.stdlib import DOMAIN, TYPES, library_source, parse_library_file, snapshot
+from osc2tx.stdlib import LIBRARY, TYPES, library_source, parse_library_file, snapshot
 from osc2tx.stdlib.snapshot import load_snapshot, save_snapshot
 from osc2tx.syntax import ast, dump_ast, parse
 from osc2tx.syntax.packed_ast import PackingError, pack, unpack
@@ -27,8 +27,8 @@ ROOT = Path(__file__).resolve().parents[3]
 OWN = sorted(ROOT.glob("scenarios/*.osc")) + sorted(ROOT.glob("tests/golden/ast/*/input.osc"))
 MISTAKES = sorted(ROOT.glob("tests/golden/diagnostics/semantic_*/*.osc"))
 SCENARIOS = [*OWN, *MISTAKES]
-LIBRARY = [(name, standard) for name in (TYPES, DOMAIN) for standard in ("2.1", "2.2")]
-LIBRARY += [("dialects/carla.osc", "2.1")]
+TEXTS = [(name, standard) for name in LIBRARY for standard in ("2.1", "2.2")]
+TEXTS += [("dialects/carla.osc", "2.1")]
 
 
 @pytest.fixture(autouse=True)
@@ -60,7 +60,7 @@ def the_file(cache: Path) -> Path:
     return path
 
 
-@pytest.mark.parametrize(("name", "standard"), LIBRARY)
+@pytest.mark.parametrize(("name", "standard"), TEXTS)
 def test_a_snapshot_gives_what_parsing_gives(name: str, standard: str) -> None:
     source = library_source(name, standard)
     file = parse_library_file(source)
