@@ -58,6 +58,7 @@ compiled: $(STAMP)
 lint: $(STAMP)
 	$(BIN)/ruff check .
 	$(BIN)/black --check --quiet .
+	$(BIN)/codespell
 	$(BIN)/mypy
 
 goldens: $(STAMP)
@@ -93,6 +94,7 @@ tables: $(STAMP)
 	$(BIN)/python tools/make_enums.py
 	$(BIN)/python tools/make_catalogue.py
 	$(BIN)/python tools/make_actor_methods.py
+	$(BIN)/python tools/make_catalogue.py  # once more: it lists the methods that were just made
 	$(BIN)/osc2tx build scenarios/ -o generated/
 	$(BIN)/python tools/make_readme_example.py
 	$(BIN)/python tools/make_coverage.py

@@ -169,14 +169,14 @@ def test_actors_have_a_typed_method(copy: Path, answers: dict[str, object]) -> N
 
 def test_the_coverage_page_knows_them(answers: dict[str, object]) -> None:
     page = str(answers["page"])
-    assert re.search(r"`vehicle.swerve` .*runs.*no action of XML leaves the lane", page)
+    assert re.search(r"`vehicle.swerve` .*runs.*no action of XML leaves the lane centre", page)
     assert re.search(r"`wobble` .*runs.*no action of XML sways", page)
 
 
 def test_xml_is_refused_with_the_reason(answers: dict[str, object]) -> None:
     assert answers["xml"] is None
     report = str(answers["outputs"])
-    assert "no action of XML leaves the lane for as long as one likes" in report
+    assert "no action of XML leaves the lane centre for an open time" in report
 
 
 @pytest.mark.slow

@@ -1,5 +1,6 @@
 """The case study, unchanged, on CARLA's Town06: every phase, in the order of the paper."""
 
+import hashlib
 import math
 import re
 from collections.abc import Callable
@@ -24,6 +25,7 @@ from tests.end_to_end.harness import (
 from tests.runtime.world.motion_scan import impossible, scan_lines
 
 FILE = SCENARIOS / "hello_world.osc"
+PUBLISHED = "c3c43042e05e3dfef49f85a3b76454ce82f0195fd921f25104c6f9e3d54df318"
 Load = Callable[[GeneratedModule], type[Scenario]]
 
 
@@ -50,8 +52,9 @@ def gap(trace: Trace, t: float) -> float:
     return float(((hero["x"] - npc["x"]) ** 2 + (hero["y"] - npc["y"]) ** 2) ** 0.5)
 
 
-def test_the_file_is_the_published_one(test_data: Path) -> None:
-    assert FILE.read_bytes() == (test_data / "seed" / "hello_world.osc").read_bytes()
+def test_the_file_is_the_published_one() -> None:
+    """The case study runs as its authors published it."""
+    assert hashlib.sha256(FILE.read_bytes()).hexdigest() == PUBLISHED
 
 
 def test_what_cannot_be_driven_is_named(trace: Trace) -> None:

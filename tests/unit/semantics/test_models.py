@@ -34,10 +34,6 @@ def test_model(path: Path, golden: Golden) -> None:
     golden(dump_model(model), path.parent / "expected" / "model.txt")
 
 
-def test_seed_is_kept_unchanged(test_data: Path) -> None:
-    assert SEED.read_bytes() == (test_data / "seed" / "hello_world.osc").read_bytes()
-
-
 @pytest.mark.parametrize("dialect", ["asam", "carla"])
 def test_seed(dialect: str, golden: Golden) -> None:
     source = SourceFile(SEED.name, SEED.read_text(encoding="utf-8"), SEED)

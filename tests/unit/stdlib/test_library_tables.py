@@ -74,9 +74,13 @@ def library(standard: str) -> Tables:
     return as_tables(shared_library(standard, "asam", "all").scope)
 
 
+def is_of_the_standard(symbol: Symbol) -> bool:
+    return symbol.span.source.name != f"<library>/{EXTENSIONS}"
+
+
 def declared_by_the_standard(scope: Scope) -> list[Symbol]:
     """Return what the library declares, without the additions of osc2tx."""
-    return [s for s in scope.declared if s.span.source.name != f"<library>/{EXTENSIONS}"]
+    return list(filter(is_of_the_standard, scope.declared))
 
 
 def as_tables(scope: Scope) -> Tables:
@@ -106,7 +110,7 @@ def as_tables(scope: Scope) -> Tables:
                 parameters = tuple(map(as_parameter, member.parameters))
                 method = Method(parameters, str(member.result))
                 tables.methods[f"{owner.name}.{member.name}"] = method
-    for unit in scope.units.values():
+    for unit in filter(is_of_the_standard, scope.units.values()):
         tables.units[unit.name] = Unit(str(unit.type), unit.factor, unit.offset)
     return tables
 

@@ -30,6 +30,20 @@ def test_the_parser_is_made_from_the_grammar(tmp_path: Path) -> None:
         assert filecmp.cmp(path, GENERATED / path.name, shallow=False), f"{path.name} is stale"
 
 
+def test_every_statement_of_the_grammar_is_built() -> None:
+    """A rule without a handler parses, and ends the check with an internal error."""
+    grammar = (ROOT / "grammar" / "OpenSCENARIO2.g4").read_text(encoding="utf-8")
+    (alternatives,) = re.findall(r"^statement$(.*?);$", grammar, re.MULTILINE | re.DOTALL)
+    builders = [
+        path.read_text(encoding="utf-8")
+        for path in (ROOT / "osc2tx" / "syntax").rglob("*.py")
+        if path.parent != GENERATED
+    ]
+    contexts = {f"{name[0].upper()}{name[1:]}Context" for name in re.findall(r"\w+", alternatives)}
+    known = set(re.findall(r"\w+Context\b", "".join(builders)))
+    assert contexts <= known
+
+
 def test_only_the_front_end_imports_antlr4() -> None:
     users = {
         path.relative_to(ROOT / "osc2tx").as_posix()
