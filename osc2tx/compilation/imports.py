@@ -5,16 +5,18 @@ from __future__ import annotations
 import os
 import posixpath
 from collections.abc import Collection, Iterator, Sequence
+from functools import lru_cache
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-from osc2tx.diagnostics import DiagnosticSink, SourceFile, Span
+from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
 from osc2tx.diagnostics.suggestions import nearest
 from osc2tx.support.paths import real_path
 from osc2tx.syntax import ast, parse, read_source
 from osc2tx_shared.classes import dataclass
 
 SUFFIX = ".osc"
+LIBRARIES_KEPT = 256  # parsed, by the process
 SEPARATORS = frozenset("/\\:")  # on some system
 
 
@@ -217,7 +219,9 @@ class ImportLoader:
         source = read_source(path, name, found)
         if source is not None:
             self._read[path] = Lookup(str(path), source.text)
-            return parse(source, self._sink, allow=self._relaxed)
+            file, reports = _parsed(name, source.text, path, frozenset(self._relaxed))
+            self._sink.add(reports)
+            return file
         self._read[path] = Lookup(str(path), is_refused=True)
         for report in found.sorted():
             self._sink.report(report.code, statement.span, report.message, help=report.help)
@@ -226,6 +230,15 @@ class ImportLoader:
     def _refuse(self, statement: ast.Import, message: str, help: str | None) -> ast.File:
         self._sink.report("OSC205", statement.span, message, help=help)
         return _nothing(statement)
+
+
+@lru_cache(maxsize=LIBRARIES_KEPT)
+def _parsed(
+    name: str, text: str, path: Path, allow: frozenset[str]
+) -> tuple[ast.File, tuple[Diagnostic, ...]]:
+    """Return the tree of a library and what is wrong with it; many files import the same ones."""
+    found = DiagnosticSink()
+    return parse(SourceFile(name, text, path), found, allow=allow), found.sorted()
 
 
 def _nothing(statement: ast.Import) -> ast.File:

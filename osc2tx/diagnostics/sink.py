@@ -32,8 +32,14 @@ class DiagnosticSink:
         diagnostic = Diagnostic(
             code, CODES[code].severity, message, primary, tuple(labels), tuple(notes), help
         )
-        place = (primary.source.name, primary.start, primary.end) if primary else ()
-        self._found.setdefault((code, message, *place), diagnostic)
+        self.add([diagnostic])
+
+    def add(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Add what was found elsewhere."""
+        for each in diagnostics:
+            span = each.primary
+            place = (span.source.name, span.start, span.end) if span else ()
+            self._found.setdefault((each.code, each.message, *place), each)
 
     @property
     def has_errors(self) -> bool:

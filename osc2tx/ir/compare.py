@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import fields, is_dataclass
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from osc2tx.diagnostics import Span
@@ -33,19 +32,31 @@ def _same(one: Any, other: Any, apart_from: tuple[str, ...]) -> bool:
     if isinstance(one, tuple):
         pairs = zip(one, other, strict=False)
         return len(one) == len(other) and all(_same(a, b, apart_from) for a, b in pairs)
-    if is_dataclass(one):
-        names = (field.name for field in fields(one) if field.name not in apart_from)
-        return all(_same(getattr(one, n), getattr(other, n), apart_from) for n in names)
+    if names := _names(one):
+        return all(
+            _same(getattr(one, name), getattr(other, name), apart_from)
+            for name in names
+            if name not in apart_from
+        )
     return bool(one == other)
 
 
 def words(part: Any) -> Iterator[str]:
     """Yield all names and texts in a part: whatever it refers to by name is among them."""
-    if isinstance(part, str):
-        yield part
-    elif isinstance(part, tuple):
-        for each in part:
-            yield from words(each)
-    elif is_dataclass(part):
-        for field in fields(part):
-            yield from words(getattr(part, field.name))
+    pending = [part]
+    while pending:
+        each = pending.pop()
+        if isinstance(each, str):
+            yield each
+        elif isinstance(each, tuple):
+            pending += each
+        elif not isinstance(each, Span):
+            pending += [getattr(each, name) for name in _names(each)]
+
+
+def _names(part: Any) -> Iterable[str]:
+    """Return the fields of an instance of a dataclass; none of a plain value.
+
+    `dataclasses.fields` makes a tuple at each call, which is most of what a comparison costs.
+    """
+    return getattr(part, "__dataclass_fields__", ())

@@ -114,13 +114,15 @@ def _solved(rows: list[Form]) -> Iterator[tuple[Key, Fraction]]:
     reduced: dict[Key, Form] = {}
     for row in rows:
         for pivot, other in reduced.items():
-            row = _sum(row, other, -row.get(pivot, Fraction(0)))
+            if pivot in row:
+                row = _sum(row, other, -row[pivot])
         pivots = [key for key in row if key is not None]
         if not pivots:
             continue  # said already, or a contradiction, which others report
         own = _scaled(row, 1 / row[pivots[0]])
         for pivot, other in reduced.items():
-            reduced[pivot] = _sum(other, own, -other.get(pivots[0], Fraction(0)))
+            if pivots[0] in other:
+                reduced[pivot] = _sum(other, own, -other[pivots[0]])
         reduced[pivots[0]] = own
     for pivot, row in reduced.items():
         if all(key in (pivot, None) for key in row):

@@ -147,12 +147,12 @@ class TypeConstraints:
         """
         firm = self.firm
         plain = set(self.in_force.constraints).difference(firm)
-        reached = self._reached(key for each in plain for key in each.operations.keys)
+        reached = self.connected(key for each in plain for key in each.operations.keys)
         again = [c.operations for c in firm if not c.operations.keys.isdisjoint(reached)]
         kept = {key: domain for key, domain in self.domains.items() if key not in reached}
         return {**kept, **solve(again, range(len(again))).domains} if reached else self.domains
 
-    def _reached(self, keys: Iterable[Key]) -> set[Key]:
+    def connected(self, keys: Iterable[Key]) -> set[Key]:
         """Return parameters and all others that constraints connect with them."""
         pending, reached = list(keys), set[Key]()
         while pending:

@@ -97,6 +97,7 @@ class _Grading:
     def __init__(self, ctx: LoweringContext, scenario: Composed) -> None:
         self._ctx = ctx
         self._found: TypeConstraints = ctx.analysis.types[scenario]
+        self._firm = self._found.firm
         self._domains = self._found.domains_to_set()
         self._writer = OperationListBuilder(ctx.model)
 
@@ -125,11 +126,11 @@ class _Grading:
         return self._is_solvable(given)
 
     def _is_solvable(self, given: Mapping[Key, Domain]) -> bool:
-        firm = self._found.firm
-        if not given or not firm:
-            return True
-        operations = [each.operations for each in firm]
-        return not solve(operations, range(len(firm)), given).conflict
+        connected = self._found.connected(given)  # others hold as they did in the analysis
+        operations = [
+            each.operations for each in self._firm if not each.operations.keys.isdisjoint(connected)
+        ]
+        return not operations or not solve(operations, range(len(operations)), given).conflict
 
     def _sliced(self, sampled: Sampled) -> list[ir.Bucket]:
         """Return the buckets that the declaration says."""
