@@ -6,6 +6,7 @@ import sys
 from contextlib import suppress
 
 __all__ = [
+    "NO_RESULT",
     "RUN_FAILED",
     "BeyondMapError",
     "CapabilityError",
@@ -22,7 +23,12 @@ __all__ = [
     "is_own",
     "name_of",
     "told",
+    "why_no_result",
 ]
+
+NO_RESULT = (ArithmeticError, LookupError, ValueError)
+"""What an expression of a scenario raises that has no result: a division by zero, no such element,
+a conversion to a type that has no such value (§7.4.2.6)."""
 
 RUN_FAILED = "OSC809"
 """Code of the line that says how a run failed: that is a verdict, no error."""
@@ -81,6 +87,13 @@ class ScenarioError(Exception):
 
     def __str__(self) -> str:
         return f"{self.source}: {self.message}" if self.source else self.message
+
+
+def why_no_result(error: Exception) -> str:
+    """Say why an expression has no result."""
+    if isinstance(error, KeyError) and error.args:
+        return f"no member of the enumeration has the value {error.args[0]!r}"
+    return str(error)
 
 
 def coded(code: str, message: str, place: str, file: str, given: str | None = None) -> str:
