@@ -47,9 +47,9 @@ def files() -> Iterator[Path]:
     )
     for name in listed.stdout.splitlines():
         path = REPOSITORY / name
-        if path.suffix in SUFFIXES and path.is_file() and path != GLOSSARY:
-            if "_antlr" not in path.parts and "tests" not in path.parts:
-                yield path
+        is_ours = path != GLOSSARY and not {"_antlr", "tests"} & set(path.parts)
+        if is_ours and path.suffix in SUFFIXES and path.is_file():
+            yield path
 
 
 def findings(text: str) -> Iterator[tuple[int, str, str]]:
