@@ -25,6 +25,7 @@ from osc2tx_runtime.domain.modifiers import (
     Speed,
     Yaw,
 )
+from osc2tx_runtime.domain.modifiers.base import now
 from osc2tx_runtime.domain.modifiers.groups import PATH_SHAPERS
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.domain.planning.enclosing_phase import phase_of
@@ -202,7 +203,7 @@ class ModifiableAction(ModifiedMotion):
     def _careful(self) -> bool:
         avoid = one_of_kind(self.modifiers, AvoidCollisions)
         if avoid is not None:
-            return avoid.avoid
+            return now(avoid.avoid)
         standard = self.context.settings.conduct == "standard"
         return standard and not self.may_jump and isinstance(CARE, self.accepts)
 
