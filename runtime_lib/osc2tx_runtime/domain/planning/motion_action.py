@@ -227,6 +227,7 @@ class ModifiedMotion(MotionAction):
 
     Attributes:
         movable: The actor.
+        planned: Seconds after its start at which it reaches its goal, where that ends it.
     """
 
     def __init__(
@@ -236,6 +237,7 @@ class ModifiedMotion(MotionAction):
         super().__init__(actor, *modifiers, **options)
         self._phase: DurationLimits | None = None
         self._given = self.modifiers
+        self.planned: float | None = None
 
     def initialise(self) -> None:
         """Read the arguments of the modifiers that are read late, and start."""
@@ -261,7 +263,8 @@ class ModifiedMotion(MotionAction):
         return self.fixed_duration() is not None or self._phase is not None
 
     def time_left(self) -> float | None:
-        """Seconds until the end, where it is known."""
+        """Seconds until the end, where it is known or planned."""
         if self._phase is not None:
             return self._phase.left * self.context.dt
-        return super().time_left()
+        known = super().time_left()
+        return self.planned - self.elapsed if known is None and self.planned else known
