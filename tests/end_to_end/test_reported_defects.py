@@ -111,6 +111,7 @@ ROWS = [
     Row("recursive_method_in_a_keep", 1.0),
     Row("undefined_but_never_invoked", 1.0),
     refused("unit_parts_in_order", "3 OSC100", "exponents come first, then `factor`"),
+    Row("range_of_accelerations_to_an_end", 4.0, "done@4", options=("--std", "2.2")),
     Row("until_cuts_waits_short", 2.0, "done@2", found=("5 OSC433",)),
 ]
 
@@ -145,7 +146,6 @@ OPEN = {
     "first_instant_sees_an_invented_place",
     "global_fixed_by_a_scenario",
     "modifier_with_an_on",
-    "range_of_accelerations_to_an_end",
     "range_that_is_no_literal",
     "recursion_with_a_way_out",
     "sample_seen_by_its_own_event",

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar, Unpack, get_args
 
 from osc2tx_runtime.domain.map.road_graph import graph_of
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
-from osc2tx_runtime.domain.modifiers.base import band_of, now
+from osc2tx_runtime.domain.modifiers.base import Late, band_of, now
 from osc2tx_runtime.domain.modifiers.groups import SPEED_FREE
 from osc2tx_runtime.domain.planning.lateral.lateral_targets import (
     check_shift,
@@ -138,7 +138,7 @@ class ChangeLane(_OnLane):
         actor: Vehicle,
         *modifiers: Modifier,
         num_of_lanes: int | Callable[[], int] = 1,
-        side: LaneChangeSide | None = None,
+        side: Late[LaneChangeSide] | None = None,
         reference: PhysicalObject | None = None,
         offset: Value = 0.0,
         rate_profile: DynamicProfile = "none",
@@ -147,7 +147,7 @@ class ChangeLane(_OnLane):
         **options: Unpack[ActionOptions],
     ) -> None:
         super().__init__(actor, *modifiers, course=(rate_profile, rate_peak), **options)
-        if side is not None and side not in SIDES:
+        if side is not None and not callable(side) and side not in SIDES:
             raise ScenarioError(f"{self.action_name}: side `{side}` is none of {', '.join(SIDES)}")
         self.num_of_lanes = num_of_lanes
         self.side = side
@@ -158,7 +158,7 @@ class ChangeLane(_OnLane):
     def look_ahead(self) -> None:
         """See whether there can be so many lanes, unless it may be in another lane by then."""
         count, place = self.num_of_lanes, self.here.lane_position
-        if place is None or callable(count) or self.side in (None, "same"):
+        if place is None or callable(count) or callable(self.side) or self.side in (None, "same"):
             return
         if self.target is not None or self.reference is not None or may_leave_lane_before(self):
             return
@@ -191,7 +191,7 @@ class ChangeLane(_OnLane):
         if self.target is not None:
             return lanes_to(self, self.target)
         lanes = 0
-        if self.side != "same":
+        if self.side is None or now(self.side) != "same":
             count = now(self.num_of_lanes)
             if count < 0:
                 raise Refused(f"num_of_lanes {count} is negative")
@@ -202,7 +202,7 @@ class ChangeLane(_OnLane):
         """1 for left, -1 for right."""
         own = self.place_of(self.actor.id)
         right_hand = self.world.map.roads[own.road].right_hand_traffic
-        match self.side:
+        match None if self.side is None else now(self.side):
             case "left":
                 return 1
             case "right":
