@@ -292,8 +292,9 @@ class ConstantEvaluator:
                 else None if parameter.default is None else self._value(parameter.default, {})
             )
             if value is not None:
-                as_float = isinstance(value, int) and _is_float(parameter.type)
-                found[parameter] = value * 1.0 if as_float else value
+                found[parameter] = (
+                    float(value) if isinstance(value, int) and _is_float(parameter.type) else value
+                )
         return found
 
     def _size(self, binding: Binding, names: Names) -> int | None:
