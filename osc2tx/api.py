@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import TypedDict, Unpack
 
 from osc2tx.building.jobs import find_jobs, job_for
-from osc2tx.building.manifest import beside
+from osc2tx.building.ownership import beside
 from osc2tx.compilation.driver import Compilation
 from osc2tx.compilation.inputs import Input, InputError
 from osc2tx.compilation.needed_modules import sibling_modules

@@ -1,14 +1,16 @@
 """One project: whatever path is named, every command has the answer of the project."""
 
 import io
+import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 
 from tests.end_to_end.test_imported_modules import imports_in
-from tests.unit.building.projects import listing
+from tests.unit.building.projects import contents, listing
 from tests.unit.cli.shell import Shell
 
 HEAD = "import osc.standard.all\n"
@@ -75,6 +77,46 @@ def test_all_sources_make_one_tree_of_modules(project: Shell) -> None:
     text = (out / "urban/cut_in.py").read_text(encoding="utf-8")
     assert imports_in(text) == {"lib.speeds": ["Speeds"], "oem.limits": ["Limits"]}
     assert "A copy" not in text
+
+
+def outputs(project: Shell) -> dict[str, bytes]:
+    return contents(project.folder / "generated")
+
+
+def test_the_name_of_a_part_makes_the_same_files(project: Shell) -> None:
+    assert project("build").code == 0
+    before = outputs(project)
+    for path in ("scenarios/urban", FILE, "scenarios", "."):
+        ended = project("build", path, "--prune")
+        assert (ended.code, ended.err) == (0, ""), path
+        assert outputs(project) == before, path
+        assert project("build", "--check").code == 0
+
+
+def test_importing_modules_leaves_the_path_of_the_search_alone(
+    project: Shell, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert project("build").code == 0
+    monkeypatch.syspath_prepend(project.folder / "generated")
+    path = list(sys.path)
+    for name in ("urban.cut_in", "rural.follow"):
+        module = import_module(name)
+        assert module.Speeds is import_module("lib.speeds").Speeds
+    assert sys.path == path
+    for name in [
+        each for each in sys.modules if each.partition(".")[0] in ("urban", "rural", "lib", "oem")
+    ]:
+        del sys.modules[name]
+
+
+def test_a_module_in_a_folder_is_a_script(project: Shell) -> None:
+    assert project("build").code == 0
+    script = project.folder / "generated/urban/cut_in.py"
+    ended = subprocess.run(
+        [sys.executable, script, "--max-time", "5"], capture_output=True, text=True, check=False
+    )
+    assert ended.returncode == 0, ended.stderr
+    assert project("run", script).code == 0
 
 
 def test_a_library_of_the_import_paths_has_a_module_of_its_own(project: Shell) -> None:
