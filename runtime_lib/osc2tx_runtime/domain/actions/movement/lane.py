@@ -29,7 +29,7 @@ from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.world.commands import LaneChange
 from osc2tx_runtime.world.geometry.lane_neighbours import lane_beside, offset_from
 from osc2tx_runtime.world.lateral.execution import shift_profile
-from osc2tx_shared.rules import above, at_least, at_most_one
+from osc2tx_shared.rules import above, at_least, at_least_one, at_most_one
 
 from .modifiable import ModifiableAction
 from .profiled_change import check_profile, peak_of
@@ -129,6 +129,7 @@ class ChangeLane(_OnLane):
     rules = (
         at_most_one("target", "side"),
         at_most_one("target", "reference"),
+        at_least_one("reference", when=["side"], values=["same"]),
         at_least(0, "num_of_lanes"),
         above(0, "rate_peak"),
     )
@@ -173,7 +174,11 @@ class ChangeLane(_OnLane):
 
     def on_start(self) -> None:
         """Commands the change."""
-        self.shift(self._lanes(), value_of(self.offset), self.duration)
+        lanes = self._lanes()
+        if lanes == 0:
+            lane = self.place_of(self.actor.id).lane
+            raise Refused(f"it is in the lane to change to already, lane {lane}; follow_lane stays")
+        self.shift(lanes, value_of(self.offset), self.duration)
 
     @property
     def looks_further(self) -> bool:
@@ -225,7 +230,7 @@ class FollowLane(_OnLane):
         offset_range: Instead of it: what it may be at any time.
         rate_profile: Course of the lateral speed on the way there.
         rate_peak: Its peak (m/s).
-        target: A lane of the map beside the present one; None: the present one.
+        target: The lane of the map in which it is; None: whichever that is.
         **options: Duration and label.
     """
 
@@ -250,8 +255,12 @@ class FollowLane(_OnLane):
     def on_start(self) -> None:
         """Commands the offset."""
         lanes = 0 if self.target is None else lanes_to(self, self.target)
+        if lanes != 0:
+            side = "left" if lanes > 0 else "right"
+            raise Refused(
+                f"the lane to follow is {abs(lanes)} to the {side} of the one it is in;"
+                " change_lane goes there"
+            )
         low, high = band_of(self.offset, self.offset_range)
-        here = 0.0
-        if lanes == 0:
-            here = self.place_of(self.actor.id).offset - target_of_shift(self, 0).offset
-        self.shift(lanes, min(max(here, low), high), None)
+        here = self.place_of(self.actor.id).offset - target_of_shift(self, 0).offset
+        self.shift(0, min(max(here, low), high), None)
