@@ -43,7 +43,7 @@ opendrive: enums plain_numbers
 world: clock enums errors opendrive
 language: clock errors units world
 domain.points_and_poses: errors
-domain.shapes: enums errors language world
+domain.shapes: enums errors world
 domain.map: domain.points_and_poses enums errors language opendrive world
 domain.paths: domain.points_and_poses enums errors opendrive world
 domain.routes: domain.map domain.paths domain.points_and_poses enums errors language opendrive
