@@ -104,6 +104,7 @@ ROWS = [
     refused("light_has_no_behaviors", "12 OSC301", "<traffic_light_controller>.set_state("),
     refused("map_that_is_not_there", "6 OSC443", "did you mean `highway.xodr`?", code=4),
     Row("set_of_two_values", 2.0, seeds=2),
+    Row("end_in_the_lane_of_one_that_moved", 9.0, "done@9"),
     Row("range_of_accelerations_to_an_end", 4.0, "done@4", options=("--std", "2.2")),
     Row("until_cuts_waits_short", 2.0, "done@2", found=("5 OSC433",)),
 ]
@@ -134,7 +135,6 @@ OPEN = {
     "distance_cut_by_until",
     "duration_given_to_a_free_change",
     "durations_choose_starts_and_draws",
-    "end_in_the_lane_of_one_that_moved",
     "enters_in_the_second_phase",
     "enum_value_of_another",
     "event_of_an_element",
