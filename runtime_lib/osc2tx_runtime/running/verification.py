@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -12,7 +12,7 @@ from osc2tx_runtime.errors import InputError
 from osc2tx_runtime.language.actions.action import Action
 from osc2tx_runtime.language.outline import outline
 from osc2tx_runtime.language.settings import RunSettings
-from osc2tx_runtime.opendrive import read_map
+from osc2tx_runtime.opendrive import MapError, read_map
 from osc2tx_runtime.running.runner import make_context, place_actors, setup_tree
 from osc2tx_runtime.world.recorded import RecordedWorld
 from osc2tx_shared.classes import dataclass
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.scenario import Scenario
     from osc2tx_runtime.language.tree.base import Behaviour
 
-__all__ = ["RecordedRun", "Verification", "read_trace", "verify"]
+__all__ = ["RecordedRun", "Verification", "read_trace", "recorded_run", "verify"]
 
 Line: TypeAlias = Mapping[str, Any]
 
@@ -70,24 +70,33 @@ def read_trace(path: Path) -> RecordedRun:
     """
     try:
         lines = [json.loads(text) for text in path.read_text(encoding="utf-8").splitlines()]
-        header, *rest = lines
-        if header["kind"] != "header":
-            raise ValueError("the first line is no header")
-        dt, states = float(header["dt"]), list[dict[str, Line]]()
-        for line in rest:
-            if line["kind"] == "state":
-                step = round(float(line["t"]) / dt)
-                if not 0 <= step <= len(states):
-                    raise ValueError(f"there are no states before {line['t']:g} s")
-                if step == len(states):
-                    states.append({})
-                states[step][str(line["actor"])] = line
-        nodes = [node for line in rest if line["kind"] == "tree" for node in line["nodes"]]
-        failed = frozenset((line["t"], line["name"]) for line in rest if _is_failure(line))
+        return recorded_run(lines)
     except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
         raise InputError(f"trace {path} cannot be read: {error}") from error
+
+
+def recorded_run(lines: Sequence[Line]) -> RecordedRun:
+    """Return a run from the lines of its trace.
+
+    Raises:
+        KeyError, TypeError, ValueError: They are none, or not all of them.
+    """
+    if not lines or lines[0]["kind"] != "header":
+        raise ValueError("the first line is no header")
+    header, *rest = lines
+    dt, states = float(header["dt"]), list[dict[str, Line]]()
+    for line in rest:
+        if line["kind"] == "state":
+            step = round(float(line["t"]) / dt)
+            if not 0 <= step <= len(states):
+                raise ValueError(f"there are no states before {line['t']:g} s")
+            if step == len(states):
+                states.append({})
+            states[step][str(line["actor"])] = line
+    nodes = [node for line in rest if line["kind"] == "tree" for node in line["nodes"]]
+    failed = frozenset((line["t"], line["name"]) for line in rest if _is_failure(line))
     if not nodes or not states:
-        raise InputError(f"trace {path} is not whole: it has no tree")
+        raise ValueError("it is not whole: it has no tree")
     return RecordedRun(header, states, nodes, failed)
 
 
@@ -128,18 +137,25 @@ def verify(
         # An assignment at this instant may follow the end of a phase: the states show it.
         jumps = any(action.registered.is_momentary for action in begins.get(step, ()))
         if not jumps:
-            world.show(states)
+            _show(world, states, time)
         context.begin_step(step)
         for action, outcome in ends.get(step, ()):
             phases += 1
             judged = outcome == "success" or (round(time, 6), action.action_name) in run.failed
             (monitors.ends if judged else monitors.leaves)(action)
         if jumps:
-            world.show(states)
+            _show(world, states, time)
         for action in begins.get(step, ()):
             monitors.begins(action)
         monitors.observe()
     return Verification(phases, tuple(monitors.violations))
+
+
+def _show(world: RecordedWorld, states: Mapping[str, Line], time: float) -> None:
+    try:
+        world.show(states)
+    except (KeyError, TypeError, ValueError, MapError) as error:
+        raise InputError(f"the states at {time:.2f} s cannot be read: {error}") from error
 
 
 def _settings(header: Line, map_path: tuple[Path, ...]) -> RunSettings:
