@@ -80,8 +80,9 @@ def change_lane(action: lane.ChangeLane, phase: Phase) -> Iterator[Modifier | Co
     yield Lateral(value_of(action.offset), at="end")
     if action.target is not None:
         return
-    count = 0 if action.side == "same" else int(now(action.num_of_lanes))
-    side = _side(action.side, phase)
+    stated = None if action.side is None else now(action.side)
+    count = 0 if stated == "same" else int(now(action.num_of_lanes))
+    side = _side(stated, phase)
     if action.reference is not None:
         beside = {"side_of": action.reference, "side": side or "left"} if count else {}
         same = {} if count else {"same_as": action.reference}

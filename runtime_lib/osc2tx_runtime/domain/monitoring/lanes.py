@@ -6,8 +6,10 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.modifiers import ChangeLane, Lane, Lateral
+from osc2tx_runtime.domain.modifiers.base import Late, now
 from osc2tx_runtime.domain.monitoring.conditions import Condition, Reading
 from osc2tx_runtime.domain.monitoring.registry import monitors
+from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world.geometry.lane_neighbours import (
     actual_lane,
@@ -30,12 +32,16 @@ def lane(modifier: Lane, phase: Phase) -> Iterator[Condition]:
     """The lane, by its number from an edge or against the lane of a reference."""
     if modifier.reference is None:
         measure, where = _numbered(modifier, phase), f"lane {modifier.number}"
-        where += f" from the {modifier.from_}"
+        where += f" from the {modifier.edge}"
     else:
         measure, where = _beside(modifier, phase), f"the lane of {modifier.reference.id}"
         if modifier.side_of is not None:
-            where = f"lane {modifier.number} {modifier.side} of {modifier.reference.id}"
+            where = f"lane {modifier.number} {_side(modifier.side)} of {modifier.reference.id}"
     yield Condition("lane", "its lane", "lane", modifier.at, measure, lanes_text(phase, where))
+
+
+def _side(side: Late[SideLeftRight] | None) -> SideLeftRight | None:
+    return None if side is None else now(side)
 
 
 def lanes_text(phase: Phase, where: str) -> Callable[[Reading], str]:
@@ -53,7 +59,7 @@ def lanes_text(phase: Phase, where: str) -> Callable[[Reading], str]:
 
 def _numbered(modifier: Lane, phase: Phase) -> Callable[[], Reading | None]:
     """How many lanes to the left of the numbered one it is."""
-    number, edge, road_map = modifier.number, modifier.from_, phase.world.map
+    number, edge, road_map = modifier.number, modifier.edge, phase.world.map
 
     def lanes(place: LanePosition) -> float | None:
         target = lane_with_number(road_map, place, number, edge)
@@ -68,7 +74,7 @@ def _beside(modifier: Lane, phase: Phase) -> Callable[[], Reading | None]:
     road_map, me = phase.world.map, phase.me
     other = phase.track(modifier.reference.id, modifier.projected)
     count = 0 if modifier.side_of is None else modifier.number
-    wanted = float(count if modifier.side == "left" else -count)
+    wanted = float(-count if _side(modifier.side) == "right" else count)
 
     def measure() -> Reading | None:
         here, there = me().lane_position, other().lane_position
@@ -152,7 +158,7 @@ def keep_lane(modifier: object, phase: Phase) -> Iterator[Condition]:
 def change_lane(modifier: ChangeLane, phase: Phase) -> Iterator[Condition]:
     """The lane at the end, against that at the start: it cannot be another one before."""
     lanes, count = lanes_from_start(phase), float(modifier.number)
-    side = modifier.side
+    side = _side(modifier.side)
 
     def measure() -> Reading | None:
         found = lanes()
