@@ -115,7 +115,7 @@ CASES = [
         0.0,
         END,
     ),
-    Case("distance", two(distance(20.0)), ahead, 0.1, END, slack=1.2),
+    Case("distance", two(distance(20.0)), ahead, 0.1, END, slack=1.7),
     # --- actions ---
     Case("speed", lambda s: s.a.change_speed(target=12.0), faster, 0.05, END, slack=0.5),
     Case("keep_speed", lambda s: s.a.keep_speed(duration=2.0), faster, 0.05),
