@@ -111,6 +111,7 @@ ROWS = [
     refused("light_has_no_behaviors", "12 OSC301", "<traffic_light_controller>.set_state("),
     refused("map_that_is_not_there", "6 OSC443", "did you mean `highway.xodr`?", code=4),
     Row("set_of_two_values", 2.0, seeds=2),
+    Row("end_in_the_lane_of_one_that_moved", 9.0, "done@9"),
     Row("range_of_accelerations_to_an_end", 4.0, "done@4", options=("--std", "2.2")),
     Row("until_cuts_waits_short", 2.0, "done@2", found=("5 OSC433",)),
 ]
