@@ -6,8 +6,8 @@ import sys
 from contextlib import suppress
 
 __all__ = [
-    "NO_RESULT",
     "NOT_MET",
+    "NO_RESULT",
     "PARTLY_MET",
     "RUN_FAILED",
     "BeyondMapError",
@@ -34,7 +34,6 @@ a conversion to a type that has no such value (§7.4.2.6)."""
 
 RUN_FAILED = "OSC809"
 """Code of the line that says how a run failed: that is a verdict, no error."""
-
 
 NOT_MET = "OSC810"
 """Code of a condition that fails its phase."""
