@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.modifiers.base import Modifier, MovementModifier, Value, now, wanted
 from osc2tx_runtime.domain.modifiers.registry import modifier
-from osc2tx_runtime.domain.shapes import AnyLateralShape, CommonLateralShape, OwnShape
+from osc2tx_runtime.domain.shapes import AnyLateralShape, OwnShape
 from osc2tx_runtime.enums import LatMeasureBy, SideLeftRight
 from osc2tx_runtime.language.actions.modifier import LANE, SIDE
 from osc2tx_runtime.language.actions.registry import LATERAL
@@ -57,7 +57,7 @@ class Lane(MovementModifier):
     side_of: PhysicalObject | None = None
     side: SideLeftRight | None = None
     from_: SideLeftRight = "right"
-    shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
+    shape: AnyLateralShape | OwnShape[AnyLateralShape] | None = None
 
     @property
     def number(self) -> int:
@@ -104,7 +104,7 @@ class Lateral(MovementModifier):
     side_of: PhysicalObject | None = None
     side: SideLeftRight = "left"
     measure_by: LatMeasureBy = "center_to_center"
-    shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
+    shape: AnyLateralShape | OwnShape[AnyLateralShape] | None = None
 
     @property
     def reference(self) -> PhysicalObject | None:
@@ -161,7 +161,7 @@ class ChangeLane(MovementModifier):
     shaped_by = AnyLateralShape
     lane: int | Callable[[], int] = 1
     side: SideLeftRight | None = None
-    shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
+    shape: AnyLateralShape | OwnShape[AnyLateralShape] | None = None
 
     @property
     def number(self) -> int:
