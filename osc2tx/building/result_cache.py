@@ -87,7 +87,7 @@ class ResultCache:
 
     def _key(self, job: Job) -> list[Any]:
         roots = [self._real_path(root) for root in job.roots]
-        return [job.name, roots, repr(job.options), job.is_asked]
+        return [job.name, roots, len(job.roots.sources), repr(job.options), job.is_asked]
 
     def _record(self, result: FileResult) -> Mapping[str, Any]:
         assert result.source is not None and result.dependencies is not None, "it is to last"
@@ -114,7 +114,11 @@ class ResultCache:
         if not all(self._holds(dependency) for dependency in dependencies):
             return None
         imported = tuple(ImportedFile(*entry) for entry in record["imported"])
-        if any(repr(options_of(Path(i.path), given=job.given)) != i.options for i in imported):
+        project = job.roots.settings
+        if any(
+            repr(options_of(Path(i.path), given=job.given, project=project)) != i.options
+            for i in imported
+        ):
             return None
         source = SourceFile(job.name, text.decode(), job.path)
         reader = ReportReader(source, record["sources"], self._text, self._library)

@@ -61,7 +61,7 @@ domain.actors: domain.map domain.measuring domain.methods domain.objects domain.
 domain.capability_tables: domain.actors domain.map domain.measuring domain.objects domain.paths
     domain.points_and_poses domain.shapes domain.signals world
 domain.placing: domain.actors domain.map domain.modifiers domain.paths domain.points_and_poses
-    domain.routes domain.signals errors language opendrive world
+    domain.routes domain.signals enums errors language opendrive world
 domain.scenario: domain.actors domain.map domain.modifiers errors language
 domain.planning: domain.actors domain.map domain.modifiers domain.paths domain.placing
     domain.points_and_poses domain.routes domain.shapes enums errors language opendrive world

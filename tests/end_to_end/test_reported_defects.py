@@ -104,6 +104,7 @@ ROWS = [
     refused("light_has_no_behaviors", "12 OSC301", "<traffic_light_controller>.set_state("),
     refused("map_that_is_not_there", "6 OSC443", "did you mean `highway.xodr`?", code=4),
     Row("set_of_two_values", 2.0, seeds=2),
+    Row("range_of_accelerations_to_an_end", 4.0, "done@4", options=("--std", "2.2")),
     Row("until_cuts_waits_short", 2.0, "done@2", found=("5 OSC433",)),
 ]
 
@@ -142,7 +143,6 @@ OPEN = {
     "global_fixed_by_a_scenario",
     "list_too_short_for_an_element",
     "modifier_with_an_on",
-    "range_of_accelerations_to_an_end",
     "range_that_is_no_literal",
     "recursion_with_a_way_out",
     "recursive_method_in_a_keep",

@@ -23,6 +23,9 @@ DRAG = 0.0008  # 1/m
 BRAKING = 8.0  # m/s^2 of a full brake
 STEERING_RATE = 8.0  # 1/s: how fast the wheels follow the wanted angle
 MAX_STEER = math.radians(70.0)
+STEERING_CURVE = [[0.0, 1.0], [120.0, 0.5]]
+"""Share of the full lock that a pedal gives, by speed (km/h)."""
+
 THROTTLE = {"car": 5.0, "van": 4.0, "truck": 3.0, "bus": 3.0, "motorcycle": 6.0, "bicycle": 2.0}
 """Acceleration (m/s^2) of full throttle."""
 
@@ -89,7 +92,8 @@ def _inputs(actor: Actor, state: list[float]) -> list[float]:
     wheelbase = parameters.a + parameters.b
     grip = GRAVITY * min(actor.friction / TYRE_FRICTION, 1.0)
     if actor.ackermann is None:
-        wanted, acceleration = actor.control[1] * MAX_STEER, _pedals(actor, speed)
+        share = 1.0 - 0.5 * min(abs(speed) / STEERING_CURVE[1][0] * 3.6, 1.0)
+        wanted, acceleration = actor.control[1] * share * MAX_STEER, _pedals(actor, speed)
     else:
         wanted, acceleration = actor.ackermann[0], _towards(actor, speed)
     if actor.constant is not None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, ClassVar, TypeAlias, TypeVar
 
 from osc2tx_runtime.domain.shapes import AnyShape, CommonShape, OwnShape, with_methods
@@ -11,7 +11,7 @@ from osc2tx_runtime.enums import At, DynamicProfile, MovementMode, Track
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.actions.modifier import Modifier
 from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
-from osc2tx_shared.classes import dataclass
+from osc2tx_shared.classes import dataclass, replace
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.values.parameters import Range
@@ -27,6 +27,7 @@ __all__ = [
     "course_of",
     "now",
     "own_course",
+    "settled",
     "target_of",
     "value_of",
     "wanted",
@@ -54,6 +55,20 @@ def now(value: ValueT | Callable[[], ValueT]) -> ValueT:
         return value()
     except EVALUATION_ERRORS as error:
         raise ScenarioError(f"an argument has no value: {error}") from error
+
+
+def settled(modifiers: Sequence[Modifier]) -> tuple[Modifier, ...]:
+    """The modifiers with the present values of arguments that are read late.
+
+    Raises:
+        ScenarioError: An argument has no value, or one that the modifier does not take.
+    """
+    return tuple(map(_settled, modifiers))
+
+
+def _settled(modifier: Modifier) -> Modifier:
+    late = {name: now(value) for name, value in modifier.given().items() if callable(value)}
+    return replace(modifier, **late) if late else modifier
 
 
 def value_of(value: Value) -> float:

@@ -19,6 +19,7 @@ from osc2tx_runtime.domain.modifiers import (
     Position,
     value_of,
 )
+from osc2tx_runtime.domain.modifiers.base import now, settled
 from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.domain.placing.default_starts import StartPlaces
 from osc2tx_runtime.domain.placing.initial_state import (
@@ -31,6 +32,7 @@ from osc2tx_runtime.domain.placing.point_placement import PointPlaces
 from osc2tx_runtime.domain.placing.pose_resolution import heading_of, one_of_kind
 from osc2tx_runtime.domain.points_and_poses import RoutePoint
 from osc2tx_runtime.domain.routes.lane_coordinates import place_at_distance, road_entry
+from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.world.geometry.lane_neighbours import offset_from
@@ -77,6 +79,7 @@ class Placer:
             PlacementError: There is no such place.
         """
         self._draws = draws
+        modifiers = settled(modifiers)
         speed = speed_at(self._world, modifiers, self._of)
         own_speed = speed if speed is not None else (0.0 if now is None else now.v)
         at = self._place(actor, modifiers, own_speed, now, spawn, is_free)
@@ -167,10 +170,11 @@ class Placer:
         in_lane_of = None if lane is None else lane.reference
         start = self._centre(in_lane_of or reference, actor)
         if lane is not None and lane.side_of is not None and lane.side is not None:
-            beside = self._map.neighbour(start, lane.side, lane.number) if lane.number else start
+            side: SideLeftRight = now(lane.side)
+            beside = self._map.neighbour(start, side, lane.number) if lane.number else start
             if beside is None:
                 raise PlacementError(
-                    f"{actor.id}: there is no lane to the {lane.side} of {lane.side_of.id},"
+                    f"{actor.id}: there is no lane to the {side} of {lane.side_of.id},"
                     f" which is in lane {start.lane} of road {start.road}"
                 )
             start = beside

@@ -42,9 +42,9 @@ class PointPlaces:
             if isinstance(at, LanePosition)
             else self._map.locate(at.x, at.y, at.z, max_distance=1e-3)
         )
-        if on is None or number_of_lane(self._map, on, lane.from_) != lane.number:
+        if on is None or number_of_lane(self._map, on, lane.edge) != lane.number:
             raise PlacementError(
-                f"{actor.id}: its point is not on lane {lane.number} from the {lane.from_}"
+                f"{actor.id}: its point is not on lane {lane.number} from the {lane.edge}"
             )
 
     def projected(self, actor: PhysicalObject, point: Point, lane: Lane | None) -> LanePosition:
@@ -112,10 +112,10 @@ class PointPlaces:
 
     def numbered(self, actor: PhysicalObject, place: LanePosition, lane: Lane) -> LanePosition:
         """The lane with a number at the height of a place."""
-        found = lane_with_number(self._map, place, lane.number, lane.from_)
+        found = lane_with_number(self._map, place, lane.number, lane.edge)
         if found is None:
             raise PlacementError(
-                f"{actor.id}: road {place.road} has no lane {lane.number} from the {lane.from_}"
+                f"{actor.id}: road {place.road} has no lane {lane.number} from the {lane.edge}"
                 f" at s = {place.s:.1f} m"
             )
         return found

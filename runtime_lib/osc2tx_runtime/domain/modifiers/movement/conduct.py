@@ -5,7 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from osc2tx_runtime.domain.modifiers.base import Modifier, MovementModifier, Value, now
+from osc2tx_runtime.domain.modifiers.base import (
+    Late,
+    Modifier,
+    MovementModifier,
+    Value,
+    now,
+)
 from osc2tx_runtime.domain.modifiers.registry import modifier
 from osc2tx_runtime.domain.shapes import AnyPositionShape, OwnShape
 from osc2tx_runtime.enums import MovementOptions
@@ -125,7 +131,7 @@ class AvoidCollisions(Modifier):
     it, because scenarios of near misses and crashes are what most people write.
     """
 
-    avoid: bool = True
+    avoid: Late[bool] = True
 
 
 @modifier("tow_trailer", placement=True, needs=("towing",))

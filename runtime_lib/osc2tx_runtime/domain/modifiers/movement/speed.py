@@ -185,7 +185,11 @@ class Acceleration(MovementModifier):
     acceleration_range: Range[float] | Callable[[], Range[float]] | None = None
     shape: AnyAccelerationShape | OwnShape[AnyAccelerationShape] | None = None
 
+    def bounds(self) -> tuple[float, float]:
+        """Least and greatest acceleration (m/s^2) now; both the same without a range."""
+        return wanted(self.acceleration, self.acceleration_range, self.shape)
+
     def value(self, now: float) -> float:
         """The allowed acceleration (m/s^2) that is nearest to the present one."""
-        low, high = wanted(self.acceleration, self.acceleration_range, self.shape)
+        low, high = self.bounds()
         return min(max(now, low), high)

@@ -8,10 +8,18 @@ settings are restored.
 
 from __future__ import annotations
 
-__all__ = ["LETTING_GO", "MISSING"]
+import re
+
+__all__ = ["LETTING_GO", "MISSING", "release_of"]
 
 MISSING = 3
 """Exit code where the client library is not installed."""
 
 LETTING_GO = 60
 """How long (s) the process tries to let go of a server at most."""
+
+
+def release_of(version: str) -> str:
+    """Return the release of a version: source builds call themselves `0.9.15-dirty`."""
+    found = re.match(r"\d+\.\d+\.\d+", version)
+    return found[0] if found else version
