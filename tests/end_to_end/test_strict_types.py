@@ -19,12 +19,12 @@ from tests.processes import HANGING
 pytestmark = pytest.mark.slow
 
 
-def errors_in(folder: Path) -> str:
+def errors_in(folder: Path, cache: Path) -> str:
     """Return what mypy finds in the modules below a folder."""
     done = subprocess.run(
         [
             *(sys.executable, "-m", "mypy", "--strict", "--no-error-summary"),
-            *("--explicit-package-bases", "--cache-dir", str(folder / ".mypy_cache"), "."),
+            *("--explicit-package-bases", "--cache-dir", str(cache), "."),
         ],
         capture_output=True,
         text=True,
@@ -40,15 +40,15 @@ def test_a_project_of_a_hundred_scenarios(tmp_path: Path) -> None:
         [write_project(tmp_path, 100)], tmp_path / "generated", GivenOptions(target="py")
     )
     assert len(list((tmp_path / "generated").rglob("pass_*.py"))) == 100, report
-    assert errors_in(tmp_path / "generated") == ""
+    assert errors_in(tmp_path / "generated", tmp_path / "cache") == ""
 
 
-def test_the_scenarios_of_the_repository() -> None:
-    assert errors_in(REPOSITORY / "generated") == ""
+def test_the_scenarios_of_the_repository(tmp_path: Path) -> None:
+    assert errors_in(REPOSITORY / "generated", tmp_path) == ""
 
 
-def test_the_golden_modules() -> None:
-    assert errors_in(REPOSITORY / "tests" / "golden" / "py_trees") == ""
+def test_the_golden_modules(tmp_path: Path) -> None:
+    assert errors_in(REPOSITORY / "tests" / "golden" / "py_trees", tmp_path) == ""
 
 
 def test_the_public_scenarios(test_data: Path, tmp_path: Path) -> None:
@@ -61,4 +61,4 @@ def test_the_public_scenarios(test_data: Path, tmp_path: Path) -> None:
             (folder / f"{module.stem}.py").write_text(module.python, encoding="utf-8")
             count += 1
     assert count > 100
-    assert errors_in(tmp_path) == ""
+    assert errors_in(tmp_path, tmp_path / "cache") == ""
