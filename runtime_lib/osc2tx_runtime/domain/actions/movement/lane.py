@@ -9,6 +9,7 @@ from osc2tx_runtime.domain.map.road_graph import graph_of
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
 from osc2tx_runtime.domain.modifiers.base import Late, band_of, now
 from osc2tx_runtime.domain.modifiers.groups import SPEED_FREE
+from osc2tx_runtime.domain.planning.lateral.lateral_planning import lane_of
 from osc2tx_runtime.domain.planning.lateral.lateral_targets import (
     check_shift,
     jump_aside,
@@ -155,6 +156,7 @@ class ChangeLane(_OnLane):
         self.reference = reference
         self.offset = offset
         self.target = target
+        self._beside: int | None = None  # lane of the reference when the change was planned
 
     def look_ahead(self) -> None:
         """See whether there can be so many lanes, unless it may be in another lane by then."""
@@ -178,17 +180,27 @@ class ChangeLane(_OnLane):
         if lanes == 0:
             lane = self.place_of(self.actor.id).lane
             raise Refused(f"it is in the lane to change to already, lane {lane}; follow_lane stays")
+        self._beside = self._lane_of_reference()
         self.shift(lanes, value_of(self.offset), self.duration)
+
+    def _lane_of_reference(self) -> int | None:
+        return None if self.reference is None else lane_of(self, self.reference)
 
     @property
     def looks_further(self) -> bool:
-        """Only after a jump."""
-        return self.may_jump
+        """After a jump, and for a reference that changes lanes."""
+        return self.may_jump or self.reference is not None
 
     def on_update(self) -> Status:
-        """Ends in the lane, after a jump at the next step."""
+        """Ends in the lane, after a jump at the next step; keeps up with the reference."""
         if self.may_jump and not self.has_goal:
             return Status.SUCCESS if self.elapsed_steps else Status.RUNNING
+        if self._beside != (now_in := self._lane_of_reference()):
+            self._beside = now_in
+            left = self.time_left()
+            duration = self.duration if left is None or self.duration is None else max(left, 0.0)
+            self.shift(self._lanes(), value_of(self.offset), duration)
+            return Status.RUNNING
         return super().on_update()
 
     def _lanes(self) -> int:
