@@ -16,7 +16,7 @@ from osc2tx_runtime import (
     main,
     require_api,
 )
-from osc2tx_runtime.modifiers import lane, position, speed
+from osc2tx_runtime.modifiers import lane, lateral, position, speed
 from osc2tx_runtime.units import m, mps, s
 
 require_api(1)
@@ -33,7 +33,7 @@ class LaneOffset(Scenario):
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.ego, lane(2), position(50 * m), speed(15 * mps))
+        self.place(self.ego, lane(2), position(50 * m), speed(15 * mps), lateral(distance=0.4 * m))
 
     def behavior(self) -> Behaviour:
         return Serial(

@@ -17,7 +17,7 @@ from osc2tx_runtime import (
     require_api,
 )
 from osc2tx_runtime.modifiers import lane, physical_movement, position, speed
-from osc2tx_runtime.units import m, mps, s
+from osc2tx_runtime.units import m, mps
 
 require_api(1)
 
@@ -40,9 +40,8 @@ class PhysicalMovements(Scenario):
     def behavior(self) -> Behaviour:
         return Parallel(
             "physical_movements",
-            self.bound.drive(speed(20 * mps), physical_movement("must_be_physical")),
-            self.free.drive(speed(20 * mps), physical_movement("prefer_non_physical")),
-            duration=6 * s,
+            self.bound.change_speed(physical_movement("must_be_physical"), target=20 * mps),
+            self.free.change_speed(physical_movement("prefer_non_physical"), target=20 * mps),
         )
 
 

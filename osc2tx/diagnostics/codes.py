@@ -258,6 +258,14 @@ CODES = _table(
     Code("OSC807", "run-file", ERROR, "A file of a run cannot be found, read or written."),
     Code("OSC808", "simulator", ERROR, "The simulator is not there, or refuses."),
     Code("OSC809", "run-failed", ERROR, "A run ended with a failure, or not in time."),
+    Code("OSC810", "condition-failed", ERROR, "What a modifier states does not hold.", "8.9.1"),
+    Code(
+        "OSC811",
+        "condition-missed",
+        WARNING,
+        "What a modifier states holds only for a part of its phase.",
+        "8.8.2.2",
+    ),
 )
 
 

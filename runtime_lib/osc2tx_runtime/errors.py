@@ -6,6 +6,8 @@ import sys
 from contextlib import suppress
 
 __all__ = [
+    "NOT_MET",
+    "PARTLY_MET",
     "RUN_FAILED",
     "BeyondMapError",
     "CapabilityError",
@@ -26,6 +28,13 @@ __all__ = [
 
 RUN_FAILED = "OSC809"
 """Code of the line that says how a run failed: that is a verdict, no error."""
+
+
+NOT_MET = "OSC810"
+"""Code of a condition that fails its phase."""
+
+PARTLY_MET = "OSC811"
+"""Code of a condition that holds only for a part of its phase."""
 
 
 class SourcePlace(str):
@@ -96,7 +105,8 @@ def coded(code: str, message: str, place: str, file: str, given: str | None = No
     known = given is not None and place.startswith(file)
     shown = f"{given}{place[len(file) :]}" if known else str(place)
     column = f":{place.column}" if isinstance(place, SourcePlace) else ""
-    return f"{shown}{column}{': ' if shown else ''}error[{code}]: {message}"
+    severity = "warning" if code == PARTLY_MET else "error"
+    return f"{shown}{column}{': ' if shown else ''}{severity}[{code}]: {message}"
 
 
 class PlacementError(ScenarioError):

@@ -63,18 +63,21 @@ domain.capability_tables: domain.actors domain.map domain.measuring domain.objec
 domain.placing: domain.actors domain.map domain.modifiers domain.paths domain.points_and_poses
     domain.routes domain.signals enums errors language opendrive world
 domain.scenario: domain.actors domain.map domain.modifiers errors language
-domain.planning: domain.actors domain.map domain.modifiers domain.paths domain.placing
-    domain.points_and_poses domain.routes domain.shapes enums errors language opendrive world
+domain.planning: domain.actors domain.map domain.modifiers domain.objects domain.paths
+    domain.placing domain.points_and_poses domain.routes domain.shapes enums errors language
+    opendrive world
 domain.actions: domain.actors domain.map domain.measuring domain.modifiers domain.objects
     domain.paths domain.placing domain.planning domain.points_and_poses domain.routes
     domain.signals enums errors language opendrive world
+domain.monitoring: domain.actions domain.modifiers domain.placing domain.routes enums errors
+    language opendrive world
 domain.capabilities: domain.actions domain.actors domain.capability_tables domain.modifiers enums
     language units
 worlds: errors opendrive world
 simulators: enums errors opendrive plain_numbers world worlds
 report: language
-running: domain.map domain.objects domain.placing domain.scenario errors interrupts language opendrive
-    plain_numbers report world worlds
+running: domain.map domain.monitoring domain.objects domain.placing domain.scenario errors
+    interrupts language opendrive plain_numbers report world worlds
 kpis: errors language opendrive running world
 campaigns: domain.map domain.scenario errors kpis language opendrive plain_numbers running
 modifiers: domain.modifiers
@@ -104,6 +107,7 @@ plant: actor_dimensions checks geometry grip measuring motion protocol state sur
 drivers: actor_dimensions checks geometry grip measuring plant protocol state surroundings
 embedded: actor_dimensions checks commands geometry grip longitudinal measuring motion plant
     protocol state surroundings
+recorded: embedded protocol state
 """)
 
 FILES = files_of(RUNTIME)

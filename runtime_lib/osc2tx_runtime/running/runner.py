@@ -23,6 +23,8 @@ from osc2tx_runtime.running.world_choice import make_world
 from osc2tx_shared.classes import dataclass, replace
 
 if TYPE_CHECKING:
+    from osc2tx_runtime.domain.monitoring.phase import Violation
+    from osc2tx_runtime.domain.monitoring.run import Monitors
     from osc2tx_runtime.domain.scenario import Scenario
     from osc2tx_runtime.language.tree.base import Behaviour
     from osc2tx_runtime.world.protocol import World
@@ -45,6 +47,7 @@ class RunResult:
         collisions: Time in seconds and the two actors of each new contact.
         warnings: What is wrong with a run that goes on all the same.
         place: Place in the scenario of what failed; empty where it has none.
+        violations: Conditions that did not hold in their phases.
     """
 
     status: str
@@ -55,6 +58,7 @@ class RunResult:
     collisions: tuple[tuple[float, str, str], ...] = field(default=())
     warnings: tuple[str, ...] = ()
     place: str = ""
+    violations: tuple[Violation, ...] = ()
 
 
 def run_scenario(
@@ -119,6 +123,7 @@ def _run(
         place_actors(scenario, context)
         setup_tree(root, context)
         check_requirements(root, context)
+        context.monitors = monitors = make_monitors(context)
         if not is_last:
             look_ahead(root)
         try:
@@ -138,7 +143,15 @@ def _run(
         tuple(context.collisions),
         (*map_warnings(world.map), *world.warnings(), *overloads(context)),
         outcome.place,
+        tuple(monitors.violations),
     )
+
+
+def make_monitors(context: ExecutionContext) -> Monitors:
+    """Return the monitors of a run."""
+    from osc2tx_runtime.domain.monitoring.run import Monitors
+
+    return Monitors(context)
 
 
 def look_ahead(root: Behaviour) -> None:

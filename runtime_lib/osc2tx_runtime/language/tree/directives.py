@@ -227,7 +227,7 @@ class Until(Node, Decorator):
             status = self._run_behavior()
         if status is not RUNNING:
             self.stop(status)
-        return status
+        return self.status
 
     def _run_behavior(self) -> Status:
         """Run it for one pass, unless it rests."""

@@ -79,7 +79,7 @@ class On(Node, SequenceComposite):
             raise
         if status is not RUNNING:
             self.stop(status)
-        return status
+        return self.status
 
     def _hear(self) -> None:
         """Queue what happened; what is true for an instant counts once."""

@@ -36,10 +36,7 @@ __all__ = ["Distance", "KeepPosition", "Location", "Position"]
         ),
     ),
     lanes_only=True,
-    while_moving=(
-        at_least_one("ahead_of", "behind", "shape", when=["at"], values=["all"]),
-        none_of("at_point", when=["project_on_route"], values=["false"]),
-    ),
+    while_moving=(none_of("at_point", when=["project_on_route"], values=["false"]),),
     placement=True,
     places=True,
     orders=("ahead_of", "behind"),
@@ -102,6 +99,11 @@ class Position(MovementModifier):
     def reference(self) -> PhysicalObject | None:
         """The actor it is relative to."""
         return self.ahead_of or self.behind
+
+    @property
+    def stands(self) -> bool:
+        """True for one place on the road all the time."""
+        return self.at == "all" and self.reference is None and self.shape is None
 
     @property
     def reference_point(self) -> Point | None:
