@@ -80,6 +80,7 @@ running: domain.map domain.monitoring domain.objects domain.placing domain.scena
     interrupts language opendrive plain_numbers report world worlds
 kpis: errors language opendrive running world
 campaigns: domain.map domain.scenario errors kpis language opendrive plain_numbers running
+fields: domain.actors domain.measuring domain.objects domain.signals enums
 modifiers: domain.modifiers
 __init__: domain.actions domain.actors domain.map domain.measuring domain.modifiers domain.objects
     domain.paths domain.points_and_poses domain.scenario domain.shapes domain.signals errors

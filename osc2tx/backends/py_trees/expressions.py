@@ -167,6 +167,8 @@ class ExpressionWriter:
             case ir.UserShape(operand=operand, compute=compute, duration=duration):
                 object_ = self.write(operand)
                 methods = [name for name in (compute, duration) if name is not None]
+                if all(method in self._type_methods for method in methods):
+                    return object_
                 functions = (self._function(method, object_) for method in methods)
                 inner = ", ".join(map(str, (object_, *functions)))
                 return PyExpr(f"{self._use_name('OwnShape')}({inner})", Level.ATOM)

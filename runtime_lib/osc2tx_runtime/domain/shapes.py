@@ -3,7 +3,7 @@
 A shape gives the course of the value that its modifier names: a speed, or how much faster than
 another one; a distance along the road, or to another actor; a place across the lane. The time
 counts from the start of the action. There are common shapes, which say how a target is reached,
-and those of a scenario, which compute every value themselves (`OwnShape`).
+and those of a scenario, whose classes compute every value themselves.
 """
 
 from __future__ import annotations
@@ -195,3 +195,12 @@ class OwnShape(Generic[ShapeT]):
         except EVALUATION_ERRORS as error:
             name = "compute" if arguments else "duration"
             raise ScenarioError(f"`{name}` of the shape has no value: {error}") from error
+
+
+def with_methods(shape: AnyShape) -> AnyShape | OwnShape[AnyShape]:
+    """Return a shape whose class computes its values with its methods; others as they are."""
+    compute = getattr(type(shape), "compute", None)
+    if compute is None or compute is CommonShape.compute:
+        return shape
+    duration = getattr(type(shape), "duration", None)
+    return OwnShape(shape, compute, None if duration is CommonShape.duration else duration)

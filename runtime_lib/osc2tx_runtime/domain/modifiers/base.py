@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, ClassVar, TypeAlias, TypeVar
 
-from osc2tx_runtime.domain.shapes import AnyShape, CommonShape, OwnShape
+from osc2tx_runtime.domain.shapes import AnyShape, CommonShape, OwnShape, with_methods
 from osc2tx_runtime.enums import At, DynamicProfile, MovementMode, Track
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.actions.modifier import Modifier
@@ -38,7 +38,7 @@ Late: TypeAlias = ValueT | Callable[[], ValueT]
 """A value, or a function that is called for it when the action starts."""
 
 Value: TypeAlias = Late[float]
-Shape = CommonShape | OwnShape[AnyShape]
+Shape = AnyShape | OwnShape[AnyShape]
 
 _SAME = 1e-3  # between what a shape reaches and what is asked for
 
@@ -162,8 +162,11 @@ class MovementModifier(Modifier):
         return self.movement_mode == "monotonous"
 
     def check(self) -> None:
-        """Checks that the shape is one of the value."""
-        shape: Shape | None = getattr(self, "shape", None)
+        """Checks that the shape is one of the value; one that computes keeps its methods by it."""
+        shape: AnyShape | OwnShape[AnyShape] | None = getattr(self, "shape", None)
+        if isinstance(shape, AnyShape):
+            shape = with_methods(shape)
+            object.__setattr__(self, "shape", shape)
         wanted = self.shaped_by
         if shape and wanted and wanted.kind not in (shape.kind, AnyShape.kind):
             raise ScenarioError(f"{self.name}: a shape of it is an {wanted.kind}")
