@@ -1,4 +1,4 @@
-"""Repositories of strangers: reading a revision runs nothing of them and writes nothing elsewhere."""
+"""Repositories of strangers: reading a revision runs nothing and writes nothing elsewhere."""
 
 import shutil
 import subprocess
