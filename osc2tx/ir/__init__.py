@@ -104,7 +104,7 @@ from osc2tx.ir.user_types import (
     lineages,
     merged,
 )
-from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType, qualified
+from osc2tx.ir.values import ExpressionBase, Kind, TrailingComment, Unit, ValueType, qualified
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 
 __all__ = [
@@ -180,6 +180,7 @@ __all__ = [
     "ScenarioSelf",
     "Serial",
     "Struct",
+    "TrailingComment",
     "Trigger",
     "TypeTest",
     "Unary",

@@ -11,12 +11,13 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(frozen=True, slots=True)
 class ArgumentView:
-    """An argument of a call: plain code, or a call of its own."""
+    """An argument of a call: plain code, or a call of its own; `trailing` stands behind it."""
 
     code: PyExpr | None = None
     call: CallView | None = None
     keyword: PyName | None = None
     comments: tuple[PyComment, ...] = ()
+    trailing: PyComment | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +37,7 @@ class StatementView:
     target: PyExpr | None
     value: ArgumentView
     comments: tuple[PyComment, ...] = ()
+    trailing: PyComment | None = None
     blank_before: bool = False
     annotation: PyExpr | None = None
 

@@ -68,7 +68,6 @@ class OwnMethods(Scenario):
         self.other = self.cast("other", DoubleDecker(seats=40))
         self.range_of_speed = self.argument("range_of_speed", Limits(low=10 * kph))
         self.base = self.parameter("base", 10 * kph, unit="kph")
-
         # A value may need a method whose body needs a later value.
         self.cruise = self.parameter("cruise", self.scaled(2.0), unit="mps")
 
