@@ -94,6 +94,7 @@ class UnitView:
 
     name: PyName
     factor: PyExpr
+    comments: tuple[PyComment, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,11 +104,14 @@ class EnumView:
     Attributes:
         name: Its name.
         members: Its members.
+        told: The comments above each member; nothing if no member has any.
         copied: Why it is a copy, if it is one.
     """
 
     name: PyName
     members: tuple[PyExpr, ...]
+    comments: tuple[PyComment, ...] = ()
+    told: tuple[tuple[PyComment, ...], ...] = ()
     copied: PyComment | None = None
 
 
@@ -136,6 +140,7 @@ class TypeView:
         methods: Its own methods.
         others: The type of the keywords that its bases take.
         inherited: The fields that its bases of the scenario's files add to those.
+        keeps: Its constraints, as comments.
         copied: Why it is a copy, if it is one.
     """
 
@@ -149,6 +154,7 @@ class TypeView:
     methods: tuple[FunctionView, ...]
     others: PyName = PyName("Any")
     inherited: tuple[FieldView, ...] = ()
+    keeps: tuple[PyComment, ...] = ()
     copied: PyComment | None = None
 
 
@@ -162,7 +168,7 @@ class UserActionView:
         action: Its name in the registry.
         binder: What makes the function.
         docstring: Lines of its docstring.
-        parameters: As they are written, the actor first.
+        parameters: As they are written, the actor first, each below its comments.
         copied: Why it is a copy, if it is one.
     """
 
@@ -171,7 +177,7 @@ class UserActionView:
     action: PyExpr
     binder: PyName
     docstring: tuple[PyDocLine, ...]
-    parameters: tuple[PyExpr, ...]
+    parameters: tuple[tuple[tuple[PyComment, ...], PyExpr], ...]
     copied: PyComment | None = None
 
 

@@ -33,6 +33,8 @@ class Coach(Vehicle):
         super().__init__(**fields)
         self.seats = seats
 
+    # keep(default seats == 30)
+
     def is_full(self, guests: int) -> bool:
         return guests >= self.seats
 
@@ -52,6 +54,8 @@ class Limits:
 
     low: Speed
     high: Speed = 50 * kph
+
+    # keep(low < high)
 
     def middle(self) -> Speed:
         return (self.low + self.high) / 2.0
