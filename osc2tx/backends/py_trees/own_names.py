@@ -68,6 +68,7 @@ RUNTIME_FUNCTIONS = frozenset(
         "not_given",
         "require_api",
         "rise",
+        "undefined",
         "user_action",
         "within",
     }

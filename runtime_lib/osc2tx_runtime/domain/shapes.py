@@ -13,8 +13,7 @@ from collections.abc import Callable
 from typing import Any, ClassVar, Generic, TypeVar
 
 from osc2tx_runtime.enums import DynamicProfile
-from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
+from osc2tx_runtime.errors import NO_RESULT, ScenarioError, why_no_result
 from osc2tx_runtime.world.geometry.function_profiles import Computed
 from osc2tx_runtime.world.geometry.profiles import (
     QUINTIC_PEAK,
@@ -192,9 +191,11 @@ class OwnShape(Generic[ShapeT]):
     def _asked(self, method: Callable[..., float], *arguments: float) -> float:
         try:
             return float(method(self._shape, *arguments))
-        except EVALUATION_ERRORS as error:
+        except NO_RESULT as error:
             name = "compute" if arguments else "duration"
-            raise ScenarioError(f"`{name}` of the shape has no value: {error}") from error
+            raise ScenarioError(
+                f"`{name}` of the shape has no value: {why_no_result(error)}"
+            ) from error
 
 
 def with_methods(shape: AnyShape) -> AnyShape | OwnShape[AnyShape]:

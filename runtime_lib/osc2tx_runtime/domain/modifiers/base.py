@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, ClassVar, TypeAlias, TypeVar
 
 from osc2tx_runtime.domain.shapes import AnyShape, CommonShape, OwnShape, with_methods
 from osc2tx_runtime.enums import At, DynamicProfile, MovementMode, Track
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.errors import NO_RESULT, ScenarioError, why_no_result
 from osc2tx_runtime.language.actions.modifier import Modifier
-from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
 from osc2tx_shared.classes import dataclass, replace
 
 if TYPE_CHECKING:
@@ -53,8 +52,8 @@ def now(value: ValueT | Callable[[], ValueT]) -> ValueT:
         return value
     try:
         return value()
-    except EVALUATION_ERRORS as error:
-        raise ScenarioError(f"an argument has no value: {error}") from error
+    except NO_RESULT as error:
+        raise ScenarioError(f"an argument has no value: {why_no_result(error)}") from error
 
 
 def settled(modifiers: Sequence[Modifier]) -> tuple[Modifier, ...]:

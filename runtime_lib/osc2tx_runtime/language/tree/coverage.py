@@ -8,9 +8,9 @@ from contextlib import suppress
 from itertools import pairwise
 from typing import Any, Literal, TypedDict
 
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.errors import NO_RESULT, ScenarioError, why_no_result
 from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Leaf, Status
-from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS, Watch
+from osc2tx_runtime.language.tree.conditions import Watch
 from osc2tx_runtime.language.tree.events import Event, Occurrences, watch
 from osc2tx_runtime.language.values.written_units import AnyUnit, unit_named
 from osc2tx_shared.classes import dataclass
@@ -197,5 +197,7 @@ class Recording(Leaf):
         assert item.value is not None, item.name
         try:
             return item.value()
-        except EVALUATION_ERRORS as error:
-            raise ScenarioError(f"{item.name} has no value: {error}", self.source) from error
+        except NO_RESULT as error:
+            raise ScenarioError(
+                f"{item.name} has no value: {why_no_result(error)}", self.source
+            ) from error
