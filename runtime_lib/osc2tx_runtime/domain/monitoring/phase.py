@@ -270,10 +270,11 @@ class Phase:
         """Whether the phase fails: ADR 6 has the reasons."""
         if self._control in EXTERNAL:
             return "warning"
-        if condition.at != "all" or self._option == "must_be_physical":
+        if self._option == "must_be_physical":
             return "failure"
-        jumps = self._option == "prefer_non_physical" and self._control == EXACT
-        return "failure" if jumps else "warning"
+        if self._option == "prefer_non_physical":
+            return "failure" if self._control == EXACT else "warning"
+        return "warning" if condition.is_target or condition.at == "all" else "failure"
 
 
 def _words(condition: Condition, reading: Reading) -> str:
