@@ -79,7 +79,8 @@ report: language
 running: domain.map domain.monitoring domain.placing domain.scenario errors interrupts language
     opendrive plain_numbers report world worlds
 kpis: errors language opendrive running world
-campaigns: domain.map domain.scenario errors kpis language opendrive plain_numbers running
+campaigns: domain.map domain.monitoring domain.scenario errors kpis language opendrive
+    plain_numbers running
 modifiers: domain.modifiers
 __init__: domain.actions domain.actors domain.map domain.measuring domain.modifiers domain.objects
     domain.paths domain.points_and_poses domain.scenario domain.shapes domain.signals errors
