@@ -3,7 +3,7 @@
 Another car overtakes the ego vehicle and cuts in with a short gap.
 
 Made by osc2tx from cut_in.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -51,6 +51,7 @@ class CutIn(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "cut_in",
             self.ego.drive("ego_drives", speed(self.v_ego)),

@@ -33,7 +33,6 @@ require_api(1)
 class HelloWorld(Scenario):
     name = "hello_world"
     source = "hello_world.osc"
-    first_come = True
 
     def declare(self) -> None:
         """Cast, events and values."""
@@ -75,13 +74,14 @@ class HelloWorld(Scenario):
         self.place(self.obstacle, position(x=478.93, y=-14.07, z=0.0, h=-1.57 * rad, frame="carla"))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "hello_world",
-            self.do_serial(),
-            self.do_parallel(),
+            self._env_then_hero(),
+            self._hero_and_npc(),
         )
 
-    def do_serial(self) -> Behaviour:
+    def _env_then_hero(self) -> Behaviour:
         return Serial(
             "do serial",
             # --- TWILIGHT SETTINGS ---
@@ -89,17 +89,15 @@ class HelloWorld(Scenario):
             self.hero.set_lights(mode="auto"),
         )
 
-    def do_parallel(self) -> Behaviour:
+    def _hero_and_npc(self) -> Behaviour:
         return Parallel(
             "do parallel",
-            self.hero_serial(),
-            self.npc_serial(),
+            self._hero_drive_then_change_lane(),
+            self._npc_drive_then_change_lane(),
         )
 
-    # ==========================
-    # --- HERO LOGIC ---
-    # ==========================
-    def hero_serial(self) -> Behaviour:
+    def _hero_drive_then_change_lane(self) -> Behaviour:
+        """HERO LOGIC."""
         return Serial(
             "hero: serial",
             Wait(self.go_signal),
@@ -151,10 +149,8 @@ class HelloWorld(Scenario):
             Wait(elapsed(5 * s)),
         )
 
-    # ==========================
-    # --- NPC LOGIC ---
-    # ==========================
-    def npc_serial(self) -> Behaviour:
+    def _npc_drive_then_change_lane(self) -> Behaviour:
+        """NPC LOGIC."""
         return Serial(
             "npc: serial",
             Wait(self.go_signal),

@@ -3,7 +3,7 @@
 A pedestrian crosses the road in front of the ego vehicle, which brakes, waits and drives on.
 
 Made by osc2tx from pedestrian_crossing.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -52,6 +52,7 @@ class PedestrianCrossing(Scenario):
         self.place(self.ego, lane(1), position(120 * m), speed(self.v_ego))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "pedestrian_crossing",
             self.walker_part(),

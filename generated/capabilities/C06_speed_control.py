@@ -4,7 +4,7 @@ C06 Speed control: the same change of speed by three rate profiles: constant acc
 course, and as fast as the vehicle can.
 
 Made by osc2tx from capabilities/C06_speed_control.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -42,6 +42,7 @@ class SpeedControl(Scenario):
         self.place(self.hasty, lane(3), position(50 * m), speed(self.v_start))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "speed_control",
             self.even.change_speed(

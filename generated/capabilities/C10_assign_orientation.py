@@ -3,7 +3,7 @@
 C10 Assign orientation: a person turns to a heading of the world and walks on that way.
 
 Made by osc2tx from capabilities/C10_assign_orientation.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -46,6 +46,7 @@ class AssignOrientation(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "assign_orientation",
             self.walker.walk("east", speed(1 * mps), duration=5 * s),

@@ -4,7 +4,7 @@ C17 Light bulbs: what single bulbs do starts something else; a stop line that is
 has it, and what is known of the light.
 
 Made by osc2tx from capabilities/C17_light_bulbs.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -94,13 +94,14 @@ class LightBulbs(Scenario):
         self.place(self.ego, lane(1), position(20 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "light_bulbs",
             self.lights.play_cycles(cycles=self.road.traffic_light_control),
-            self.ego_serial(),
+            self._ego_drive_serial(),
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_drive_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Until(

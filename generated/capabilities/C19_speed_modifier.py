@@ -3,7 +3,7 @@
 C19 Speed modifier: a speed of its own, and speeds relative to it: faster, slower, by a factor.
 
 Made by osc2tx from capabilities/C19_speed_modifier.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -42,6 +42,7 @@ class SpeedModifier(Scenario):
         self.place(self.scaled, lane(4), position(100 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "speed_modifier",
             self.pace.drive(speed(self.v_pace)),

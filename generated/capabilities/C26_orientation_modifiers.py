@@ -4,7 +4,7 @@ C26 Orientation modifiers: headings against the road, against the world and agai
 person.
 
 Made by osc2tx from capabilities/C26_orientation_modifiers.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -59,6 +59,7 @@ class OrientationModifiers(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "orientation_modifiers",
             self.along.walk(speed(1 * mps)),

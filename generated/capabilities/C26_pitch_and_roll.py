@@ -4,7 +4,7 @@ C26 Pitch and roll: a car lies on the road as that climbs and is banked, a box i
 a sign stands askew.
 
 Made by osc2tx from capabilities/C26_pitch_and_roll.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -62,14 +62,15 @@ class PitchAndRoll(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "pitch_and_roll",
-            self.car_serial(),
-            self.box_serial(),
+            self._car_drive_serial(),
+            self._box_move_then_assign_orientation(),
             duration=12 * s,
         )
 
-    def car_serial(self) -> Behaviour:
+    def _car_drive_serial(self) -> Behaviour:
         return Serial(
             "car: serial",
             Until(
@@ -79,7 +80,7 @@ class PitchAndRoll(Scenario):
             self.car.drive(orientation(pitch=0 * deg, roll=0 * deg, measure_by="relative_to_road")),
         )
 
-    def box_serial(self) -> Behaviour:
+    def _box_move_then_assign_orientation(self) -> Behaviour:
         return Serial(
             "box: serial",
             self.box.move(duration=1 * s),

@@ -4,7 +4,7 @@ C29 Conversions: points of the road to points of the world and back, and what is
 of a road.
 
 Made by osc2tx from capabilities/C29_conversions.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -73,6 +73,7 @@ class Conversions(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "conversions",
             self.ego.drive(speed(10 * mps), duration=1 * s),

@@ -4,7 +4,7 @@ C29 Crossing: a person walks along a sidewalk, over the zebra crossing of the ma
 other sidewalk; another one takes a crossing of its own, which leads over the street at an angle.
 
 Made by osc2tx from capabilities/C29_crossing.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -84,6 +84,7 @@ class CrossingTheStreet(Scenario):
         self.place(self.other, along(self.shortcut), speed(1 * mps), throughout=True)
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "crossing_the_street",
             self.walker.walk(along(self.way), speed(1.5 * mps)),

@@ -4,7 +4,7 @@ C29 Joined roads: the map finds the motorway after a ramp, the lane of the motor
 part of it before that, and its right lane from end to end.
 
 Made by osc2tx from capabilities/C29_joined_roads.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -80,6 +80,7 @@ class JoinedRoads(Scenario):
         self.place(self.ego, along(self.on_ramp, start_offset=20 * m), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "joined_roads",
             self.ego.drive(speed(15 * mps), duration=3 * s),

@@ -3,7 +3,7 @@
 C29 Route values: what the map says of the roads that were chosen, and a route made of two of them.
 
 Made by osc2tx from capabilities/C29_route_values.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -80,6 +80,7 @@ class RouteValues(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "route_values",
             self.ego.drive(

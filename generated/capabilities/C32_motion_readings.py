@@ -3,7 +3,7 @@
 C32 Triggers by the motion of a car: how fast it turns, what throws it aside, how steep its way is.
 
 Made by osc2tx from capabilities/C32_motion_readings.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -54,6 +54,7 @@ class MotionReadings(Scenario):
         self.place(self.ego, lane(1), position(50 * m), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "motion_readings",
             Until(

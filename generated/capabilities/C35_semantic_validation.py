@@ -4,7 +4,7 @@ C35 Semantic validation: names, types, units, events and the domain of each valu
 before anything is built. The tests break this scenario in many ways and look for the report.
 
 Made by osc2tx from capabilities/C35_semantic_validation.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -52,13 +52,14 @@ class SemanticValidation(Scenario):
         self.place(self.other, lane(2), position(60 * m, ahead_of=self.ego), speed(self.v_other))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "semantic_validation",
-            self.ego_serial(),
+            self._ego_approach_then_evade(),
             self.other.drive(speed(self.v_other)),
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_approach_then_evade(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Until(

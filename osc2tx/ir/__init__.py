@@ -84,6 +84,7 @@ from osc2tx.ir.expressions import (
     ScenarioSelf,
     TypeTest,
     Unary,
+    Undefined,
     UserShape,
 )
 from osc2tx.ir.nodes import (
@@ -183,6 +184,7 @@ __all__ = [
     "Trigger",
     "TypeTest",
     "Unary",
+    "Undefined",
     "Unit",
     "UserAction",
     "UserEnum",

@@ -71,11 +71,16 @@ class UserEnum:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ActionParameter:
-    """A parameter of a user's own action; one with a default has a value in every invocation."""
+    """A parameter of a user's own action; one with a default has a value in every invocation.
+
+    Attributes:
+        default: The default, if it is the same for all invocations.
+    """
 
     name: str
     type: ValueType
     has_default: bool
+    default: Expression | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -120,7 +120,7 @@ def lower(
         scenarios=scenarios,
         comments=_head_comments(model.root),
         types=lower_types(program, used),
-        actions=lower_actions((*actions, *_own_actions(model))),
+        actions=lower_actions(program, (*actions, *_own_actions(model))),
     )
     modifiers = dict.fromkeys((*own_modifiers(model), *applied))
     module = replace(module, modifiers=lower_modifiers(program, modifiers))
@@ -173,7 +173,7 @@ def _lower_scenario(
     tree = lower_body(ctx, scenario, statements, constraints, standing, duration)
     if tree is None:
         return None
-    placements, body = PlacementLowering(ctx).split(labelled_once(tree, set()))
+    placements, body = PlacementLowering(ctx).split(labelled_once(tree))
     if body is None:
         body = nothing_left(scenario)
     left_over = constraints.left_over()

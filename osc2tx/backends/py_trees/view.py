@@ -60,6 +60,7 @@ class MethodView:
 
     signature: PyExpr
     value: ArgumentView
+    docstring: tuple[PyDocLine, ...] = ()
     comments: tuple[PyComment, ...] = ()
     statements: tuple[StatementView, ...] = ()
 
@@ -82,7 +83,7 @@ class ImportView:
     def has_lines(self) -> bool:
         """Whether each name has a line, as one has where there are too many."""
         line = f"from {self.module} import {', '.join(map(str, self.names))}"
-        return self.is_long or len(line) > LINE_LENGTH
+        return (self.is_long and len(self.names) > 1) or len(line) > LINE_LENGTH
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +132,8 @@ class TypeView:
         docstring: Lines of its docstring.
         fields: Its own fields.
         methods: Its own methods.
+        others: The type of the keywords that its bases take.
+        inherited: The fields that its bases of the scenario's files add to those.
         copied: Why it is a copy, if it is one.
     """
 
@@ -142,6 +145,8 @@ class TypeView:
     docstring: tuple[PyDocLine, ...]
     fields: tuple[FieldView, ...]
     methods: tuple[FunctionView, ...]
+    others: PyName = PyName("Any")
+    inherited: tuple[FieldView, ...] = ()
     copied: PyComment | None = None
 
 

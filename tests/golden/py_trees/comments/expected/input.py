@@ -5,7 +5,7 @@ in two lines.
 beside the import
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -63,8 +63,8 @@ class Comments(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, speed(self.v), throughout=True)
 
-    # Above do
     def behavior(self) -> Behaviour:
+        """Above do."""
         return Serial(
             "comments",
             # Above a drive
@@ -79,12 +79,12 @@ class Comments(Scenario):
                 # above until
                 elapsed(1 * s),
             ),
-            self.parallel(),
+            self._wait_and_emit_seen(),
             # below the last member of the serial
         )
 
-    # Above a parallel
-    def parallel(self) -> Behaviour:
+    def _wait_and_emit_seen(self) -> Behaviour:
+        """Above a parallel."""
         return Parallel(
             "parallel",
             # above a member

@@ -1,7 +1,7 @@
 """Scenario `constraints`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from typing import Literal, TypeAlias
@@ -94,16 +94,17 @@ class Constraints(Scenario):
         self.place(self.ego, speed(self.slow), lane(self.lanes))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "constraints",
             Until(
                 self.ego.drive("drive", speed(self.slow), duration=(self.first, inf)),
                 elapsed(self.second + self.pause),
             ),
-            self.npc_serial(),
+            self._npc_change_serial(),
         )
 
-    def npc_serial(self) -> Behaviour:
+    def _npc_change_serial(self) -> Behaviour:
         return Serial(
             "npc: serial",
             Wait(elapsed(1 * s)),

@@ -3,7 +3,7 @@
 Names of several namespaces, and what is added to types after they are declared.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from dataclasses import dataclass
@@ -64,6 +64,7 @@ class Commute(Scenario):
         self.place(self.actor, speed(self.habit.pace), throughout=True)
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return self.actor.drive(speed(self.habit.pace), duration=1 * s)
 
 
@@ -95,6 +96,7 @@ class Extensions(Scenario):
         self.keep(self.ego_commute_top < self.fast.pace)
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "extensions",
             self.invoke(Commute, actor=self.ego, habit=self.economical, top=self.ego_commute_top),

@@ -1,7 +1,7 @@
 """Scenario `lists`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from typing import Literal, TypeAlias
@@ -52,6 +52,7 @@ class Lists(Scenario):
         self.place(self.ego, speed(self.cruise), throughout=True)
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "lists",
             self.ego.drive(speed(self.cruise), duration=2 * s),

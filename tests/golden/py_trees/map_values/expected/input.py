@@ -3,7 +3,7 @@
 What a map fills in, and what is read of it.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -145,6 +145,7 @@ class MapValues(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "map_values",
             self.walker.walk(along(self.way), speed(1.5 * mps)),

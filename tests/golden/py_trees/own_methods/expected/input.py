@@ -1,11 +1,11 @@
 """Scenario `own_methods`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Unpack
 
 from osc2tx_runtime import (
     Behaviour,
@@ -17,6 +17,7 @@ from osc2tx_runtime import (
     main,
     require_api,
 )
+from osc2tx_runtime.fields import VehicleFields
 from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.units import Speed, kph, s
 
@@ -28,7 +29,7 @@ class Coach(Vehicle):
 
     kinds = ("coach", *Vehicle.kinds)
 
-    def __init__(self, *, seats: int, **fields: Any) -> None:
+    def __init__(self, *, seats: int, **fields: Unpack[VehicleFields]) -> None:
         super().__init__(**fields)
         self.seats = seats
 
@@ -81,6 +82,7 @@ class OwnMethods(Scenario):
         return self.base * factor
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "own_methods",
             self.ego.drive(speed(self.range_of_speed.middle()), duration=1 * s),

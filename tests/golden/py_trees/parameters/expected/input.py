@@ -1,7 +1,7 @@
 """Scenario `parameters`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -54,6 +54,7 @@ class Parameters(Scenario):
         self.place(self.ego, lane(self.lanes), speed(self.limit))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return self.ego.drive(speed(self.limit), duration=2 * s)
 
 

@@ -1,7 +1,7 @@
 """Scenario `paths`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -84,13 +84,14 @@ class Paths(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "paths",
-            self.ego_serial(),
-            self.other_serial(),
+            self._ego_follow_path_then_disconnect_trailer(),
+            self._other_replay_trajectory_serial(),
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_follow_path_then_disconnect_trailer(self) -> Behaviour:
         return Serial(
             "ego: serial",
             self.ego.follow_path(absolute=self.spelled_out),
@@ -102,7 +103,7 @@ class Paths(Scenario):
             ),
         )
 
-    def other_serial(self) -> Behaviour:
+    def _other_replay_trajectory_serial(self) -> Behaviour:
         return Serial(
             "other: serial",
             self.other.replay_trajectory(absolute=self.in_time),
