@@ -35,6 +35,7 @@ create table run (
     steps integer not null,
     time real not null,
     measures text not null,
+    violations text not null,
     digest text,
     seconds real not null,
     attempts integer not null
@@ -56,7 +57,7 @@ create table left_out (number integer primary key);
 OF_THE_MACHINE = ("seconds", "attempts")
 COLUMNS = (
     *("number", "seed", "shares", "given", "parameters", "status", "reason", "source", "steps"),
-    *("time", "measures", "digest", "seconds", "attempts"),
+    *("time", "measures", "violations", "digest", "seconds", "attempts"),
 )
 
 _NUMBER = (int, float)
@@ -102,6 +103,7 @@ def record(result: RowResult) -> Sequence[Any]:
         result.steps,
         result.time,
         json.dumps(dict(result.measures)),
+        json.dumps(result.violations),
         result.digest,
         result.seconds,
         result.attempts,
@@ -115,7 +117,7 @@ def decoded(values: Sequence[Any]) -> dict[str, Any]:
         ValueError: Nothing that osc2tx writes into a column.
     """
     found = dict(zip(COLUMNS, values, strict=True))
-    for name in ("shares", "given", "parameters", "measures"):
+    for name in ("shares", "given", "parameters", "measures", "violations"):
         found[name] = None if found[name] is None else json.loads(found[name])
     require_types(found, ROW_TYPES)
     return found
