@@ -90,7 +90,11 @@ class Context:
         self.entities: list[CastMember] = self.scope.members()
         self.map_file = self._map_file()
         folders = [*([folder] if folder else []), *map(Path, options.map_path)]
-        self.roads: Roads | None = roads_of(self.map_file, folders)
+        self.roads: Roads | None = None
+        try:
+            self.roads = roads_of(self.map_file, folders)
+        except Inexpressible as error:
+            self.report.cannot("map", scenario.span, error.reason)
         self.map_places = places_in_project(self.map_file, folders)
         self.states: dict[str, ActorState] = {}
         self.at_start: dict[str, ActorState] = {}

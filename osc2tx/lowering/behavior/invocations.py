@@ -33,6 +33,7 @@ from osc2tx.semantics.conversions import symbol_of
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.names.member_lookup import parameters_of
 from osc2tx.syntax import ast
+from osc2tx_shared.classes import replace
 
 
 class InvocationLowering:
@@ -171,8 +172,11 @@ class InvocationLowering:
         actor: ir.Expression | None,
         behavior: sym.BehaviorSymbol | None,
     ) -> ModifierLowering:
+        ctx = self._ctx
+        if ctx.actor is None and "actor" not in ctx.own_names:
+            ctx = replace(ctx, actor=actor)  # the scenario has none: it is that of the invocation
         return ModifierLowering(
-            self._ctx, self._constraints, name_of_member(node), actor, behavior, (node,)
+            ctx, self._constraints, name_of_member(node), actor, behavior, (node,)
         )
 
     def _arguments(

@@ -90,6 +90,8 @@ def lower_member(
     label = ctx.model.symbol_of(base)
     if isinstance(label, sym.LabelSymbol):
         return _of_label(ctx, node, label, field, type_)
+    if field.node is None and field.name == "actor" and ctx.actor is not None:  # `it.actor`
+        return replace(ctx.actor, span=node.span)
     key = ctx.place.locate(node) if ctx.place is not None else None
     if key is not None and not isinstance(key[0], sym.FieldSymbol):
         return lower_key(ctx, key, node.span)

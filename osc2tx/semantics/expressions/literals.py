@@ -10,9 +10,13 @@ from osc2tx.semantics.names.aliases import unit_alias, write_instead
 from osc2tx.semantics.names.everyday_words import UNITS, plain_word
 from osc2tx.semantics.names.unknown_names import report_unimported
 from osc2tx.semantics.resolution import Environment, Resolution
+from osc2tx.semantics.symbols import UnitSymbol
 from osc2tx.semantics.types import ERROR, ListType, RangeType, Type
 from osc2tx.semantics.units import constant_number
 from osc2tx.syntax import ast
+
+LARGEST, SMALLEST = 1e15, 1e-30
+"""Sizes of a quantity in SI units: products and quotients of several stay numbers."""
 
 
 def infer_physical(r: Resolution, node: ast.PhysicalLiteral) -> Type:
@@ -36,7 +40,21 @@ def infer_physical(r: Resolution, node: ast.PhysicalLiteral) -> Type:
         report_disputed(r, node.unit, unit, rival)
     r.units[node] = unit
     r.references[node.unit] = unit
+    _check_size(r, node, unit)
     return unit.type
+
+
+def _check_size(r: Resolution, node: ast.PhysicalLiteral, unit: UnitSymbol) -> None:
+    """Report a quantity that nothing has, before anything is computed with it."""
+    value = abs(node.value * unit.factor)
+    if value > LARGEST or (node.value and value < SMALLEST):
+        size = "small" if value < SMALLEST else "large"
+        r.report(
+            "OSC516",
+            node.span,
+            f"no world has so {size} a quantity",
+            notes=[f"in SI units it is {value:g}; it may be {SMALLEST:g} to {LARGEST:g}, or zero"],
+        )
 
 
 def infer_list(

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from osc2tx_runtime.errors import PlacementError
+
 from .geometry import wrap
 from .lane_distances import Route
 from .lane_line import lane_line
@@ -86,10 +88,10 @@ def advance(
     """Moves by `distance` (m, negative backwards) along lanes at the offset of `p`.
 
     Raises:
-        ValueError: The distance is not finite; on a ring road such a move would never end.
+        PlacementError: The distance is not finite; on a ring road such a move would never end.
     """
     if not math.isfinite(distance):
-        raise ValueError(f"cannot move by {distance} m; give a finite distance")
+        raise PlacementError(f"no place is {distance:g} m away; give a finite distance")
     forwards = distance >= 0.0
     # Nearly every step of an actor stays in its lane, so that case comes first.
     line, offset = lane.line or lane_line(lane), p.offset * lane.direction

@@ -24,6 +24,7 @@ _REACH = 4.5  # m: a point registers in every cell within this reach
 _HALF_ROAD = 500.0  # m: an absurd width must not fill the memory
 _WIDE = 2.0  # m beyond the outermost lanes
 _MOST = 64  # samples of a stretch
+_LARGEST = 1e9  # m: what no attribute of a map exceeds
 _WIDEST = 64  # tiles along the edge of the box of a stretch; what is wider counts as everywhere
 
 _Cell = tuple[int, int]
@@ -50,7 +51,7 @@ class RoadIndex:
         roads: The roads, in their numeric order.
     """
 
-    __slots__ = ("_cells", "_everywhere", "_roads", "_stretches", "_tiles")
+    __slots__ = ("_cells", "_everywhere", "_extent", "_roads", "_stretches", "_tiles")
 
     def __init__(self, roads: Iterable[Road]) -> None:
         self._roads = tuple(roads)
@@ -68,14 +69,21 @@ class RoadIndex:
             for tile in _touched(stretch):
                 self._tiles.setdefault(tile, []).append(stretch)
         self._cells: dict[_Cell, dict[_Cell, _Near]] = {}
+        self._extent = _extent(self._stretches)
 
     def candidates(self, x: float, y: float, reach: float) -> _Near:
         """Roads near a point, each with an s to start from; empty if none within `reach` (m)."""
+        if not (math.isfinite(x) and math.isfinite(y)):
+            return []
         cx, cy = math.floor(x / _CELL), math.floor(y / _CELL)
         found = self._cell(cx, cy)
         if found:
             return found
-        for ring in range(1, math.ceil(reach / _CELL) + 1):
+        # Far from all roads, rings that hold none are passed over, and so are the parts of others.
+        (left, bottom), (right, top) = self._extent
+        first = max(1, left - cx, cx - right, bottom - cy, cy - top)
+        last = max(abs(left - cx), abs(right - cx), abs(bottom - cy), abs(top - cy))
+        for ring in range(first, min(last, math.ceil(reach / _CELL)) + 1):
             hits = self._ring(cx, cy, ring)
             if hits:  # a corner of this ring may be farther away than the next ring
                 return hits + self._ring(cx, cy, ring + 1)
@@ -117,11 +125,14 @@ class RoadIndex:
         return (min(xs), max(xs)), (min(ys), max(ys))
 
     def _ring(self, cx: int, cy: int, ring: int) -> _Near:
+        (left, bottom), (right, top) = self._extent
+        low, high = max(-ring, bottom - cy), min(ring, top - cy)
         hits: _Near = []
-        for i in range(-ring, ring + 1):
+        for i in range(max(-ring, left - cx), min(ring, right - cx) + 1):
             inner = abs(i) < ring
-            for j in (-ring, ring) if inner else range(-ring, ring + 1):
-                hits.extend(self._cell(cx + i, cy + j))
+            for j in (-ring, ring) if inner else range(low, high + 1):
+                if low <= j <= high:
+                    hits.extend(self._cell(cx + i, cy + j))
         return hits
 
     def _cell(self, cx: int, cy: int) -> _Near:
@@ -154,6 +165,22 @@ class RoadIndex:
             middle = 0.5 * (_place(road, first) + _place(road, last))
             table.setdefault((cx, cy), []).append((road, middle))
         return table
+
+
+def _extent(stretches: Iterable[_Stretch]) -> tuple[_Cell, _Cell]:
+    """The cells at two corners of a box that holds all cells with samples."""
+    low, high = [0.0, 0.0], [0.0, 0.0]
+    for nth, stretch in enumerate(stretches):
+        reach = stretch.radius + 2.0 * _REACH
+        for axis, middle in enumerate((stretch.x, stretch.y)):
+            low[axis] = min(low[axis], middle - reach) if nth else middle - reach
+            high[axis] = max(high[axis], middle + reach) if nth else middle + reach
+    if not all(map(math.isfinite, (*low, *high))):  # the geometry of the map is absurd
+        low, high = [-_LARGEST] * 2, [_LARGEST] * 2
+    return (
+        (math.floor(low[0] / _CELL), math.floor(low[1] / _CELL)),
+        (math.floor(high[0] / _CELL), math.floor(high[1] / _CELL)),
+    )
 
 
 def _samples(road: Road) -> int:

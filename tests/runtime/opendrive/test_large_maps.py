@@ -200,3 +200,13 @@ def test_lengths_without_a_table_are_those_of_the_table(own: Callable[[str], Roa
                     assert short == pytest.approx(lane_line(lane).length, abs=1e-9)
                     lane.line = before
     assert compared > 50
+
+
+@pytest.mark.parametrize("away", [1e6, 1e12, math.inf, math.nan])
+def test_work_does_not_grow_with_the_distance_from_the_map(away: float) -> None:
+    """Within reach or not: rings without roads are passed over."""
+    road_map = chain(5)
+    road_map.locate(0.0, 0.0)
+    for reach in (50.0, 2e6):
+        assert calls(lambda reach=reach: road_map.locate(0.0, away, max_distance=reach)) < 100_000
+    assert (road_map.locate(0.0, away, max_distance=2e6) is not None) == (away == 1e6)

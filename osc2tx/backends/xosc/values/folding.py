@@ -60,6 +60,9 @@ _COMPARISONS: Mapping[str, Callable[[float, float], bool]] = {
     ">=": operator.ge,
 }
 
+LARGEST = 1e15
+"""What is computed may not be larger, in SI units, as what is written."""
+
 
 class Values:
     """Folds expressions of one scenario.
@@ -108,7 +111,12 @@ class Values:
             return 0.5 * (value.lower + value.upper)
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             raise Inexpressible(f"`{expression.span.text}` is no number", expression.span)
-        return value if isinstance(value, Symbol) else float(value)
+        if isinstance(value, Symbol):
+            return value
+        if not isinstance(expression, ir.Literal) and not abs(value) <= LARGEST:
+            reason = f"`{expression.span.text}` is {value:g}, which no world has"
+            raise Inexpressible(reason, expression.span)
+        return float(value)
 
     def actor(self, expression: ir.Expression) -> str:
         """Return the name of an actor.

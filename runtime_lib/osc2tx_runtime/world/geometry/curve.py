@@ -20,6 +20,7 @@ _GAUSS = (
     (0.5, 0.4444444444444444),
     (0.8872983346207417, 0.2777777777777778),
 )
+_COARSE = 0.02  # of the distance to a point: so long are the steps of a search for its foot
 _STILL = 1e-9  # metres per unit of the parameter
 
 Vector = tuple[float, float, float]
@@ -149,7 +150,10 @@ class Curve:
         """
         best, best_distance = along, self._distance(x, y, along)
         step, ahead = 0.25 * reach, along
-        while ahead < min(best + reach, self.length):
+        while True:
+            step = max(0.25 * reach, _COARSE * best_distance)  # a path may be a thousand km away
+            if ahead >= min(best + 4.0 * step, self.length):
+                break
             ahead = min(ahead + step, self.length)
             distance = self._distance(x, y, ahead)
             if distance < best_distance:

@@ -1,0 +1,100 @@
+"""Numbers that no world has, and maps that are none: messages, and no internal errors."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.unit.cli.shell import Shell
+
+HEAD = """import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario top:
+    road: map with:
+        keep(it.map_file == "highway.xodr")
+    ego, other: vehicle
+"""
+
+
+def source(folder: Path, body: str) -> str:
+    place = folder / "top.osc"
+    place.write_text(HEAD + body)
+    return str(place)
+
+
+LONG_PARALLEL = """    do parallel(overlap: any, end_to_end: {number}s):
+        ego.drive(duration: 2s)
+        other.drive(duration: {number}s)
+"""
+SLOW_CHANGE = """    do ego.change_lane(side: left, duration: {number}s)
+"""
+FAR_POINT = """    goal: position_3d with:
+        keep(it.x == {number}m)
+    do ego.change_position(target_xyz: goal, interpolation: straight_line, on_road_network: false)
+"""
+COMPUTED = """    gap: length
+    keep(gap == {number} * other.bounding_box.length)
+    do parallel:
+        other.drive(duration: 1s)
+        ego.drive(duration: 1s) with:
+            position(gap, behind: other, at: start)
+"""
+
+
+@pytest.fixture
+def shell(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Shell:
+    monkeypatch.chdir(tmp_path)
+    return Shell(capsys, tmp_path)
+
+
+@pytest.mark.parametrize(
+    "number", ["0", "-1", "1e308", "-1e308", "1e-308", "1e15", "9223372036854775808.0"]
+)
+@pytest.mark.parametrize("body", [LONG_PARALLEL, SLOW_CHANGE, FAR_POINT, COMPUTED])
+def test_extreme_numbers_are_no_internal_errors(
+    shell: Shell, tmp_path: Path, body: str, number: str
+) -> None:
+    file = source(tmp_path, body.format(number=number))
+    for words in (
+        ("check", file),
+        ("build", file, "-o", str(tmp_path / "out")),
+        ("run", file, "--max-time", "4"),
+    ):
+        ended = shell(*words)
+        assert ended.code != 70 and "Traceback" not in ended.err, (words, ended.err)
+        if "e308" in number and body is not COMPUTED:
+            assert (ended.code, "OSC516" in ended.err + ended.out) == (3, True)
+
+
+OPEN = """    v: speed with:
+        keep(it in [5mps..20mps])
+    do ego.drive(duration: 1s) with:
+        speed(v)
+"""
+BEHIND = """    do ego.drive(duration: 1s) with:
+        position(20m, behind: {reference}, at: start)
+"""
+
+
+def test_a_map_that_cannot_be_read_is_told_in_the_report(shell: Shell, tmp_path: Path) -> None:
+    """Also where a parameter is open: the module is written, the document is not."""
+    (tmp_path / "highway.xodr").write_text("<OpenDRIVE/>")
+    file, out = source(tmp_path, OPEN), tmp_path / "out"
+    ended = shell("build", file, "-o", str(out), "--map-path", str(tmp_path / "highway.xodr"))
+    assert ended.code == 0
+    assert {path.name for path in out.glob("*.py")} == {"top.py"}
+    assert not list(out.glob("*.xosc"))
+
+
+@pytest.mark.parametrize("reference", ["actor", "it.actor", "ego"])
+def test_an_actor_that_is_its_own_reference(shell: Shell, tmp_path: Path, reference: str) -> None:
+    file = source(tmp_path, BEHIND.format(reference=reference))
+    assert shell("build", file, "-o", str(tmp_path / "out")).code == 0
+    ended = shell("run", file)
+    assert ended.code in (3, 5)
+    assert "depend on each other" in ended.err
