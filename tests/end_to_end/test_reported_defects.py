@@ -105,6 +105,7 @@ ROWS = [
     refused("map_that_is_not_there", "6 OSC443", "did you mean `highway.xodr`?", code=4),
     Row("set_of_two_values", 2.0, seeds=2),
     Row("end_in_the_lane_of_one_that_moved", 9.0, "done@9"),
+    Row("first_instant_sees_an_invented_place", 2.0, "done@2", found=("21 OSC431",)),
     Row("range_of_accelerations_to_an_end", 4.0, "done@4", options=("--std", "2.2")),
     Row("until_cuts_waits_short", 2.0, "done@2", found=("5 OSC433",)),
 ]
@@ -139,7 +140,6 @@ OPEN = {
     "enum_value_of_another",
     "event_of_an_element",
     "field_added_to_vehicle",
-    "first_instant_sees_an_invented_place",
     "global_fixed_by_a_scenario",
     "list_too_short_for_an_element",
     "modifier_with_an_on",
