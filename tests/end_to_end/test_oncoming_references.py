@@ -29,7 +29,7 @@ scenario top:
             speed(10mps)
         serial:
             ego.drive(duration: 0.5s) with:
-                lane(4, at: start)
+                lane(2, at: start)
                 position(100m, at: start)
                 speed(15mps)
             {change}
