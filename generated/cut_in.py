@@ -34,8 +34,8 @@ class CutIn(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.other = self.cast("other", Vehicle())
-        self.v_ego = self.parameter("v_ego", 70 * kph, unit="kph")
 
+        self.v_ego = self.parameter("v_ego", 70 * kph, unit="kph")
         # Faster than the ego vehicle, but not by much
         self.v_other = self.parameter("v_other", within(80 * kph, 95 * kph), unit="kph")
         self.gap = self.parameter("gap", 8 * m, unit="m")

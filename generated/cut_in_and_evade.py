@@ -58,6 +58,7 @@ class CutInAndEvade(Scenario):
         self.v_npc_catchup = self.parameter("v_npc_catchup", 80 * kph, unit="kph")
         self.lag = self.parameter("lag", 5 * m, unit="m")
         self.safety_gap = self.parameter("safety_gap", 3 * self.lag + 5 * m, unit="m")
+
         self.crash_avoided = Event()
         self.obstacle_detected = Event()
 

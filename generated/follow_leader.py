@@ -31,6 +31,7 @@ class FollowLeader(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.leader = self.cast("leader", Vehicle())
         self.follower = self.cast("follower", Vehicle())
+
         self.v_start = self.parameter("v_start", 60 * kph, unit="kph")
         self.v_low = self.parameter("v_low", 30 * kph, unit="kph")
 

@@ -38,12 +38,16 @@ class HelloWorld(Scenario):
         """Cast, events and values."""
         # --- DEFINITIONS ---
         self.carla_map = self.cast("carla_map", Map(map_file="Town06"))
+
         self.env = self.cast("env", Environment())
+
         self.hero = self.cast("hero", Vehicle(model="vehicle.tesla.model3", name="hero"))
+
         self.npc = self.cast(
             "npc",
             Vehicle(model="vehicle.carlamotors.european_hgv", name="npc", color=Rgb("0,128,0")),
         )
+
         self.obstacle = self.cast(
             "obstacle", StationaryObject(name="obstacle", model="static.prop.trafficwarning")
         )
@@ -53,6 +57,7 @@ class HelloWorld(Scenario):
         self.v_npc_fast = self.v_hero + 12.42 * mph
         self.v_npc_slow = self.v_hero - 10 * kph
         self.v_npc_catchup = self.v_hero * (10 * kph)
+
         self.lag = 5 * m
         self.gap = self.lag * 3
         self.safety_gap = self.gap - 3 * m

@@ -41,8 +41,10 @@ class PedestrianCrossing(Scenario):
 
         # On the right sidewalk, in the middle of the road
         self.curb = self.argument("curb", Point(x=250 * m, y=-5 * m, z=0 * m))
+
         self.v_ego = self.parameter("v_ego", 40 * kph, unit="kph")
         self.v_walk = self.parameter("v_walk", 1.4 * mps, unit="mps")
+
         self.crossing_started = Event()
         self.road_is_free = Event()
 

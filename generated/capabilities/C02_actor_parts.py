@@ -74,6 +74,7 @@ class ActorParts(Scenario):
         self.distance = 2 * self.ego.bounding_box.length
         self.wheelbase = self.van.axles[0].position_x - self.van.axles[1].position_x
         self.reach = self.load.coupler.position_x - self.van.trailer_receiver.position_x
+
         self.close = Event(
             fall(
                 lambda: self.van.space_gap(reference=self.ego, direction="longitudinal")

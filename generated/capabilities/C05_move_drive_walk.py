@@ -34,6 +34,7 @@ class MoveDriveWalk(Scenario):
         self.car = self.cast("car", Vehicle())
         self.ball = self.cast("ball", MovableObject())
         self.walker = self.cast("walker", Person())
+
         self.ball_place = self.argument("ball_place", Point(x=60 * m, y=-30 * m, z=0 * m))
         self.walker_place = self.argument("walker_place", Point(x=40 * m, y=-30 * m, z=0 * m))
 

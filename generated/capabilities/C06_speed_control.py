@@ -32,6 +32,7 @@ class SpeedControl(Scenario):
         self.even = self.cast("even", Vehicle())
         self.gentle = self.cast("gentle", Vehicle())
         self.hasty = self.cast("hasty", Vehicle())
+
         self.v_start = self.parameter("v_start", 10 * mps, unit="mps")
         self.v_target = self.parameter("v_target", 20 * mps, unit="mps")
 

@@ -33,6 +33,7 @@ class AssignPosition(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.other = self.cast("other", Vehicle())
+
         self.target = self.argument("target", Point(x=400 * m, y=-5.25 * m, z=0 * m))
 
     def placement(self) -> None:

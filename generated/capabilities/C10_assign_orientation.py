@@ -31,6 +31,7 @@ class AssignOrientation(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.walker = self.cast("walker", Person())
+
         self.start_point = self.argument("start_point", Point(x=100 * m, y=-40 * m, z=0 * m))
         self.north_east = self.argument(
             "north_east", Orientation(yaw=60 * deg, pitch=0 * deg, roll=0 * deg)

@@ -34,6 +34,7 @@ class ChangePosition(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.car = self.cast("car", Vehicle())
         self.walker = self.cast("walker", Person())
+
         self.begin = self.argument("begin", Point(x=100 * m, y=-30 * m, z=0 * m))
         self.goal = self.argument("goal", Point(x=106 * m, y=-38 * m, z=0 * m))
 

@@ -33,6 +33,7 @@ class RelativePath(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.one = self.cast("one", Vehicle())
         self.other = self.cast("other", Vehicle())
+
         self.here = self.argument("here", Pose(x=0 * m, y=0 * m))
         self.ahead = self.argument("ahead", Pose(x=30 * m, y=0 * m))
         self.aside = self.argument("aside", Pose(x=60 * m, y=-3.5 * m))

@@ -31,6 +31,7 @@ class TrajectoryFollowing(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.p0 = self.argument("p0", Pose(x=60 * m, y=-8.75 * m, z=0 * m))
         self.p1 = self.argument("p1", Pose(x=90 * m, y=-8.75 * m, z=0 * m))
         self.p2 = self.argument("p2", Pose(x=130 * m, y=-8.75 * m, z=0 * m))

@@ -31,6 +31,7 @@ class RelativeTrajectory(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.here = self.argument("here", Pose(x=0 * m, y=0 * m))
         self.ahead = self.argument("ahead", Pose(x=40 * m, y=0 * m))
         self.aside = self.argument("aside", Pose(x=80 * m, y=3.5 * m))

@@ -35,6 +35,7 @@ class TimeGap(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.leader = self.cast("leader", Vehicle())
         self.follower = self.cast("follower", Vehicle())
+
         self.closed_up = Event()
 
     def placement(self) -> None:

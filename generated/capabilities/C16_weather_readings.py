@@ -50,6 +50,7 @@ class WeatherReadings(Scenario):
 
         # A wind to beware of
         self.storm = self.argument("storm", Wind(speed=15 * mps, direction=270 * deg))
+
         self.wet = Event(rise(lambda: self.env.weather.rain.intensity > 2 * mmph))
         self.hidden = Event(rise(lambda: self.env.weather.fog.visual_range < 100 * m))
         self.stormy = Event(rise(lambda: self.env.weather.wind.speed >= self.storm.speed))

@@ -36,9 +36,9 @@ class CarefulCrossing(Scenario):
         self.road = self.cast("road", Map(map_file="crossing.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.walker = self.cast("walker", Person())
-
         # On the right sidewalk, in the middle of the road
         self.curb = self.argument("curb", Point(x=250 * m, y=-5 * m, z=0 * m))
+
         self.v_ego = self.parameter("v_ego", 40 * kph, unit="kph")
 
     def placement(self) -> None:

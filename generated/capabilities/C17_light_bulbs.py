@@ -72,6 +72,7 @@ class LightBulbs(Scenario):
                 primary_stop_line_marking="solid",
             ),
         )
+
         self.red_shines = Event(rise(lambda: self.east.bulbs[0].state == "is_on"))
         self.green_shines = Event(
             rise(lambda: self.east.state_equal(["is_off", "is_off", "is_on"]))

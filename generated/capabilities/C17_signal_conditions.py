@@ -38,6 +38,7 @@ class SignalConditions(Scenario):
         self.lights = self.cast("lights", TrafficLightController())
         self.east = self.argument("east", TrafficLight(map_id="101"))
         self.main_road = self.argument("main_road", TrafficLightGroup(map_id="1"))
+
         self.green = Event(
             rise(lambda: self.east.state_equal(bulbs=self.east.semantic_state_to_state("go")))
         )

@@ -34,6 +34,7 @@ class SignalCycles(Scenario):
         self.lights = self.cast("lights", TrafficLightController())
         self.east = self.argument("east", TrafficLight(map_id="101"))
         self.main_road = self.argument("main_road", TrafficLightGroup(map_id="1"))
+
         self.free = self.argument(
             "free",
             TrafficLightPhase(

@@ -32,6 +32,7 @@ class BrakingDistances(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.env = self.cast("env", Environment())
         self.ego = self.cast("ego", Vehicle())
+
         self.v_full = self.parameter("v_full", 15 * mps, unit="mps")
 
     def placement(self) -> None:

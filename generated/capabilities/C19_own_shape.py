@@ -77,11 +77,13 @@ class OwnShapeScenario(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.swelling = self.cast("swelling", Vehicle())
         self.starting = self.cast("starting", Vehicle())
+
         self.wave = self.argument("wave", Swell(base=10 * mps, height=4 * mps, length=8 * s))
         self.push = self.argument("push", Fading(first=3 * mpss, length=6 * s))
         self.ramp = self.argument(
             "ramp", CommonSpeedShape(rate_profile="constant", rate_peak=2 * mpss, target=6 * mps)
         )
+
         self.half_way = Event(
             rise(lambda: self.swelling.speed >= self.wave.compute(self.wave.duration() / 4.0))
         )

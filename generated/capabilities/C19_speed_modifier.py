@@ -32,6 +32,7 @@ class SpeedModifier(Scenario):
         self.faster = self.cast("faster", Vehicle())
         self.slower = self.cast("slower", Vehicle())
         self.scaled = self.cast("scaled", Vehicle())
+
         self.v_pace = self.parameter("v_pace", 54 * kph, unit="kph")
 
     def placement(self) -> None:

@@ -31,6 +31,7 @@ class VelocityProfile(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.even = self.cast("even", Vehicle())
         self.gentle = self.cast("gentle", Vehicle())
+
         self.even_shape = self.argument(
             "even_shape", CommonSpeedShape(rate_profile="constant", rate_peak=1.6 * mpss)
         )

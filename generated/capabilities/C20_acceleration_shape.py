@@ -30,6 +30,7 @@ class AccelerationProfile(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.build_up = self.argument(
             "build_up", CommonAccelerationShape(rate_profile="constant", rate_peak=0.5 * mpspsps)
         )

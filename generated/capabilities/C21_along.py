@@ -31,6 +31,7 @@ class AlongAPath(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.begin = self.argument("begin", Pose(x=70 * m, y=-8.75 * m, z=0 * m))
         self.end_point = self.argument("end_point", Pose(x=190 * m, y=-8.75 * m, z=0 * m))
         self.way = self.argument(

@@ -33,6 +33,7 @@ class Ways(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.walker = self.cast("walker", Person())
+
         self.corner = self.argument("corner", Point(x=80 * m, y=-30 * m, z=0 * m))
 
     def placement(self) -> None:

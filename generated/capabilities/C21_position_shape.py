@@ -55,6 +55,7 @@ class PositionShape(Scenario):
         self.lead = self.cast("lead", Vehicle())
         self.closing = self.cast("closing", Vehicle())
         self.own = self.cast("own", Vehicle())
+
         self.smoothly = self.argument("smoothly", CommonPositionShape(rate_profile="smooth"))
         self.faster = self.argument("faster", Gaining(pace=10 * mps, more=4 * m, period=4 * s))
 

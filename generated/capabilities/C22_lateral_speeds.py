@@ -56,6 +56,7 @@ class LateralSpeeds(Scenario):
         self.drifting = self.cast("drifting", Vehicle())
         self.bulging = self.cast("bulging", Vehicle())
         self.leaning = self.cast("leaning", Vehicle())
+
         self.out = self.argument("out", Bulge(reach=0.8 * m, length=4 * s))
 
     def placement(self) -> None:

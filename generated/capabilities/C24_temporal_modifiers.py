@@ -33,6 +33,7 @@ class TemporalModifiers(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.delay = self.parameter("delay", 1.5 * s, unit="s")
 
     def placement(self) -> None:

@@ -33,6 +33,7 @@ class OrientationModifiers(Scenario):
         self.along = self.cast("along", Person())
         self.guide = self.cast("guide", Person())
         self.opposite = self.cast("opposite", Person())
+
         self.along_place = self.argument("along_place", Point(x=100 * m, y=-30 * m, z=0 * m))
         self.guide_place = self.argument("guide_place", Point(x=100 * m, y=-40 * m, z=0 * m))
         self.opposite_place = self.argument("opposite_place", Point(x=100 * m, y=-50 * m, z=0 * m))

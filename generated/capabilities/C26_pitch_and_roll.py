@@ -41,6 +41,7 @@ class PitchAndRoll(Scenario):
         self.car = self.cast("car", Vehicle())
         self.box = self.cast("box", MovableObject())
         self.sign = self.cast("sign", StationaryObject())
+
         self.box_place = self.argument("box_place", Point(x=5 * m, y=40 * m, z=0 * m))
         self.sign_pose = self.argument(
             "sign_pose",
@@ -49,6 +50,7 @@ class PitchAndRoll(Scenario):
         self.on_its_side = self.argument(
             "on_its_side", Orientation(yaw=20 * deg, pitch=0 * deg, roll=90 * deg)
         )
+
         self.up_hill = Event(rise(lambda: self.car.pose.orientation.pitch < -1 * deg))
 
     def placement(self) -> None:

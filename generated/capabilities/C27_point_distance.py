@@ -33,6 +33,7 @@ class PointDistance(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.near = Event(
             fall(
                 lambda: self.ego.distance_to_xyz_point(

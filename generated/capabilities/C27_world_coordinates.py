@@ -36,6 +36,7 @@ class WorldCoordinates(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.barrier = self.cast("barrier", StationaryObject())
         self.walker = self.cast("walker", Person())
+
         self.barrier_pose = self.argument(
             "barrier_pose", Pose(x=130 * m, y=-24 * m, z=0 * m, yaw=90 * deg)
         )

@@ -37,6 +37,7 @@ class RelativeCoordinates(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.walker = self.cast("walker", Person())
         self.car = self.cast("car", Vehicle())
+
         self.spot = self.argument("spot", Point(x=150 * m, y=-25 * m, z=0 * m))
         self.abreast = Event(
             fall(

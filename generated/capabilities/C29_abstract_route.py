@@ -31,6 +31,7 @@ class AbstractRoute(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.way = self.argument("way", LaneSection())
 
     def placement(self) -> None:

@@ -32,6 +32,7 @@ class Conversions(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.later = Event()
         self.s_of_point = self.sample(
             lambda: self.road.xyz_to_route_point(x=300 * m, y=-5 * m, z=0 * m).s, self.later, 0 * m

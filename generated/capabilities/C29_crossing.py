@@ -37,7 +37,9 @@ class CrossingTheStreet(Scenario):
         self.road = self.cast("road", Map(map_file="crossing.xodr"))
         self.walker = self.cast("walker", Person())
         self.other = self.cast("other", Person())
+
         self.near_side = self.argument("near_side", Lane(lane_type="pedestrian"))
+
         self.far_side = self.argument("far_side", Lane(lane_type="pedestrian"))
 
         # where the map has a crosswalk
@@ -50,6 +52,7 @@ class CrossingTheStreet(Scenario):
         self.begin = self.argument("begin", RoutePoint(route=self.near_side, s=230 * m, t=0 * m))
         self.goal = self.argument("goal", RoutePoint(route=self.far_side, s=260 * m, t=0 * m))
         self.way = self.argument("way", self.road.create_route([self.begin, self.zebra, self.goal]))
+
         self.on_zebra = Event(rise(lambda: self.walker.pose.position.y > 0 * m))
         self.width = self.sample(lambda: self.zebra.width, self.on_zebra, 0 * m)
         self.starts_at = self.sample(lambda: self.zebra.start_s_coord, self.on_zebra, 0 * m)

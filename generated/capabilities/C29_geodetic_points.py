@@ -30,6 +30,7 @@ class GeodeticPoints(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.begin = self.argument(
             "begin", GeodeticPoint(latitude=-0.0000475 * deg, longitude=0.001 * deg)
         )

@@ -44,13 +44,21 @@ class JoinedRoads(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="merge.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.ramp = self.argument("ramp", Road(anchors=["ramp"]))
+
         self.motorway = self.argument("motorway", Road())
+
         self.on_ramp = self.argument("on_ramp", Lane())
+
         self.joining = self.argument("joining", Lane())
+
         self.joined = self.argument("joined", LaneSection())
+
         self.left_way = self.argument("left_way", CompoundLane())
+
         self.right_way = self.argument("right_way", CompoundLane())
+
         self.away = Event(elapsed(1 * s))
         self.motorway_length = self.sample(lambda: self.motorway.length, self.away, 0 * m)
         self.lane_length = self.sample(lambda: self.joining.length, self.away, 0 * m)

@@ -33,8 +33,11 @@ class LanesAbreast(Scenario):
         self.ego = self.cast("ego", Vehicle())
         self.other = self.cast("other", Vehicle())
         self.oncoming = self.cast("oncoming", Vehicle())
+
         self.inner = self.argument("inner", Lane())
+
         self.outer = self.argument("outer", Lane())
+
         self.opposite = self.argument("opposite", Lane())
 
     def placement(self) -> None:

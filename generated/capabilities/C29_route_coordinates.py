@@ -33,6 +33,7 @@ class RouteCoordinates(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="curve.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.passed = Event(rise(lambda: self.ego.get_s_coord() >= 250 * m))
         self.t_there = self.sample(lambda: self.ego.get_t_coord(), self.passed, 0 * m)
 

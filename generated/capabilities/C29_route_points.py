@@ -33,6 +33,7 @@ class RoutePoints(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.half_way = Event(
             rise(
                 lambda: self.ego.distance_to_odr_point(

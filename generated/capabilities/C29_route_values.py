@@ -36,9 +36,11 @@ class RouteValues(Scenario):
 
         # from the east to the south
         self.arm = self.argument("arm", Road(anchors=["east"]))
+
         self.onward = self.argument("onward", Road())
         self.middle = self.argument("middle", Junction())
         self.way = self.argument("way", self.road.create_route([self.arm, self.onward]))
+
         self.away = Event(rise(lambda: self.ego.pose.position.x <= 120 * m))
         self.arm_length = self.sample(lambda: self.arm.length, self.away, 0 * m)
         self.way_length = self.sample(lambda: self.way.length, self.away, 0 * m)

@@ -38,6 +38,7 @@ class ConditionalTriggers(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.other = self.cast("other", Vehicle())
+
         self.near = Event(
             rise(
                 lambda: self.ego.space_gap(reference=self.other, direction="longitudinal") > -20 * m

@@ -35,6 +35,7 @@ class TriggerMeasures(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.slow = self.cast("slow", Vehicle())
+
         self.ttc_low = Event(fall(lambda: self.ego.time_to_collision(reference=self.slow) > 4 * s))
         self.gap_low = Event(
             fall(lambda: self.slow.time_gap(reference=self.ego, direction="longitudinal") > 2.5 * s)

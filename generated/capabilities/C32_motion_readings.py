@@ -33,6 +33,7 @@ class MotionReadings(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="curve.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.bend = Event(rise(lambda: self.ego.velocity.angular.yaw > 0.1 * radps))
         self.out_of_it = Event(fall(lambda: self.ego.acceleration.translational.y > 1 * mpsps))
         self.braking = Event(rise(lambda: self.ego.acceleration.translational.norm() > 2.5 * mpsps))

@@ -25,6 +25,7 @@ from osc2tx_runtime.units import Acceleration, Speed, m, mps, mpss, s
 require_api(1)
 
 # Units that the scenario declares
+# Knots
 knot = 0.514444
 
 # Enums that the scenario declares
@@ -36,8 +37,12 @@ class Plan:
     """Struct `plan`."""
 
     mood: Mood
+    # keep(default it == 20knot)
     cruise: Speed
     peak: Acceleration
+
+    # keep(mood == mood!calm => peak == 1mpss)
+    # keep(mood == mood!hasty => peak == 3mpss)
 
 
 class OwnTypes(Scenario):

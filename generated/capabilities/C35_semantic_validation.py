@@ -36,9 +36,11 @@ class SemanticValidation(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.other = self.cast("other", Vehicle())
+
         self.v_ego = self.parameter("v_ego", within(10 * mps, 20 * mps), unit="mps")
         self.v_other = self.parameter("v_other", 12 * mps, unit="mps")
         self.gap = self.parameter("gap", 15 * m, unit="m")
+
         self.near = Event(
             rise(
                 lambda: self.ego.object_distance(reference=self.other, direction="euclidean")

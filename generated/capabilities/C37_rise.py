@@ -35,6 +35,7 @@ class RisingEdge(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.fast = Event(rise(lambda: self.ego.speed > 12.05 * mps))
         self.fast_again = Event(rise(lambda: self.ego.speed > 12.05 * mps))
 

@@ -34,6 +34,7 @@ class FallingEdge(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.slow = self.cast("slow", Vehicle())
+
         self.caught_up = Event(
             fall(lambda: self.slow.space_gap(reference=self.ego, direction="longitudinal") > 10 * m)
         )

@@ -101,11 +101,12 @@ from osc2tx.ir.user_types import (
     UserField,
     UserModifier,
     UserType,
+    UserUnit,
     lineage,
     lineages,
     merged,
 )
-from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType, qualified
+from osc2tx.ir.values import ExpressionBase, Kind, TrailingComment, Unit, ValueType, qualified
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 
 __all__ = [
@@ -181,6 +182,7 @@ __all__ = [
     "ScenarioSelf",
     "Serial",
     "Struct",
+    "TrailingComment",
     "Trigger",
     "TypeTest",
     "Unary",
@@ -192,6 +194,7 @@ __all__ = [
     "UserModifier",
     "UserShape",
     "UserType",
+    "UserUnit",
     "ValueType",
     "Variable",
     "Wait",

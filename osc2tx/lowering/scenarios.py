@@ -31,7 +31,7 @@ from osc2tx.lowering.declarations.user_fields import (
     user_fields,
     user_lineage,
 )
-from osc2tx.lowering.declarations.user_types import lower_enums, lower_types
+from osc2tx.lowering.declarations.user_types import lower_enums, lower_types, lower_units
 from osc2tx.lowering.modifiers.modifier_functions import lower_modifiers, own_modifiers
 from osc2tx.lowering.modifiers.modifiers import is_override
 from osc2tx.lowering.modifiers.override_modifiers import lower_overrides
@@ -122,6 +122,7 @@ def lower(
         one_of=options.one_of,
         scenarios=scenarios,
         comments=_head_comments(model.root),
+        units=lower_units(model),
         types=lower_types(program, used),
         actions=lower_actions(program, (*actions, *_own_actions(model))),
     )

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from typing import assert_never
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.calls import CallWriter, code, comments
+from osc2tx.backends.py_trees.calls import CallWriter, apart, code, comments
 from osc2tx.backends.py_trees.code import (
     Level,
     PyDocLine,
@@ -96,9 +96,9 @@ class BehaviorTreeBuilder:
         story = docstring_of(node.comments)
         method = MethodView(
             signature=signature(name, (), BEHAVIOUR),
-            value=replace(value, comments=()),
+            value=replace(value, comments=(), trailing=None),
             docstring=tuple(PyDocLine.of(text) for text in (story or about,) if text),
-            comments=() if story else value.comments,
+            comments=() if story else comments(node.comments),
         )
         self._written.insert(index, method)
 
@@ -127,7 +127,8 @@ class BehaviorTreeBuilder:
             triggers = self._calls.triggers(until)
             call = self._calls.runtime_call("Until", ArgumentView(call=call), *triggers)
             call = replace(call, exploded=True)
-        return ArgumentView(call=call, comments=comments(node.comments))
+        above, behind = apart(node.comments)
+        return ArgumentView(call=call, comments=above, trailing=behind)
 
     def _call(self, node: ir.Behavior, *, depth: int) -> CallView:
         match node:

@@ -25,6 +25,13 @@ def comments(lines: tuple[str, ...]) -> tuple[PyComment, ...]:
     return tuple(PyComment.of(line) for line in lines)
 
 
+def apart(lines: tuple[str, ...]) -> tuple[tuple[PyComment, ...], PyComment | None]:
+    """Return comment lines as those above a statement, and the one behind it."""
+    if lines and isinstance(lines[-1], ir.TrailingComment):
+        return comments(lines[:-1]), PyComment.of(lines[-1])
+    return comments(lines), None
+
+
 def code(expression: PyExpr, keyword: str | None = None) -> ArgumentView:
     """Return a plain argument."""
     return ArgumentView(code=expression, keyword=PyName(keyword) if keyword else None)

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TypeVar
 
 from osc2tx import ir
+from osc2tx.backends.py_trees.calls import comments
 from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr
 from osc2tx.backends.py_trees.coverage import render_coverage_model
 from osc2tx.backends.py_trees.environment import environment
@@ -13,7 +14,7 @@ from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.formatting import format_module
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls, never_called
 from osc2tx.backends.py_trees.modifier_functions import write_modifiers
-from osc2tx.backends.py_trees.naming import NameTable, module_name
+from osc2tx.backends.py_trees.naming import NameTable, identifier, module_name
 from osc2tx.backends.py_trees.own_names import (
     Declared,
     add_name,
@@ -36,6 +37,7 @@ from osc2tx.backends.py_trees.view import (
     ModuleView,
     ScenarioView,
     TypeView,
+    UnitView,
     UserActionView,
     UserModifierView,
 )
@@ -128,8 +130,8 @@ def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
         siblings=siblings,
         root=_root(module) if siblings else None,
         api_level=API_LEVEL,
-        units=uses.units(),
-        enums=_explained_enums(uses.enums(), names, sharing),
+        units=_told_units(uses.units(), module),
+        enums=_explained_enums(uses.enums(), names, sharing, module),
         scenarios=_explained(scenario_views, scenarios, sharing),
         mains=tuple(names[scenario.key] for scenario in own_scenarios(module)),
         shown=None if shown is None else names[shown.key],
@@ -169,11 +171,30 @@ def _explained(
 
 
 def _explained_enums(
-    views: Sequence[EnumView], names: NameTable, sharing: Sharing
+    views: Sequence[EnumView], names: NameTable, sharing: Sharing, module: ir.Module
 ) -> tuple[EnumView, ...]:
     """Return the same of enums: a module also defines those of the library that it extends."""
     reasons = {names[key]: PyComment.of(reason) for key, reason in sharing.copies.items()}
-    return tuple(replace(view, copied=reasons.get(view.name)) for view in views)
+    declared = {names[key_of(each)]: each for each in module.enums if key_of(each) in names}
+    return tuple(
+        replace(_told_enum(view, declared.get(view.name)), copied=reasons.get(view.name))
+        for view in views
+    )
+
+
+def _told_enum(view: EnumView, declared: ir.UserEnum | None) -> EnumView:
+    """Return an enum with the comments of its declaration."""
+    if declared is None:
+        return view
+    told = dict(declared.told)
+    lines = tuple(comments(told.get(member, ())) for member in declared.members)
+    return replace(view, comments=comments(declared.comments), told=lines if told else ())
+
+
+def _told_units(views: Sequence[UnitView], module: ir.Module) -> tuple[UnitView, ...]:
+    """Return units with the comments of their declarations."""
+    told = {identifier(each.name): comments(each.comments) for each in module.units}
+    return tuple(replace(view, comments=told.get(view.name.text, ())) for view in views)
 
 
 def _root(module: ir.Module) -> PyExpr | None:

@@ -71,6 +71,7 @@ class _TypeWriter:
             fields=tuple(map(self._field, own.all_fields)),
             methods=tuple(self._method(name, m) for name, m in self._methods.of(own.name)),
             others=others,
+            keeps=comments(own.keeps),
             inherited=inherited,
         )
 

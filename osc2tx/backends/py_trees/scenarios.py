@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.behaviors import BehaviorTreeBuilder
-from osc2tx.backends.py_trees.calls import CallWriter, code, comments
+from osc2tx.backends.py_trees.calls import CallWriter, apart, code, comments
 from osc2tx.backends.py_trees.code import (
     Level,
     PyDocLine,
@@ -79,6 +79,7 @@ class ScenarioWriter:
     ) -> None:
         """See the class."""
         self._actions = actions
+        self._source = scenario.span.source
         self._scenario = scenario
         self._one_of = one_of
         self._first_come = first_come
@@ -161,13 +162,25 @@ class ScenarioWriter:
         lines = declaration.comments
         if declaration is self._first_implicit_event:
             lines = ("Events that the scenario uses without declaring them",)
+        above, behind = apart(lines)
         return StatementView(
             target=self_attribute(name),
             value=self._declared_value(declaration),
-            comments=comments(lines),
-            blank_before=bool(lines) and not is_first,
+            comments=above,
+            trailing=behind,
+            blank_before=not is_first and self._stands_apart(declaration),
             annotation=self._declared_type(declaration),
         )
+
+    def _stands_apart(self, declaration: ir.Declaration) -> bool:
+        """Whether a blank line stands above a declaration in its source, or none of its source."""
+        source, number = declaration.span.source, declaration.span.line - 1
+        before, self._source = self._source, source
+        if source is not before or declaration is self._first_implicit_event:
+            return True
+        while number > 0 and source.line_text(number).lstrip().startswith("#"):
+            number -= 1
+        return number > 0 and not source.line_text(number).strip()
 
     def _declared_type(self, declaration: ir.Declaration) -> PyExpr | None:
         """Write the type of a value that alone does not show it: Python takes a member for text."""
@@ -182,13 +195,15 @@ class ScenarioWriter:
         statements = []
         for index, constraint in enumerate(self._scenario.constraints):
             self.source_map.constraints.append(place_of(constraint.span))
+            above, behind = apart(constraint.comments)
             statements.append(
                 StatementView(
                     target=None,
                     value=ArgumentView(
                         call=CallView(_self("keep"), (code(write(constraint.expression)),))
                     ),
-                    comments=comments(constraint.comments),
+                    comments=above,
+                    trailing=behind,
                     blank_before=index == 0 or bool(constraint.comments),
                 )
             )

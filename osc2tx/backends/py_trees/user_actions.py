@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.code import Level, PyDocLine, PyExpr, literal
+from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr, literal
 from osc2tx.backends.py_trees.naming import NameTable, identifier
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.uses import Uses
@@ -84,14 +84,15 @@ def _parameters(
     types: TypeTable,
     uses: Uses,
     write: Callable[[ir.Expression], PyExpr],
-) -> Iterable[PyExpr]:
+) -> Iterable[tuple[tuple[PyComment, ...], PyExpr]]:
     if action.takes_modifiers:
         modifier = uses.name("Modifier")
         label = (f"label: str | {modifier} | None = None", "/", f"*modifiers: {modifier}")
     else:
         label = ("label: str | None = None", "/", "*")
     actor = () if action.owner is None else (f"actor: {types.class_or_object(action.owner)}",)
-    written = [*actor, *label]
+    written: list[tuple[tuple[PyComment, ...], str]]
+    written = [((), text) for text in (*actor, *label)]
     for parameter in action.parameters:
         annotation = str(types.annotation(parameter.type))
         if parameter.type.kind is not ir.Kind.ACTOR:
@@ -99,6 +100,7 @@ def _parameters(
         default = "" if parameter.has_default else " = ..."
         if parameter.default is not None:
             default = f" = {write(parameter.default)}"
-        written.append(f"{identifier(parameter.name)}: {annotation}{default}")
-    written.append(f"duration: {uses.name('Duration')} | None = None")
-    return (PyExpr(text, Level.ATOM) for text in written)
+        text = f"{identifier(parameter.name)}: {annotation}{default}"
+        written.append((tuple(map(PyComment.of, parameter.comments)), text))
+    written.append(((), f"duration: {uses.name('Duration')} | None = None"))
+    return ((above, PyExpr(text, Level.ATOM)) for above, text in written)

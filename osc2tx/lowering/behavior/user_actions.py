@@ -51,6 +51,7 @@ def _lower_action(ctx: LoweringContext, action: sym.ActionSymbol) -> ir.UserActi
                 type=lower_type(p.type),
                 has_default=p.default is not None,
                 default=_constant_default(ctx, p),
+                comments=() if p.node is None else statement_comments(p.node),
             )
             for p in _parameters(action)
             if p.node is not None

@@ -33,10 +33,7 @@ class Top(Scenario):
     def declare(self) -> None:
         """Cast, events and values."""
         self.town = self.parameter("town", "highway")
-
-        # the map
-        self.path_map = self.cast("path.map", Map(map_file=self.town))
-
+        self.path_map = self.cast("path.map", Map(map_file=self.town))  # the map
         # where to drive
         self.path = self.argument(
             "path",

@@ -51,9 +51,10 @@ class Top(Scenario):
         """Cast, events and values."""
         # First in its block.
         self.one = self.argument("one", Part())
-        self.ego = self.cast("ego", Vehicle())
-        self.other = self.cast("other", Vehicle())
 
+        self.ego = self.cast("ego", Vehicle())
+
+        self.other = self.cast("other", Vehicle())
         # above a value
         self.v = self.parameter("v", 30 * kph, at_most(50 * kph), unit="kph")
         self.over = Event()

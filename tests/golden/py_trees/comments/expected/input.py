@@ -49,10 +49,7 @@ class Comments(Scenario):
                 map_file="highway.xodr"
             ),
         )
-
-        # beside the actor
-        self.ego = self.cast("ego", Vehicle())
-
+        self.ego = self.cast("ego", Vehicle())  # beside the actor
         # Above a value
         self.v = self.parameter("v", 50 * kph, unit="kph")
 
@@ -88,8 +85,7 @@ class Comments(Scenario):
         return Parallel(
             "parallel",
             # above a member
-            # beside a wait
-            Wait(elapsed(1 * s)),
+            Wait(elapsed(1 * s)),  # beside a wait
             Emit(self.seen),
             # below the last member of the parallel
         )

@@ -55,7 +55,6 @@ class Commute(Scenario):
         self.actor = self.cast("actor", Vehicle())
         self.habit = self.argument("habit", Habits())
         self.mood: Mood = self.parameter("mood", "calm")
-
         # A default that a user may not want
         self.top = self.parameter("top", 20 * mps, unit="mps")
 

@@ -76,6 +76,7 @@ class Fields(Scenario):
             "driver", BehavioralModel(bm_engine=BmEngine(name="careful_driver"))
         )
         self.drizzle = self.argument("drizzle", Precipitation(intensity=0.5 * mmph))
+
         self.ego = self.cast(
             "ego",
             Vehicle(
@@ -132,6 +133,7 @@ class Fields(Scenario):
         self.on_foot = self.parameter(
             "on_foot", self.walker.intended_infrastructure[0] == "sidewalk"
         )
+
         self.turning = Event(rise(lambda: self.ego.velocity.angular.yaw > self.limit.angular.yaw))
         self.shaken = Event(parameters={"strength": None, "moving": None})
         self.where = self.sample(lambda: self.ego.pose.position, self.shaken, self.place_)

@@ -41,7 +41,6 @@ class Lists(Scenario):
         self.back: KindOfRoad = self.parameter("back", "highway")
         self.half = self.parameter("half", float(self.number) / 2.0)
         self.cruise = self.parameter("cruise", self.speeds[1], unit="mps")
-
         # operators of lists within operators of lists
         self.slow = self.argument("slow", [it / 2.0 for it in self.speeds if it < 25 * kph])
 

@@ -97,7 +97,6 @@ class OwnEvents(Scenario):
         self.reached = Event()
         self.told = Event()
         self.heard = Event()
-
         # Too fast for its own good
         self.ego_fast = Event(rise(lambda: self.ego.speed > self.ego.limit), name="ego.fast")
 

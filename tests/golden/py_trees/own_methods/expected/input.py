@@ -33,6 +33,8 @@ class Coach(Vehicle):
         super().__init__(**fields)
         self.seats = seats
 
+    # keep(default seats == 30)
+
     def is_full(self, guests: int) -> bool:
         return guests >= self.seats
 
@@ -53,6 +55,8 @@ class Limits:
     low: Speed
     high: Speed = 50 * kph
 
+    # keep(low < high)
+
     def middle(self) -> Speed:
         return (self.low + self.high) / 2.0
 
@@ -68,7 +72,6 @@ class OwnMethods(Scenario):
         self.other = self.cast("other", DoubleDecker(seats=40))
         self.range_of_speed = self.argument("range_of_speed", Limits(low=10 * kph))
         self.base = self.parameter("base", 10 * kph, unit="kph")
-
         # A value may need a method whose body needs a later value.
         self.cruise = self.parameter("cruise", self.scaled(2.0), unit="mps")
 

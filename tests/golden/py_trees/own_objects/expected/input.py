@@ -49,6 +49,7 @@ class Leg:
     pace: Speed = 10 * mps
     # twice as fast at most
     most: Speed
+    # keep(it in [1s..2s])
     time_of: Time
 
 
@@ -57,6 +58,7 @@ class Journey:
     """Struct `journey`."""
 
     first: Leg
+    # keep(it.pace == 12mps)
     second: Leg
     stops: list[str]
     allowed: Speed

@@ -79,6 +79,7 @@ class LongCar(TestCar):
 
     def __init__(self, *, doors: int, **fields: Unpack[Inherited]) -> None:
         super().__init__(**fields)
+        # keep(it == 3)
         self.doors = doors
 
 

@@ -62,6 +62,8 @@ class LoadedLorry(Lorry):
         super().__init__(**fields)
         self.weight = weight
 
+    # keep(crew == 2)
+
     def pace(self) -> Speed:
         return 12 * mps
 

@@ -34,16 +34,12 @@ class Parameters(Scenario):
                 length=12 * m,
             ),
         )
-
         # constant
         self.fixed = 50 * kph
-
         # default, may be set
         self.cruise = self.parameter("cruise", 60 * kph, unit="kph")
-
         # drawn from the seed
         self.slow = self.parameter("slow", within(20 * kph, 30 * kph), unit="kph")
-
         # the range replaces the default
         self.gap = self.parameter("gap", within(5 * m, 15 * m), unit="m")
         self.lanes = self.parameter("lanes", 2)

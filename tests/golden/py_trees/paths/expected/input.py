@@ -43,6 +43,7 @@ class Paths(Scenario):
         self.ego = self.cast("ego", Vehicle())
         self.other = self.cast("other", Vehicle())
         self.cart = self.cast("cart", Trailer())
+
         self.begin = self.argument("begin", Pose(x=110 * m, y=-8.75 * m))
         self.aside = self.argument("aside", Pose(x=150 * m, y=-7 * m))
 
@@ -75,6 +76,7 @@ class Paths(Scenario):
         self.ahead = self.argument("ahead", Pose(x=330 * m, y=-8.75 * m))
         self.beyond = self.argument("beyond", Pose(x=390 * m, y=-8.75 * m))
         self.corner = self.argument("corner", XyzPoint(position=Point(x=400 * m, y=-8.75 * m)))
+
         self.near_the_corner = Event()
 
     def placement(self) -> None:

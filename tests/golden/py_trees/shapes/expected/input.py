@@ -104,6 +104,7 @@ class Shapes(Scenario):
         self.ego = self.cast("ego", Vehicle())
         self.lead = self.cast("lead", Vehicle())
         self.walker = self.cast("walker", Person())
+
         self.up = self.argument("up", Ramp(first=10 * mps, last=14 * mps, length=4 * s))
         self.out = self.argument("out", Sway(rate=0.2 * mps))
         self.round = self.argument("round", Turn(rate=10 * degps))
