@@ -58,6 +58,26 @@ class AssignedVariable(Protocol):
     value: Any
 
 
+class Monitors(Protocol):
+    """What a run needs of what checks the phases of actions."""
+
+    def begins(self, action: Any) -> None:
+        """Take note of the start of an action."""
+        ...
+
+    def ends(self, action: Any) -> str | None:
+        """Take note of its end; return why it fails."""
+        ...
+
+    def leaves(self, action: Any) -> None:
+        """Take note that it is cut short."""
+        ...
+
+    def observe(self) -> None:
+        """Look at the states of a settled instant."""
+        ...
+
+
 class ExecutionContext:
     """One run.
 
@@ -84,6 +104,7 @@ class ExecutionContext:
         first_come: What has a duration or an `until` ends with whichever comes first.
         label_events: (label, `start` | `end` | `fail`) to the event somebody waits for.
         resting: Who in the tree has nothing to do until it is woken.
+        monitors: Checks the phases of actions; None: nobody does.
     """
 
     def __init__(
@@ -120,6 +141,7 @@ class ExecutionContext:
         self.effects = Effects()
         self.collisions: list[tuple[float, str, str]] = []
         self.resting = Resting()
+        self.monitors: Monitors | None = None
         self._cast: tuple[str, ...] | None = None
         self._left: dict[str, str] = {}  # actors to behavioral models of this instant
         self._posted: dict[PostedEvent, list[Mapping[str, Any]]] = {}

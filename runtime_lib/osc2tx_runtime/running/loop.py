@@ -141,7 +141,7 @@ def loop(
     pulse = pulse_of(root)
     if observer is not None:
         observer.begin(context)
-    world, settings = context.world, context.settings
+    world, settings, monitors = context.world, context.settings, context.monitors
     last_step = context.steps(settings.max_time)
     progress_steps = max(1, context.steps(1.0))
     signals = signals_by_step(context)
@@ -152,6 +152,8 @@ def loop(
         if context.slots.is_touched:
             check_claims(context)
             context.commit()
+        if monitors is not None:
+            monitors.observe()
         if status is SUCCESS:
             return Outcome("success", "", step)
         if status is FAILURE:

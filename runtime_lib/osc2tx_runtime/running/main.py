@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from traceback import format_exc
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from osc2tx_runtime.errors import RUN_FAILED, OwnCode, ScenarioError, SettingsError, coded
+from osc2tx_runtime.errors import NOT_MET, RUN_FAILED, OwnCode, ScenarioError, SettingsError, coded
 from osc2tx_runtime.interrupts import INTERRUPTED, as_usual
 from osc2tx_runtime.running.options import OPTIONS, read_options
 from osc2tx_runtime.running.runner import RunResult, run_scenario
@@ -203,7 +203,11 @@ def verdict(
     else:
         place = result.place
         reason = result.reason.replace(f" ({place})", "", 1) if place else result.reason
-        yield coded(RUN_FAILED, f"{head}: {reason}", place or file, file, given)
+        code = NOT_MET if any(each.fails(place) for each in result.violations) else RUN_FAILED
+        yield coded(code, f"{head}: {reason}", place or file, file, given)
+    for violation in result.violations:
+        if violation.severity == "warning":
+            yield "  " + coded(violation.code, str(violation), violation.source, file, given)
     for warning in result.warnings:
         yield f"  warning: {warning}"
     for time, one, other in result.collisions:

@@ -54,7 +54,7 @@ class Composition(Node):
         status = self._advance() if self._is_plain else self._judged()
         if status is not RUNNING:
             self.stop(status)
-        return status
+        return self.status
 
     def _judged(self) -> Status:
         """Advance the members; return the status of the whole."""

@@ -9,7 +9,7 @@ reached exactly at the end of its duration or of the phase it ends with, else it
 from __future__ import annotations
 
 from functools import cached_property
-from typing import ClassVar, Unpack
+from typing import Any, ClassVar, Unpack
 
 from osc2tx_runtime.domain.actors import MovableObject
 from osc2tx_runtime.domain.map.roads_and_lanes import Route
@@ -145,9 +145,10 @@ class ModifiableAction(ModifiedMotion):
 
     # --- how it runs --------------------------------------------------------------------------
 
-    def setup(self, **kwargs: object) -> None:
+    def setup(self, **kwargs: Any) -> None:
         """Claim what the modifiers speak of as well, and check what can be known by now."""
-        self._phase = phase_of(self) if self.has_goal and not self.follows_path else None
+        if self.has_goal and not self.follows_path:
+            self._phase = phase_of(self, strict=not kwargs["context"].first_come)
         if self._phase is not None:
             self.open_ended = True
         check_modifiers(self)

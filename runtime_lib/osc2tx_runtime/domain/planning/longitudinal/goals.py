@@ -81,7 +81,7 @@ def way_to_goal(action: ModifiedMotion) -> tuple[float, float] | None:
         way = distance.way()
         return way, way
     position = lasting_position(action)
-    if position is None or position.reference is not None:
+    if position is None or position.reference is not None or position.stands:
         return None
     return way_to(action, position)
 

@@ -52,7 +52,9 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
     from osc2tx_runtime.world.geometry.profiles import Profile
 
-__all__ = ["speed_at_start", "speed_command"]
+__all__ = ["speed_at_start", "speed_command", "stop_command"]
+
+STANDS = 0.05  # m/s: a slower actor stands
 
 
 def speed_command(action: ModifiedMotion) -> Command | None:
@@ -62,8 +64,10 @@ def speed_command(action: ModifiedMotion) -> Command | None:
         Refused: It cannot be.
     """
     modifiers = action.lasting
-    if one_of_kind(modifiers, KeepPosition) is not None:
-        return SpeedChange(0.0, "constant", None, 0.0) if action.may_jump else Standstill()
+    position = lasting_position(action)
+    stays = position is not None and position.stands
+    if stays or one_of_kind(modifiers, KeepPosition) is not None:
+        return stop_command(action, at_once=stays)
     timed = one_of_kind(modifiers, AlongTrajectory)
     if timed is not None:
         offsets = (value_of(timed.start_offset), value_of(timed.end_offset))
@@ -75,7 +79,7 @@ def speed_command(action: ModifiedMotion) -> Command | None:
     placed = position_shape(action)
     if placed is not None:
         return position_command(action, placed)
-    position, counted = lasting_position(action), one_of_kind(modifiers, Distance) is not None
+    counted = one_of_kind(modifiers, Distance) is not None
     if watched_place(action) is not None and not counted:
         return _speed(action)
     if position is not None and position.reference is not None and not counted:
@@ -93,6 +97,26 @@ def speed_command(action: ModifiedMotion) -> Command | None:
         return _computed(action, change, Mapped(own, 1.0, action.here.v))
     target = action.here.v + min(max(0.0, low), high)
     return _checked(action, _to_speed(action, target, change))
+
+
+def stop_command(action: ModifiedMotion, *, at_once: bool = False) -> Command:
+    """How to stay where it is; one that rolls may brake first, unless physics forbids to stay.
+
+    Args:
+        action: What is carried out.
+        at_once: The place is one on the road, which braking would leave.
+
+    Raises:
+        Refused: It rolls, and must not.
+    """
+    if action.may_jump:
+        return SpeedChange(0.0, "constant", None, 0.0)
+    speed = action.here.v
+    if abs(speed) > STANDS and (at_once or action.option() == "must_be_physical"):
+        raise Refused(
+            f"it moves at {speed:.2f} m/s, so it cannot stay where it is; let it stop before"
+        )
+    return Standstill()
 
 
 def _says_how(action: ModifiedMotion) -> bool:
