@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import field
 from functools import partial
 
@@ -78,16 +78,20 @@ def solve(
             changed = _revise(state, index)
         except EmptyDomainError:
             return Solution(state.domains, _positions(_blamed(state, index)))
-        if not queue and not changed:
+        done = index if expressions[index].is_plain else None  # it has nothing to add to its own
+        _enqueue(queue, waiting, (user for key in changed for user in users[key] if user != done))
+        if not queue:
             solved = dict(linear_solutions(expressions, active, state.domains))
             state.domains.update(solved)
-            changed = list(solved)
-        for key in changed:
-            for user in users[key]:
-                if user not in waiting:
-                    waiting.add(user)
-                    queue.append(user)
+            _enqueue(queue, waiting, (user for key in solved for user in users[key]))
     return Solution(state.domains, find_contradiction(expressions, active))
+
+
+def _enqueue(queue: deque[int], waiting: set[int], users: Iterable[int]) -> None:
+    for user in users:
+        if user not in waiting:
+            waiting.add(user)
+            queue.append(user)
 
 
 def smallest_conflict(
