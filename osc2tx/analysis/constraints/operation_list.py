@@ -58,6 +58,7 @@ class OperationList:
     def __init__(self) -> None:
         """Begin with none; all are added before the first question."""
         self.items: list[Operation] = []
+        self.alone: Domain | None = None  # what a plain one leaves of its parameter, once known
 
     @cached_property
     def keys(self) -> frozenset[Key]:
@@ -72,9 +73,14 @@ class OperationList:
     @cached_property
     def is_plain(self) -> bool:
         """Whether it compares one parameter with constants: one visit narrows all it can."""
-        *operands, root = self.items
-        is_direct = all(o.name in ("var", "const") for o in operands)
-        return is_direct and len(self.keys) == 1 == sum(o.key is not None for o in operands)
+        *operands, _ = self.items
+        variables = sum(o.key is not None for o in operands)
+        return variables == 1 and all(o.key is not None or self._is_constant(o) for o in operands)
+
+    def _is_constant(self, operation: Operation) -> bool:
+        converts = operation.name == "convert"
+        of = self.items[operation.operands[0]] if converts else operation
+        return of.name == "const"
 
     @property
     def root(self) -> Operation:
