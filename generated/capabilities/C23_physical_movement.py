@@ -4,7 +4,7 @@ C23 Physical movement: the same command with physics and without. The one who mu
 takes its time, the one who need not is there at the next step.
 
 Made by osc2tx from capabilities/C23_physical_movement.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -38,6 +38,7 @@ class PhysicalMovements(Scenario):
         self.place(self.free, lane(3), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "physical_movements",
             self.bound.change_speed(physical_movement("must_be_physical"), target=20 * mps),

@@ -39,6 +39,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "fmt": ("osc2tx.cli.fmt:fmt", "Lay scenario files out in the style of the standard."),
     "tree": ("osc2tx.cli.tree:tree", "Draw the behavior tree of a scenario."),
     "map": ("osc2tx.cli.map:map", "Say what is in a road map, and what is wrong with it."),
+    "world": ("osc2tx.cli.world:world", "Compare a simulator with what runs rely on."),
     "config": ("osc2tx.cli.config:config", "Show the settings in force, and where they are from."),
     "reference": ("osc2tx.cli.reference:reference", "Say what a name of the library means."),
     "explain": ("osc2tx.cli.explain:explain", "Say what a diagnostic code means."),

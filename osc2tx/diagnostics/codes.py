@@ -115,7 +115,7 @@ CODES = _table(
     Code("OSC111", "foreign-comment", ERROR, "Comments begin with `#`.", "7.2.1.2"),
     Code("OSC112", "empty-block", ERROR, "A block has no lines.", "7.2.2"),
     Code("OSC113", "implicit-serial", WARNING, "`do:` stands for `do serial:`.", "7.3.13"),
-    Code("OSC114", "empty-parentheses", WARNING, "Empty parentheses are too much.", "7.3.10"),
+    Code("OSC114", "empty-parentheses", ERROR, "Empty parentheses are too much.", "7.3.10"),
     Code("OSC115", "line-too-long", ERROR, "A logical line is longer than anybody needs.", "7.2.1"),
     # --- 5xx not supported by a backend ---
     Code("OSC501", "unsupported-declaration", ERROR, "No backend can express this member yet."),
@@ -200,6 +200,8 @@ CODES = _table(
     Code("OSC423", "contradicted-argument", ERROR, "An argument is not allowed.", "7.3.5.1.3"),
     Code("OSC424", "integer-overflow", ERROR, "A number does not fit its type.", "7.3.2"),
     Code("OSC425", "division-by-zero", WARNING, "A divisor is always zero.", "7.4.2"),
+    Code("OSC426", "impossible-conversion", ERROR, "A conversion has no result.", "7.4.2.6"),
+    Code("OSC427", "undefined-method", ERROR, "A method without body is invoked.", "7.3.7.1"),
     Code("OSC430", "event-from-outside", WARNING, "Nothing emits an awaited event.", "7.3.10"),
     Code("OSC431", "event-without-use", WARNING, "Nothing waits for an event.", "7.3.10"),
     Code("OSC432", "unreachable-member", WARNING, "What is before never ends.", "7.3.13"),

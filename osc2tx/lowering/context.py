@@ -211,5 +211,6 @@ def present(parts: Sequence[Part | None]) -> tuple[Part, ...]:
 
 def statement_comments(node: ast.Statement) -> tuple[str, ...]:
     """Return the comment lines that belong to a statement, its trailing one last."""
-    trailing = () if node.trailing_comment is None else (node.trailing_comment,)
-    return (*node.comments, *trailing)
+    if node.trailing_comment is None:
+        return node.comments
+    return (*node.comments, ir.TrailingComment(node.trailing_comment))

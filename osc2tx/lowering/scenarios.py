@@ -30,7 +30,7 @@ from osc2tx.lowering.declarations.user_fields import (
     user_fields,
     user_lineage,
 )
-from osc2tx.lowering.declarations.user_types import lower_enums, lower_types
+from osc2tx.lowering.declarations.user_types import lower_enums, lower_types, lower_units
 from osc2tx.lowering.modifiers.modifier_functions import lower_modifiers, own_modifiers
 from osc2tx.lowering.modifiers.modifiers import is_override
 from osc2tx.lowering.modifiers.override_modifiers import lower_overrides
@@ -119,8 +119,9 @@ def lower(
         one_of=options.one_of,
         scenarios=scenarios,
         comments=_head_comments(model.root),
+        units=lower_units(model),
         types=lower_types(program, used),
-        actions=lower_actions((*actions, *_own_actions(model))),
+        actions=lower_actions(program, (*actions, *_own_actions(model))),
     )
     modifiers = dict.fromkeys((*own_modifiers(model), *applied))
     module = replace(module, modifiers=lower_modifiers(program, modifiers))
@@ -173,7 +174,7 @@ def _lower_scenario(
     tree = lower_body(ctx, scenario, statements, constraints, standing, duration)
     if tree is None:
         return None
-    placements, body = PlacementLowering(ctx).split(labelled_once(tree, set()))
+    placements, body = PlacementLowering(ctx).split(labelled_once(tree))
     if body is None:
         body = nothing_left(scenario)
     left_over = constraints.left_over()

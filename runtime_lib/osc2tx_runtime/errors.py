@@ -7,6 +7,7 @@ from contextlib import suppress
 
 __all__ = [
     "NOT_MET",
+    "NO_RESULT",
     "PARTLY_MET",
     "RUN_FAILED",
     "BeyondMapError",
@@ -24,11 +25,15 @@ __all__ = [
     "is_own",
     "name_of",
     "told",
+    "why_no_result",
 ]
+
+NO_RESULT = (ArithmeticError, LookupError, ValueError)
+"""What an expression of a scenario raises that has no result: a division by zero, no such element,
+a conversion to a type that has no such value (§7.4.2.6)."""
 
 RUN_FAILED = "OSC809"
 """Code of the line that says how a run failed: that is a verdict, no error."""
-
 
 NOT_MET = "OSC810"
 """Code of a condition that fails its phase."""
@@ -90,6 +95,13 @@ class ScenarioError(Exception):
 
     def __str__(self) -> str:
         return f"{self.source}: {self.message}" if self.source else self.message
+
+
+def why_no_result(error: Exception) -> str:
+    """Say why an expression has no result."""
+    if isinstance(error, KeyError) and error.args:
+        return f"no member of the enumeration has the value {error.args[0]!r}"
+    return str(error)
 
 
 def coded(code: str, message: str, place: str, file: str, given: str | None = None) -> str:

@@ -43,7 +43,7 @@ opendrive: enums plain_numbers
 world: clock enums errors opendrive
 language: clock errors units world
 domain.points_and_poses: errors
-domain.shapes: enums errors language world
+domain.shapes: enums errors world
 domain.map: domain.points_and_poses enums errors language opendrive world
 domain.paths: domain.points_and_poses enums errors opendrive world
 domain.routes: domain.map domain.paths domain.points_and_poses enums errors language opendrive
@@ -76,10 +76,11 @@ domain.capabilities: domain.actions domain.actors domain.capability_tables domai
 worlds: errors opendrive world
 simulators: enums errors opendrive plain_numbers world worlds
 report: language
-running: domain.map domain.monitoring domain.placing domain.scenario errors interrupts language
-    opendrive plain_numbers report world worlds
+running: domain.map domain.monitoring domain.objects domain.placing domain.scenario errors
+    interrupts language opendrive plain_numbers report world worlds
 kpis: errors language opendrive running world
 campaigns: domain.map domain.scenario errors kpis language opendrive plain_numbers running
+fields: domain.actors domain.measuring domain.objects domain.signals enums
 modifiers: domain.modifiers
 __init__: domain.actions domain.actors domain.map domain.measuring domain.modifiers domain.objects
     domain.paths domain.points_and_poses domain.scenario domain.shapes domain.signals errors

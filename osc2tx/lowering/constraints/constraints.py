@@ -14,7 +14,7 @@ from osc2tx import ir
 from osc2tx.analysis import TypeConstraints, analyse_global, single_value
 from osc2tx.analysis.constraints.collect import Constraint
 from osc2tx.analysis.constraints.domains import TRUE, Choice, Domain, join
-from osc2tx.analysis.constraints.operation_list import Key, domain_of_type
+from osc2tx.analysis.constraints.operation_list import SIZE, Key, domain_of_type
 from osc2tx.analysis.constraints.solver import values_on
 from osc2tx.lowering.behavior.composed_behaviors import Composed, is_composed
 from osc2tx.lowering.constraints.cases import (
@@ -129,7 +129,7 @@ class ConstraintLowering:
         """Yield what is known of the members of an object; any value of an enum is something."""
         depth = len(object_)
         for key, mentioned in self.found.by_key.items():
-            below = key[depth:] if key[:depth] == object_ else ()
+            below = key[depth:] if key[:depth] == object_ and key[-1] is not SIZE else ()
             fields = [part for part in below if isinstance(part, sym.FieldSymbol)]
             if fields and len(fields) == len(below):
                 setting = self.setting(key, fields[-1].type)
@@ -325,7 +325,7 @@ class ConstraintLowering:
         return values_on(constraint.operations, self._written)[-1] == TRUE
 
     def _is_left(self, constraint: Constraint) -> bool:
-        if constraint.origin == "argument":
+        if constraint.origin in ("argument", "element"):
             return False
         prefix = constraint.place.prefix
         if not prefix and not constraint.is_default and self._is_about_others(constraint):

@@ -8,11 +8,10 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from osc2tx_runtime.domain.map.search import find_map
-from osc2tx_runtime.errors import BeyondMapError, OwnCode, SettingsError, SimulatorError
+from osc2tx_runtime.errors import BeyondMapError
 from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.context import ExecutionContext
-from osc2tx_runtime.language.settings import RunSettings, check_known
+from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.trace import TraceWriter
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.running.checked_world import checked_world
@@ -20,7 +19,7 @@ from osc2tx_runtime.running.loop import Observer, OnProgress, overloads, run_tre
 from osc2tx_runtime.running.map_warnings import map_warnings
 from osc2tx_runtime.running.output_files import check_outputs, write_output
 from osc2tx_runtime.running.requirements import check_requirements
-from osc2tx_runtime.worlds import WorldRequest, find_world
+from osc2tx_runtime.running.world_choice import make_world
 from osc2tx_shared.classes import dataclass, replace
 
 if TYPE_CHECKING:
@@ -160,35 +159,6 @@ def look_ahead(root: Behaviour) -> None:
     for node in root.iterate():
         if isinstance(node, BaseAction):
             node.look_ahead()
-
-
-def make_world(scenario: Scenario, read: Callable[[Path], RoadMap] = read_map) -> object:
-    """Make the world that the settings choose, for the scenario's map.
-
-    Raises:
-        SimulatorError: It cannot be made, whatever keeps it from that.
-    """
-    settings = scenario.settings
-    map_file = scenario.map_file()
-    request = WorldRequest(
-        map_file,
-        lambda: find_map(map_file, settings.map_path),
-        settings.dt,
-        settings.seed,
-        settings.control,
-        settings.world_options,
-        read,
-    )
-    found = find_world(settings.world)
-    for actor, control in settings.control.items():
-        if control not in found.controls:
-            raise SettingsError(
-                f"--control {control}: the world {found.name} has {' and '.join(found.controls)}"
-            )
-        if actor:
-            check_known("--control", "actor", [actor], scenario.actors)
-    with OwnCode(f"the world {settings.world} raised", error=SimulatorError):
-        return found.make(request)
 
 
 def make_context(

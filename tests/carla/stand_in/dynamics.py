@@ -22,6 +22,7 @@ GRAVITY = 9.81
 DRAG = 0.0008  # 1/m
 BRAKING = 8.0  # m/s^2 of a full brake
 STEERING_RATE = 8.0  # 1/s: how fast the wheels follow the wanted angle
+RIGHTING = 60.0  # degrees/s
 MAX_STEER = math.radians(70.0)
 STEERING_CURVE = [[0.0, 1.0], [120.0, 0.5]]
 """Share of the full lock that a pedal gives, by speed (km/h)."""
@@ -43,6 +44,7 @@ def move(actor: Actor, dt: float) -> None:
         actor.velocity, actor.turning = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
     elif actor.kind == "vehicle":
         _drive(actor, dt)
+        _fall_on_wheels(actor, dt)
     elif actor.kind == "walker":
         _walk(actor, dt)
     actor.acceleration = [(new - old) / dt for new, old in zip(actor.velocity, before, strict=True)]
@@ -79,6 +81,19 @@ def _drive(actor: Actor, dt: float) -> None:
     actor.rotation[1] = (math.degrees(yaw) + 180.0) % 360.0 - 180.0
     actor.velocity = [speed * ahead - drift * aside, speed * aside + drift * ahead, 0.0]
     actor.turning = [0.0, 0.0, math.degrees(rate)]
+
+
+def _fall_on_wheels(actor: Actor, dt: float) -> None:
+    """Right a body that is tilted to a side.
+
+    Rates are about the axes of the world, `v = w x r` by components as the engine has it: what
+    turns about x to the positive lifts the right side, which is a negative roll.
+    """
+    roll = actor.rotation[2]
+    actor.rotation[2] = math.copysign(max(abs(roll) - RIGHTING * dt, 0.0), roll)
+    rate = (roll - actor.rotation[2]) / dt
+    actor.turning[0] += rate * math.cos(actor.yaw)
+    actor.turning[1] += rate * math.sin(actor.yaw)
 
 
 def _accelerates(actor: Actor) -> bool:

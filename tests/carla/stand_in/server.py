@@ -10,6 +10,7 @@ from typing import Any
 
 from .actor_calls import ActorCalls
 from .batches import BatchCalls
+from .faults import FAULTS
 from .rpc import CallLog, RpcServer
 from .server_calls import ServerCalls
 from .signal_calls import SignalCalls
@@ -28,6 +29,7 @@ class Traits:
             `git describe --dirty`).
         loading: Seconds until a level is there: large maps take a minute and more. The client asks
             for the new episode for as long as one call may take (`Simulator::LoadEpisode`).
+        fault: How it differs from what runs rely on; see `faults`.
         has_streams: Whether its second port is open; without it calls are answered, and no
             snapshot ever arrives (carla issues on docker and firewalls).
     """
@@ -35,6 +37,7 @@ class Traits:
     version: str = VERSION
     loading: float = 0.0
     has_streams: bool = True
+    fault: str = ""
 
 
 class TestCalls:
@@ -112,6 +115,8 @@ class StandIn:
             tests,
         )
         calls = {name: call for each in groups for name, call in calls_of(each)}
+        if traits.fault:
+            FAULTS[traits.fault](simulation, calls)
         self._rpc = RpcServer(port, calls, log, {name for name, _ in calls_of(tests)})
         self.port = self._rpc.port
         self._closed = threading.Event()

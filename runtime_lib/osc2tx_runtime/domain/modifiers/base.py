@@ -6,11 +6,10 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, ClassVar, TypeAlias, TypeVar
 
-from osc2tx_runtime.domain.shapes import AnyShape, CommonShape, OwnShape
+from osc2tx_runtime.domain.shapes import AnyShape, CommonShape, OwnShape, with_methods
 from osc2tx_runtime.enums import At, DynamicProfile, MovementMode, Track
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.errors import NO_RESULT, ScenarioError, why_no_result
 from osc2tx_runtime.language.actions.modifier import Modifier
-from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
 from osc2tx_shared.classes import dataclass, replace
 
 if TYPE_CHECKING:
@@ -38,7 +37,7 @@ Late: TypeAlias = ValueT | Callable[[], ValueT]
 """A value, or a function that is called for it when the action starts."""
 
 Value: TypeAlias = Late[float]
-Shape = CommonShape | OwnShape[AnyShape]
+Shape = AnyShape | OwnShape[AnyShape]
 
 _SAME = 1e-3  # between what a shape reaches and what is asked for
 
@@ -53,8 +52,8 @@ def now(value: ValueT | Callable[[], ValueT]) -> ValueT:
         return value
     try:
         return value()
-    except EVALUATION_ERRORS as error:
-        raise ScenarioError(f"an argument has no value: {error}") from error
+    except NO_RESULT as error:
+        raise ScenarioError(f"an argument has no value: {why_no_result(error)}") from error
 
 
 def settled(modifiers: Sequence[Modifier]) -> tuple[Modifier, ...]:
@@ -162,8 +161,11 @@ class MovementModifier(Modifier):
         return self.movement_mode == "monotonous"
 
     def check(self) -> None:
-        """Checks that the shape is one of the value."""
-        shape: Shape | None = getattr(self, "shape", None)
+        """Checks that the shape is one of the value; one that computes keeps its methods by it."""
+        shape: AnyShape | OwnShape[AnyShape] | None = getattr(self, "shape", None)
+        if isinstance(shape, AnyShape):
+            shape = with_methods(shape)
+            object.__setattr__(self, "shape", shape)
         wanted = self.shaped_by
         if shape and wanted and wanted.kind not in (shape.kind, AnyShape.kind):
             raise ScenarioError(f"{self.name}: a shape of it is an {wanted.kind}")

@@ -71,6 +71,12 @@ class Activity:
         self._active = active
 
 
+NEEDS_RUN = (
+    "the tree of a scenario needs the world of a run: call `run_scenario(TheScenario)` of"
+    " osc2tx_runtime instead of ticking it"
+)
+
+
 class Node(Behaviour):
     """What leaves and compositions share.
 
@@ -113,8 +119,20 @@ class Node(Behaviour):
     _ended: PostedEvent | None = None
     _failed: PostedEvent | None = None
 
+    def __getattr__(self, name: str) -> Any:
+        """Say what a tree needs that is ticked before it is set up for a run."""
+        if name == "context":
+            raise ScenarioError(NEEDS_RUN)
+        raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
+
     def setup(self, **kwargs: Any) -> None:
-        """Take the `context` of the run."""
+        """Take the `context` of the run.
+
+        Raises:
+            ScenarioError: Somebody else than a run sets it up.
+        """
+        if "context" not in kwargs:
+            raise ScenarioError(NEEDS_RUN)
         self.context = kwargs["context"]
         if self.label is not None:
             events = self.context.label_events if self.listeners is None else self.listeners

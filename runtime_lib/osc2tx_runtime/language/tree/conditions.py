@@ -12,14 +12,13 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.errors import NO_RESULT, ScenarioError, why_no_result
 from osc2tx_runtime.language.tree.module_text import function_text
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
 __all__ = [
-    "EVALUATION_ERRORS",
     "Condition",
     "Deadline",
     "Edge",
@@ -34,9 +33,6 @@ __all__ = [
 
 SETTLED_STEPS = 2
 """Steps for which a condition has had its value before a turn of measured states is no noise."""
-
-EVALUATION_ERRORS = (ArithmeticError, LookupError)
-"""What an expression of a scenario raises when it has no value."""
 
 Watch = Callable[[], bool]
 """Says whether something happened by the present pass."""
@@ -136,7 +132,7 @@ class Level:
         if snapshot != self._sampled:
             try:  # as in `evaluate`
                 self._value = bool(self._function())
-            except EVALUATION_ERRORS as error:
+            except NO_RESULT as error:
                 raise without_value(error) from error
             self._sampled = snapshot
         return self._value
@@ -211,7 +207,7 @@ class Edge:
             before = self._value
             try:  # as in `evaluate`; each step of each condition comes by here
                 self._value = bool(self._function())
-            except EVALUATION_ERRORS as error:
+            except NO_RESULT as error:
                 raise without_value(error) from error
             self._sampled = context.snapshot
             turned = self._value is not before
@@ -230,8 +226,8 @@ def number(function: Callable[[], float]) -> float:
     """
     try:
         seconds = float(function())
-    except EVALUATION_ERRORS as error:
-        raise ScenarioError(f"the time has no value: {error}") from error
+    except NO_RESULT as error:
+        raise ScenarioError(f"the time has no value: {why_no_result(error)}") from error
     if not math.isfinite(seconds):
         raise ScenarioError(f"a time of {seconds} s never comes")
     return seconds
@@ -245,10 +241,10 @@ def evaluate(function: Callable[[], bool]) -> bool:
     """
     try:
         return bool(function())
-    except EVALUATION_ERRORS as error:
+    except NO_RESULT as error:
         raise without_value(error) from error
 
 
 def without_value(error: Exception) -> ScenarioError:
     """Return the error of a condition that has no value."""
-    return ScenarioError(f"the condition has no value: {error}")
+    return ScenarioError(f"the condition has no value: {why_no_result(error)}")

@@ -14,7 +14,7 @@ from osc2tx_shared.text import complain
 from .client_process import ClientProcess
 from .frames import pose_from
 
-__all__ = ["map_of", "with_spawn_points"]
+__all__ = ["difference_of", "map_of", "plain_name", "read_level", "with_spawn_points"]
 
 LOADING = 120.0
 """How long (s) a server may take to load a level; the time for a call, if that is longer."""
@@ -40,11 +40,15 @@ def map_of(client: ClientProcess, request: WorldRequest, load: bool) -> RoadMap:
         SimulatorError: The server has another map.
     """
     level = client.ask("level", patience=LOADING)
-    theirs, wanted = _read(level), _wanted(client, request, level, load)
-    if wanted is None and request.map_file is not None and _stem(request) != _plain(level["name"]):
+    theirs, wanted = read_level(level), _wanted(client, request, level, load)
+    if (
+        wanted is None
+        and request.map_file is not None
+        and _stem(request) != plain_name(level["name"])
+    ):
         level = _loaded(client, request, _stem(request), load=True)
-        return with_spawn_points(_read(level), level)
-    difference = None if wanted is None else _difference(wanted, theirs)
+        return with_spawn_points(read_level(level), level)
+    difference = None if wanted is None else difference_of(wanted, theirs)
     if wanted is None or difference is None:
         return with_spawn_points(wanted or theirs, level)
     if not load:
@@ -52,8 +56,8 @@ def map_of(client: ClientProcess, request: WorldRequest, load: bool) -> RoadMap:
             f"CARLA has the map {theirs.name}, which is not the scenario's {wanted.name}:"
             f" {difference}; load it there, or run with --carla-load"
         )
-    level = _loaded(client, request, wanted.name, load=wanted.name != _plain(theirs.name))
-    difference = _difference(wanted, _read(level))
+    level = _loaded(client, request, wanted.name, load=wanted.name != plain_name(theirs.name))
+    difference = difference_of(wanted, read_level(level))
     if difference is not None:
         raise SimulatorError(f"the map {wanted.name} of CARLA is not the scenario's: {difference}")
     return with_spawn_points(wanted, level)
@@ -64,7 +68,7 @@ def _loaded(
 ) -> Mapping[str, Any]:
     """Have the server load a map that it has, else make a level of the file; return the level."""
     patience = max(LOADING, request.options.get("carla_timeout", 0.0))
-    known = {_plain(each): each for each in client.ask("maps")} if load else {}
+    known = {plain_name(each): each for each in client.ask("maps")} if load else {}
     complain(f"CARLA: loading {name}")
     try:
         if name in known:
@@ -96,7 +100,9 @@ def _wanted(
         return request.road_map()
     except InputError:
         stem = _stem(request)
-        if stem == _plain(level["name"]) or (load and stem in map(_plain, client.ask("maps"))):
+        if stem == plain_name(level["name"]) or (
+            load and stem in map(plain_name, client.ask("maps"))
+        ):
             return None
         raise
 
@@ -106,20 +112,25 @@ def _stem(request: WorldRequest) -> str:
     return request.map_file.rpartition("/")[2].removesuffix(".xodr")
 
 
-def _plain(name: str) -> str:
+def plain_name(name: str) -> str:
     """Return the name of a level without what tells its variants apart."""
     return name.removesuffix(OPT)
 
 
-def _read(level: Mapping[str, Any]) -> RoadMap:
+def read_level(level: Mapping[str, Any]) -> RoadMap:
+    """Return the map of a level.
+
+    Raises:
+        SimulatorError: It cannot be read.
+    """
     try:
         return read_map_text(level["text"], level["name"])
     except MapError as error:
         raise SimulatorError(f"the map of CARLA cannot be read: {error}") from error
 
 
-def _difference(ours: RoadMap, theirs: RoadMap) -> str | None:
-    """What tells two maps apart; None if nothing does that matters."""
+def difference_of(ours: RoadMap, theirs: RoadMap) -> str | None:
+    """Return what tells two maps apart; None if nothing does that matters."""
     for road in (*ours.roads, *theirs.roads):
         if (road in ours.roads) != (road in theirs.roads):
             where = "the scenario's" if road in ours.roads else "the server's"

@@ -12,6 +12,7 @@ from osc2tx_runtime.worlds import Option, WorldRequest, WorldType
 from osc2tx_runtime.worlds.option import parse_pair, parse_seconds
 
 from .attendance import Attendance
+from .checks import check
 from .client_process import ClientProcess
 from .connection import DEFAULT_ADDRESS, TIMEOUT, connect
 from .level import map_of
@@ -152,4 +153,4 @@ def make(request: WorldRequest) -> EmbeddedWorld:
     return EmbeddedWorld(road_map, request.dt, plant=plant)
 
 
-WORLD = WorldType("carla", make, ("exact", "driven", "external", "autopilot"), OPTIONS)
+WORLD = WorldType("carla", make, ("exact", "driven", "external", "autopilot"), OPTIONS, check)

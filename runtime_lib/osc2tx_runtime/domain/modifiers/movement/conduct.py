@@ -13,7 +13,7 @@ from osc2tx_runtime.domain.modifiers.base import (
     now,
 )
 from osc2tx_runtime.domain.modifiers.registry import modifier
-from osc2tx_runtime.domain.shapes import AnyPositionShape, CommonPositionShape, OwnShape
+from osc2tx_runtime.domain.shapes import AnyPositionShape, OwnShape
 from osc2tx_runtime.enums import MovementOptions
 from osc2tx_runtime.language.actions.modifier import COURSE, LANE, SIDE
 from osc2tx_runtime.language.actions.registry import LATERAL, LONGITUDINAL
@@ -77,7 +77,7 @@ class Along(MovementModifier):
     route: Path | Route | Callable[[], Path | Route]
     start_offset: Value = 0.0
     end_offset: Value = 0.0
-    shape: CommonPositionShape | OwnShape[AnyPositionShape] | None = None
+    shape: AnyPositionShape | OwnShape[AnyPositionShape] | None = None
 
     @property
     def way(self) -> Path | Route:

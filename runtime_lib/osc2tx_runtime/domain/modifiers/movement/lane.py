@@ -14,7 +14,7 @@ from osc2tx_runtime.domain.modifiers.base import (
     wanted,
 )
 from osc2tx_runtime.domain.modifiers.registry import modifier
-from osc2tx_runtime.domain.shapes import AnyLateralShape, CommonLateralShape, OwnShape
+from osc2tx_runtime.domain.shapes import AnyLateralShape, OwnShape
 from osc2tx_runtime.enums import LatMeasureBy, SideLeftRight
 from osc2tx_runtime.language.actions.modifier import LANE, SIDE
 from osc2tx_runtime.language.actions.registry import LATERAL
@@ -64,7 +64,7 @@ class Lane(MovementModifier):
     side_of: PhysicalObject | None = None
     side: Late[SideLeftRight] | None = None
     from_: Late[SideLeftRight] = "right"
-    shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
+    shape: AnyLateralShape | OwnShape[AnyLateralShape] | None = None
 
     @property
     def number(self) -> int:
@@ -116,7 +116,7 @@ class Lateral(MovementModifier):
     side_of: PhysicalObject | None = None
     side: Late[SideLeftRight] = "left"
     measure_by: Late[LatMeasureBy] = "center_to_center"
-    shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
+    shape: AnyLateralShape | OwnShape[AnyLateralShape] | None = None
 
     @property
     def reference(self) -> PhysicalObject | None:
@@ -174,7 +174,7 @@ class ChangeLane(MovementModifier):
     shaped_by = AnyLateralShape
     lane: int | Callable[[], int] = 1
     side: Late[SideLeftRight] | None = None
-    shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
+    shape: AnyLateralShape | OwnShape[AnyLateralShape] | None = None
 
     @property
     def number(self) -> int:

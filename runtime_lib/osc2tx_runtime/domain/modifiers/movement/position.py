@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 from osc2tx_runtime.domain.modifiers.base import Modifier, MovementModifier, Value, band_of, wanted
 from osc2tx_runtime.domain.modifiers.registry import modifier
-from osc2tx_runtime.domain.shapes import AnyPositionShape, CommonPositionShape, OwnShape
+from osc2tx_runtime.domain.shapes import AnyPositionShape, OwnShape
 from osc2tx_runtime.language.actions.modifier import COURSE
 from osc2tx_runtime.language.actions.registry import LATERAL, LONGITUDINAL
 from osc2tx_shared.classes import dataclass
@@ -93,7 +93,7 @@ class Position(MovementModifier):
     z: float | None = None
     h: float | None = None
     frame: Literal["world", "carla"] = "world"
-    shape: CommonPositionShape | OwnShape[AnyPositionShape] | None = None
+    shape: AnyPositionShape | OwnShape[AnyPositionShape] | None = None
 
     @property
     def reference(self) -> PhysicalObject | None:
@@ -171,7 +171,7 @@ class Distance(MovementModifier):
 
     shaped_by = AnyPositionShape
     distance: Value
-    shape: CommonPositionShape | OwnShape[AnyPositionShape] | None = None
+    shape: AnyPositionShape | OwnShape[AnyPositionShape] | None = None
 
     def way(self) -> float:
         """The metres to cover, now."""

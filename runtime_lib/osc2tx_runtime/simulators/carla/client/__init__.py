@@ -1,9 +1,9 @@
 """The process that holds CARLA's client library.
 
 Requests come as lines of JSON, `[number, name, arguments]`, and are answered by `[number, kind,
-value]`: a kind is a value, an error or a bug. Names are those of the methods of
-`session.Session`. The end of the input ends the session: its actors are destroyed, and the
-settings are restored.
+value]`: a kind is a value, an error or a bug. Names are those of the methods of `session` (level,
+time), `actors`, `surroundings` and `inspection`. The end of the input ends the session: its actors
+are destroyed, and the settings are restored.
 """
 
 from __future__ import annotations
