@@ -54,6 +54,7 @@ def flat_rows(store: Store) -> Iterator[dict[str, Any]]:
             **{name: run[name] for name in ("number", "seed", "status", "reason", "time")},
             **{f"parameter {name}": value for name, value in run["parameters"].items()},
             **{f"kpi {name}": value for name, value in run["measures"].items()},
+            "violations": len(run["violations"]),
             **({"digest": run["digest"]} if run["digest"] else {}),
         }
 

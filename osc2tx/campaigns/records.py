@@ -24,6 +24,7 @@ create table run (
     steps integer not null,
     time real not null,
     measures text not null,
+    violations text not null,
     digest text,
     seconds real not null,
     attempts integer not null
@@ -45,7 +46,7 @@ create table left_out (number integer primary key);
 OF_THE_MACHINE = ("seconds", "attempts")
 COLUMNS = (
     *("number", "seed", "shares", "given", "parameters", "status", "reason", "source", "steps"),
-    *("time", "measures", "digest", "seconds", "attempts"),
+    *("time", "measures", "violations", "digest", "seconds", "attempts"),
 )
 
 
@@ -69,6 +70,7 @@ def record(result: RowResult) -> Sequence[Any]:
         result.steps,
         result.time,
         json.dumps(dict(result.measures)),
+        json.dumps(result.violations),
         result.digest,
         result.seconds,
         result.attempts,
@@ -78,6 +80,6 @@ def record(result: RowResult) -> Sequence[Any]:
 def decoded(values: Sequence[Any]) -> dict[str, Any]:
     """Return a record by column, JSON as what it says."""
     found = dict(zip(COLUMNS, values, strict=True))
-    for name in ("shares", "given", "parameters", "measures"):
+    for name in ("shares", "given", "parameters", "measures", "violations"):
         found[name] = None if found[name] is None else json.loads(found[name])
     return found

@@ -24,7 +24,7 @@ class CampaignError(Exception):
     """A campaign cannot be run, or its store cannot be used; the message says what to do."""
 
 
-FORMAT = 1
+FORMAT = 2
 
 
 class Store:

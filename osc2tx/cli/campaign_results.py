@@ -133,8 +133,8 @@ def export(store: Path, file: Path) -> Exit:
     """Write all rows as a table: FILE.csv, or JSON Lines for FILE.jsonl.
 
     Columns: number, seed, status, reason, seconds of simulated time, `parameter NAME` and
-    `kpi NAME`, all in SI units, and the digest of the trace if there is one. Numbers have all their
-    digits.
+    `kpi NAME`, all in SI units, the number of conditions that did not hold, and the digest of the
+    trace if there is one. Numbers have all their digits.
     """
     try:
         with Store(store) as opened:

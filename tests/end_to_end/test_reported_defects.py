@@ -82,7 +82,6 @@ ROWS = [
     Row("modifier_as_a_member", 3.0),
     failed("all_the_time_but_never", "22 OSC810", "`position` does not hold from 1.00 to 3.00 s"),
     failed("distance_cut_by_until", "15 OSC810", "it has covered is 20.00, not 60.00 m"),
-    failed("end_in_the_lane_of_one_that_moved", "17 OSC810", "1 to the right of the lane of ego"),
     Row("type_as_receiver", 3.0, found=("4 OSC415", "9 OSC415"), says="the one there is"),
     Row("dut_as_receiver_carla", 2.0, found=("9 OSC622",), options=("--dialect", "carla")),
     refused("action_without_actor", "7 OSC804", "no global action `log`", code=5),
