@@ -18,6 +18,7 @@ from osc2tx.compilation.inputs import InputError
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import GivenOptions
 from osc2tx_runtime import ScenarioError
+from osc2tx_runtime.errors import InputError as UnreadableError
 from osc2tx_runtime.errors import coded
 from osc2tx_runtime.running.verification import (
     RecordedRun,
@@ -52,9 +53,13 @@ def verify(
     the scenario or its module; without, the one that the trace names is looked for beside the
     trace and in the current folder. The exit code is 5 if a condition fails its phase.
     """
-    run = read_trace(trace)
-    source = file or _find(trace, str(run.header.get("source", "")))
-    found = _verified(run, source, (*map_path, source.parent), given)
+    try:
+        run = read_trace(trace)
+        source = file or _find(trace, str(run.header.get("source", "")))
+        found = _verified(run, source, (*map_path, source.parent), given)
+    except UnreadableError as error:
+        complain(f"osc2tx: error: {error}")
+        return Exit.UNREADABLE
     if isinstance(found, Exit):
         return found
     if form == "json":
@@ -95,6 +100,8 @@ def _verified(
             raise click.UsageError(f"{source} declares no scenario")
         with scenarios_of_module(compilation.module, sibling_modules(compilation)) as scenarios:
             return check(run, _chosen(scenarios, run, source), map_path)
+    except UnreadableError:
+        raise
     except ScenarioError as error:
         complain(error.report(str(run.header.get("source", "")), str(source)))
         return Exit(error.exit_code)

@@ -69,8 +69,8 @@ domain.planning: domain.actors domain.map domain.modifiers domain.objects domain
 domain.actions: domain.actors domain.map domain.measuring domain.modifiers domain.objects
     domain.paths domain.placing domain.planning domain.points_and_poses domain.routes
     domain.signals enums errors language opendrive world
-domain.monitoring: domain.actions domain.modifiers domain.placing domain.routes enums errors
-    language opendrive world
+domain.monitoring: domain.actions domain.map domain.modifiers domain.paths domain.placing
+    domain.routes enums errors language opendrive world
 domain.capabilities: domain.actions domain.actors domain.capability_tables domain.modifiers enums
     language units
 worlds: errors opendrive world
@@ -79,7 +79,8 @@ report: language
 running: domain.map domain.monitoring domain.objects domain.placing domain.scenario errors
     interrupts language opendrive plain_numbers report world worlds
 kpis: errors language opendrive running world
-campaigns: domain.map domain.scenario errors kpis language opendrive plain_numbers running
+campaigns: domain.map domain.monitoring domain.scenario errors kpis language opendrive
+    plain_numbers running
 fields: domain.actors domain.measuring domain.objects domain.signals enums
 modifiers: domain.modifiers
 __init__: domain.actions domain.actors domain.map domain.measuring domain.modifiers domain.objects

@@ -9,15 +9,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from osc2tx_runtime import Parallel
+from osc2tx_runtime import Behaviour, Parallel, Path, Point, Pose, Serial, Trajectory
 from osc2tx_runtime.domain.modifiers import MODIFIERS
 from osc2tx_runtime.domain.monitoring.registry import CLARIFIED, MONITORS, UNMONITORED
 from osc2tx_runtime.modifiers import (
     acceleration,
+    along,
     change_lane,
     change_speed,
     distance,
     keep_lane,
+    keep_position,
     keep_speed,
     lane,
     lateral,
@@ -26,6 +28,7 @@ from osc2tx_runtime.modifiers import (
     speed,
     yaw,
 )
+from tests.runtime.world.two_cars import TwoCars
 
 from .kit import (
     Body,
@@ -81,6 +84,29 @@ def beside(make: object) -> Body:
     )
 
 
+LINE = (Pose(50.0, -8.75, 0.0), Pose(90.0, -8.75, 0.0))
+"""Straight on from where `a` starts, in 4 s."""
+
+
+def gap(action: str) -> Body:
+    """`a` gets to a gap of 30 m behind `b`."""
+    return lambda s: getattr(s.a, action)(target=30.0, direction="behind", reference=s.b)
+
+
+def kept(action: str) -> Body:
+    """`a` keeps a gap or headway to `b`, which is as fast."""
+    return lambda s: Serial(
+        "all",
+        s.b.change_speed(target=10.0),
+        Parallel("kept", getattr(s.a, action)(reference=s.b), s.b.keep_speed(), duration=2.0),
+    )
+
+
+def standing(s: TwoCars, action: Behaviour) -> Behaviour:
+    """`a` stands for 2 s."""
+    return Serial("all", s.a.assign_speed(speed=0.0), Parallel("stands", action, duration=2.0))
+
+
 # One step at 10 m/s is 0.5 m.
 CASES = [
     Case("speed", two(speed(10.0)), faster, 0.05),
@@ -123,6 +149,29 @@ CASES = [
     Case("lateral", lambda s: s.a.change_lane(side="left"), left, 0.1, END),
     Case("keep_lane", lambda s: s.a.follow_lane(duration=2.0), lanes_left, 0.0),
     Case("lateral", lambda s: s.a.follow_lane(duration=2.0), left, 0.1),
+    Case("change_space_gap", gap("change_space_gap"), ahead, 0.1, END, slack=0.65),
+    Case("change_space_headway", gap("change_space_headway"), ahead, 0.1, END, slack=0.65),
+    Case("keep_space_gap", kept("keep_space_gap"), ahead, 0.1, END, slack=0.65),
+    Case("keep_space_headway", kept("keep_space_headway"), ahead, 0.1, END, slack=0.65),
+    Case("keep_time_headway", kept("keep_time_headway"), faster, 0.05, END, slack=0.5),
+    Case("keep_position", lambda s: standing(s, s.a.drive(keep_position())), ahead, 0.1),
+    Case("keep_position", lambda s: standing(s, s.a.remain_stationary()), left, 0.1),
+    Case("along", lambda s: s.a.follow_path(absolute=Path(LINE)), left, 0.1),
+    Case("along", lambda s: s.a.drive(along(Path(LINE))), left, 0.1),
+    Case(
+        "along_trajectory",
+        lambda s: s.a.follow_trajectory(absolute=Trajectory(LINE, (0.0, 4.0))),
+        ahead,
+        0.1,
+    ),
+    Case(
+        "change_position",
+        lambda s: s.a.change_position(target_xyz=Point(90.0, -8.75, 0.0)),
+        ahead,
+        0.1,
+        END,
+        slack=0.55,
+    ),
 ]
 
 

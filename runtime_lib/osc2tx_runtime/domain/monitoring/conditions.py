@@ -25,6 +25,7 @@ class Condition:
         at: When it has to hold.
         measure: Reads it at the present step; None while it cannot be measured.
         text: Says what was found, where numbers alone tell nobody; takes a reading.
+        is_target: It is the target of an action (DSL 8.8.2.2), and no modifier.
     """
 
     modifier: str
@@ -33,3 +34,4 @@ class Condition:
     at: At
     measure: Callable[[], Reading | None]
     text: Callable[[Reading], str] | None = None
+    is_target: bool = False

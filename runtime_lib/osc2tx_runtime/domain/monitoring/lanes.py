@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 __all__ = ["lanes_from_start", "lanes_text"]
 
+_WITHIN = 1.0  # m from the centre of a lane that are within it
+
 
 @monitors("lane")
 def lane(modifier: Lane, phase: Phase) -> Iterator[Condition]:
@@ -110,7 +112,7 @@ def _by_lane(
 
 def _lane_of(road_map: RoadMap, place: LanePosition) -> object:
     """What stays the same in a lane: its key, and whether one is within it."""
-    beyond = abs(place.offset) > 1.5 and actual_lane(road_map, place)
+    beyond = abs(place.offset) > _WITHIN and actual_lane(road_map, place)
     return (
         place.road,
         place.lane,
@@ -179,8 +181,12 @@ def lateral(modifier: Lateral, phase: Phase) -> Iterator[Condition]:
     road_map, me = phase.world.map, phase.me
     if modifier.side_of is None:
 
+        leaves = any(isinstance(each, Lane | ChangeLane) for each in phase.modifiers)
+        lane_of_it = _lane_of_offset(phase, leaves or "change_lane" in phase.action.registered.name)
+
         def measure() -> Reading | None:
-            return _in_lane(road_map, me(), modifier)
+            lane = lane_of_it()
+            return None if lane is None else _in_lane(road_map, me(), lane, modifier)
 
         what = "its distance left of its lane's centre"
     else:
@@ -197,16 +203,39 @@ def lateral(modifier: Lateral, phase: Phase) -> Iterator[Condition]:
     yield Condition("lateral", what, "lateral position", modifier.at, measure)
 
 
-def _in_lane(road_map: RoadMap, state: ActorState, modifier: Lateral) -> Reading | None:
+def _lane_of_offset(phase: Phase, leaves: bool) -> Callable[[], LanePosition | None]:
+    """Return what gives the lane that an offset counts from, beside the actor.
+
+    That is the lane at the start, which a large offset may leave; where a modifier or the action
+    states another lane, it is the present one.
+    """
+    road_map, me, lanes = phase.world.map, phase.me, lanes_from_start(phase)
+
+    def lane_of_it() -> LanePosition | None:
+        place = me().lane_position
+        if place is None:
+            return None
+        left = 0.0 if leaves else lanes() or 0.0
+        if left == 0.0 and abs(place.offset) <= _WITHIN:
+            return place._replace(offset=0.0)
+        here = actual_lane(road_map, place)
+        if left == 0.0:
+            return here
+        side: SideLeftRight = "right" if left > 0.0 else "left"
+        return road_map.neighbour(here, side, round(abs(left)), either_way=True)
+
+    return lane_of_it
+
+
+def _in_lane(
+    road_map: RoadMap, state: ActorState, lane: LanePosition, modifier: Lateral
+) -> Reading:
+    """How far left of the centre of a lane an actor is, as it drives."""
+    width = road_map.lane_width(lane.road, lane.lane, lane.s)
     place = state.lane_position
-    if place is None:
-        return None
-    width = road_map.lane_width(place.road, place.lane, place.s)
-    offset = place.offset
-    if abs(offset) > 0.5 * width:  # in a lane of oncoming traffic
-        lane = actual_lane(road_map, place)
-        width = road_map.lane_width(lane.road, lane.lane, lane.s)
-        offset = offset_from(road_map, lane, state.x, state.y)
-        if are_opposed(road_map, place, lane):
-            offset = -offset
+    if place is not None and (place.road, place.lane) == (lane.road, lane.lane):
+        return (place.offset, *modifier.offsets(state.width, width))
+    offset = offset_from(road_map, lane, state.x, state.y)
+    if place is not None and are_opposed(road_map, place, lane):
+        offset = -offset
     return (offset, *modifier.offsets(state.width, width))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from osc2tx_runtime.domain.modifiers import Modifier
 from osc2tx_runtime.domain.monitoring.conditions import Condition
+from osc2tx_shared.classes import replace
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.monitoring.phase import Phase
@@ -64,9 +65,14 @@ def unmonitored(reason: str, *names: str) -> None:
 def conditions_of(phase: Phase) -> Iterator[Condition]:
     """Yield the conditions of an action: those it stands for, then those of its modifiers."""
     clarified = CLARIFIED.get(phase.action.registered.name)
-    stated = () if clarified is None else clarified(phase.action, phase)
-    for each in (*stated, *phase.action.modifiers):
-        if isinstance(each, Condition):
-            yield each
-        elif each.name in MONITORS:
-            yield from MONITORS[each.name](each, phase)
+    if clarified is not None:
+        for each in clarified(phase.action, phase):
+            for condition in (each,) if isinstance(each, Condition) else _stated(each, phase):
+                yield replace(condition, is_target=True)
+    for modifier in phase.action.modifiers:
+        yield from _stated(modifier, phase)
+
+
+def _stated(modifier: Modifier, phase: Phase) -> Iterable[Condition]:
+    monitor = MONITORS.get(modifier.name)
+    return () if monitor is None else monitor(modifier, phase)
