@@ -11,11 +11,14 @@ from typing import Any
 
 from osc2tx.campaigns.store import Store
 from osc2tx_runtime.errors import InputError
-from osc2tx_runtime.running.output_files import write_output
+from osc2tx_runtime.running.output_files import may_replace, write_output
 
 from .store import CampaignError
 
 __all__ = ["export_rows", "flat_rows", "write_text"]
+
+ALWAYS = ("number", "seed", "status", "reason", "time")
+"""Columns that every table has, in front."""
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r")
 """How a text begins that spreadsheets evaluate."""
@@ -39,11 +42,13 @@ def export_rows(store: Store, file: Path) -> int:
 
 
 def write_text(what: str, file: Path, text: str) -> None:
-    """Write a file.
+    """Write a file; one that is there is replaced if it is such a file.
 
     Raises:
-        CampaignError: It cannot be written.
+        CampaignError: It cannot be written, or is another one.
     """
+    if not may_replace(what, file):
+        raise CampaignError(f"{file}: there is a file, and it is no {what}; name another one")
     try:
         write_output(what, file, text)
     except InputError as error:
@@ -54,7 +59,7 @@ def flat_rows(store: Store) -> Iterator[dict[str, Any]]:
     """Yield all rows by number, each with plain values."""
     for run in store.runs():
         yield {
-            **{name: run[name] for name in ("number", "seed", "status", "reason", "time")},
+            **{name: run[name] for name in ALWAYS},
             **{f"parameter {name}": value for name, value in run["parameters"].items()},
             **{f"kpi {name}": value for name, value in run["measures"].items()},
             "violations": len(run["violations"]),
@@ -63,7 +68,7 @@ def flat_rows(store: Store) -> Iterator[dict[str, Any]]:
 
 
 def _csv(rows: list[dict[str, Any]]) -> str:
-    names = list(dict.fromkeys(name for row in rows for name in row))
+    names = list(dict.fromkeys((*ALWAYS, *(name for row in rows for name in row))))
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\r\n")  # RFC 4180
     writer.writerow(map(_field, names))

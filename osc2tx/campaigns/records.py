@@ -66,7 +66,13 @@ _TEXT_OR_NONE = (str, NoneType)
 ROW_TYPES: Mapping[str, Any] = {
     **{"number": int, "seed": int, "shares": (dict, NoneType), "given": dict, "parameters": dict},
     **{"status": str, "reason": str, "source": _TEXT_OR_NONE, "steps": int, "time": _NUMBER},
-    **{"measures": dict, "digest": _TEXT_OR_NONE, "seconds": _NUMBER, "attempts": int},
+    **{
+        "violations": list,
+        "measures": dict,
+        "digest": _TEXT_OR_NONE,
+        "seconds": _NUMBER,
+        "attempts": int,
+    },
 }
 """Types of the values of a row."""
 
@@ -120,6 +126,9 @@ def decoded(values: Sequence[Any]) -> dict[str, Any]:
     for name in ("shares", "given", "parameters", "measures", "violations"):
         found[name] = None if found[name] is None else json.loads(found[name])
     require_types(found, ROW_TYPES)
+    require_types(found["measures"], dict.fromkeys(found["measures"], (*_NUMBER, NoneType)))
+    if not all(isinstance(each, str) for each in found["violations"]):
+        raise ValueError("`violations` are no texts")
     return found
 
 

@@ -14,7 +14,8 @@ from pathlib import Path
 import pytest
 
 from osc2tx.campaigns import CampaignError
-from osc2tx.campaigns.export import export_rows
+from osc2tx.campaigns.export import export_rows, write_text
+from osc2tx.campaigns.junit import render_junit
 from osc2tx.campaigns.replay import replay_row
 from osc2tx.campaigns.report import render_report
 from osc2tx.campaigns.store import Store
@@ -89,10 +90,13 @@ def test_the_module_itself_stays_too() -> None:
 
 
 DAMAGES = {
-    "run": ("shares", "given", "parameters", "measures", "steps", "time", "status", "seconds"),
+    "run": (
+        *("shares", "given", "parameters", "measures", "violations"),
+        *("steps", "time", "status", "seconds"),
+    ),
     "sample": ("line",),
 }
-JUNK = ("", "[1]", "no json", "nan", '{"a": ', b"\xff\xfe")
+JUNK = ("", "[1]", '{"min_gap": "x"}', "no json", "nan", '{"a": ', b"\xff\xfe")
 
 
 @pytest.mark.parametrize("junk", JUNK)
@@ -105,6 +109,8 @@ def test_damaged_rows_are_named(place: Path, table: str, column: str, junk: obje
         use_all(place)
     except CampaignError as error:
         assert str(place) in str(error)
+    except SettingsError as error:  # a value that the scenario does not have
+        assert column == "given" and error.message
     else:
         assert column == "status"  # any text may be one
 
@@ -240,3 +246,42 @@ def test_tables_hold_no_formulas(place: Path, text: str) -> None:
             assert found["parameter note"] == f"'{text}" == found["reason"]
             assert float(found["parameter offset"]) == -2.5
             assert not any(name.startswith(("=", "+", "-", "@", "\t", "\r")) for name in found)
+
+
+def test_other_files_are_not_overwritten(place: Path, tmp_path: Path) -> None:
+    """Tables replace tables; a scenario, a map and the store itself stay."""
+    for name, text in {"rows.csv": "a,b\n1,2\n", "rows.jsonl": '{"kind":"header"}\n'}.items():
+        target = tmp_path / name
+        target.write_text(text)
+        with Store(place) as store:
+            with pytest.raises(CampaignError, match="it is no table; name another one"):
+                export_rows(store, target)
+            assert target.read_text() == text
+            target.unlink()
+            assert export_rows(store, target) == export_rows(store, target) == 4
+    for what in ("report", "summary", "junit"):
+        before = place.read_bytes()
+        with pytest.raises(CampaignError, match=f"it is no {what}; name another one"):
+            write_text(what, place, "x")
+        assert place.read_bytes() == before
+
+
+def test_what_a_campaign_writes_may_be_replaced(place: Path, tmp_path: Path) -> None:
+    with Store(place) as store:
+        results = results_of(store)
+    texts = {
+        "report": render_report(results, None),
+        "summary": json.dumps(summary_of(results), indent=1) + "\n",
+        "junit": render_junit(results),
+    }
+    for what, text in texts.items():
+        for _ in range(2):
+            write_text(what, tmp_path / what, text)
+
+
+def test_an_empty_table_has_a_header(tmp_path: Path, place: Path) -> None:
+    change(place, "delete from run")
+    with Store(place) as store:
+        assert export_rows(store, tmp_path / "rows.csv") == 0
+        assert export_rows(store, tmp_path / "rows.csv") == 0
+    assert (tmp_path / "rows.csv").read_text() == "number,seed,status,reason,time\n"

@@ -11,8 +11,14 @@ from osc2tx_runtime.language.settings import RunSettings
 
 __all__ = ["check_outputs", "may_replace", "write_output"]
 
-# How the files begin that a run writes; also what is to be overwritten has to.
-BEGINS = {"trace": b'{"kind":"header"', "report": b"<!DOCTYPE html>"}
+BEGINS = {
+    "trace": (b'{"kind":"header"',),
+    "report": (b"<!DOCTYPE html>",),
+    "table": (b"number,seed,", b'{"number": '),
+    "summary": (b'{\n "format": ',),
+    "junit": (b'<?xml version="1.0" encoding="UTF-8"?>\n<testsuites',),
+}
+"""How the files begin that are written; also what is to be overwritten has to."""
 
 
 def check_outputs(settings: RunSettings) -> None:
@@ -36,13 +42,13 @@ def check_outputs(settings: RunSettings) -> None:
 
 
 def may_replace(name: str, path: Path) -> bool:
-    """Return whether a file is not there, or is what a run writes by this name."""
-    begin = BEGINS[name]
+    """Return whether a file is not there, or is what is written by this name."""
+    begins = BEGINS[name]
     try:
         if not path.is_file() or path.stat().st_size == 0:
             return True
         with path.open("rb") as file:
-            return file.read(len(begin)) == begin
+            return file.read(max(map(len, begins))).startswith(begins)
     except (OSError, ValueError):  # writing it will say what is wrong
         return True
 
