@@ -232,7 +232,12 @@ def _diff_against(task: _Task, revision: str) -> Exit:
 
     with progress_bar("compiling") as progress:
         comparison = compare_with(
-            revision, task.paths, task.given, workers=task.workers, progress=progress
+            revision,
+            task.paths,
+            task.given,
+            workers=task.workers,
+            cache=task.cache,
+            progress=progress,
         )
     code, report = task.reporter.report(comparison.results)
     for problem in comparison.problems:
