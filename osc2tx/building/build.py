@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import count
 from pathlib import Path
 
 from osc2tx.building.jobs import Job, find_jobs
+from osc2tx.building.lock import only_build
 from osc2tx.building.plan import (
     PROTECTED,
     Folder,
@@ -38,6 +40,7 @@ class BuildOptions:
         prune: Remove outputs whose source has vanished.
         workers: How many processes may compile.
         want_texts: Get the texts of all outputs that differ, even if they will not be written.
+        cache: Folder of earlier results; in the user's cache if left out.
     """
 
     check_only: bool = False
@@ -45,6 +48,7 @@ class BuildOptions:
     prune: bool = False
     workers: int = 1
     want_texts: bool = False
+    cache: Path | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,6 +109,7 @@ def build(
     *,
     configs: ConfigFiles | None = None,
     progress: Progress = lambda done, total: None,
+    waiting: Callable[[str], None] = lambda process: None,
 ) -> BuildResult:
     """Compile sources and write what they make.
 
@@ -115,14 +120,20 @@ def build(
         options: How to build.
         configs: The settings files, if the caller wants to look at them afterwards.
         progress: Is told how many of how many files are compiled.
+        waiting: Is told which process builds into the same folder, before its end is waited for.
 
     Raises:
         InputError, ConfigError: As `find_jobs`.
     """
     options = options or BuildOptions()
-    jobs = find_jobs(paths, given, configs or ConfigFiles())
+    configs = configs or ConfigFiles()
+    jobs = find_jobs(paths, given, configs)
     asked = tuple(real_path(Path(path)) for path in paths if Path(path).is_dir())
-    return _Build(out_dir, options, progress).run(jobs, Scope(_all_roots(jobs), asked))
+    scope = Scope(_all_roots(jobs), asked)
+    if options.check_only:
+        return _Build(out_dir, options, configs, progress).run(jobs, scope)
+    with only_build(out_dir, waiting):
+        return _Build(out_dir, options, configs, progress).run(jobs, scope)
 
 
 def _all_roots(jobs: Sequence[Job]) -> tuple[Path, ...]:
@@ -133,18 +144,22 @@ def _all_roots(jobs: Sequence[Job]) -> tuple[Path, ...]:
 
 
 class _Build:
-    def __init__(self, out_dir: Path, options: BuildOptions, progress: Progress) -> None:
+    def __init__(
+        self, out_dir: Path, options: BuildOptions, configs: ConfigFiles, progress: Progress
+    ) -> None:
         self.out_dir = out_dir
         self.options = options
+        self.configs = configs
         self.progress = progress
         self.written = read_digests(out_dir)
         self.folder = Folder(out_dir, self.written)
-        self.memory = ResultCache("builds", out_dir)
+        self.memory = ResultCache("build", configs, options.cache)
         self.failures: list[str] = []
 
     def run(self, jobs: Sequence[Job], scope: Scope) -> BuildResult:
         results = self._compile(jobs)
-        made = with_siblings(results, self._compile)
+        made = with_siblings(results, self._compile, self.configs)
+        self.memory.close()
         results += [sibling for sibling in made[len(results) :] if sibling.bug]
         placed, collisions = place_outputs(made)
         states = self._states(placed)
@@ -170,15 +185,19 @@ class _Build:
         known = {job: result for job, result in recalled.items() if result is not None}
         placed, _ = place_outputs(list(known.values()))
         for planned in placed:
-            if self._needs_text(planned):
-                known.pop(planned.result.job, None)
+            if self._needs_text(planned) and (job := planned.result.job) in known:
+                whole = self.memory.with_texts(known.pop(job))
+                known |= {job: whole} if whole is not None else {}
         missing = [job for job in jobs if job not in known]
-        made = compile_jobs(
-            missing, self.options.workers, lambda done: self.progress(done, len(missing))
-        )
+        numbers = count(1)
+
+        def finished(result: FileResult) -> None:
+            self.memory.keep(result)
+            self.progress(next(numbers), len(missing))
+
+        made = compile_jobs(missing, self.options.workers, finished)
         if made:
             self.folder.look_again()
-            self.memory.keep(made)
         known |= dict(zip(missing, made, strict=True))
         return [known[job] for job in jobs]
 

@@ -7,10 +7,11 @@ import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from difflib import unified_diff
+from itertools import count
 from pathlib import Path, PurePosixPath
 from typing import NamedTuple
 
-from osc2tx.building.jobs import find_jobs
+from osc2tx.building.jobs import Job, find_jobs
 from osc2tx.building.plan import place_outputs
 from osc2tx.building.results import FileResult
 from osc2tx.building.version_control import (
@@ -223,16 +224,21 @@ def compare_with(
     Raises:
         InputError, ConfigError: If either cannot be read.
     """
+
+    def compile_more(jobs: Sequence[Job]) -> list[FileResult]:
+        return compile_jobs(jobs, workers)
+
     new_jobs = find_jobs(paths, given, ConfigFiles())
     libraries = given.import_paths or ()
     with checked_out(paths, revision, libraries) as old_sources:
         old_given = replace(given, import_paths=old_sources.libraries or None)
         old_jobs = find_jobs(old_sources.paths, old_given, ConfigFiles())
         jobs = (*old_jobs, *new_jobs)
-        results = compile_jobs(jobs, workers, lambda done: progress(done, len(jobs)))
+        numbers = count(1)
+        results = compile_jobs(jobs, workers, lambda _: progress(next(numbers), len(jobs)))
         old, new = results[: len(old_jobs)], results[len(old_jobs) :]
-        old_texts, _ = _texts(with_siblings(old, lambda more: compile_jobs(more, workers)))
-    new_texts, problems = _texts(with_siblings(new, lambda more: compile_jobs(more, workers)))
+        old_texts, _ = _texts(with_siblings(old, compile_more, ConfigFiles()))
+    new_texts, problems = _texts(with_siblings(new, compile_more, ConfigFiles()))
     problems += old_sources.problems
     problems += [
         f"{revision}: {result.job.name} has errors and makes nothing"

@@ -48,6 +48,7 @@ class Job:
             text: The text, if it is not that of the file.
         """
         from osc2tx.compilation.driver import Compilation
+        from osc2tx.config import ConfigFiles
 
         return Compilation(
             self.path,
@@ -55,32 +56,40 @@ class Job:
             self.options,
             roots=self.roots,
             is_trusted=self.is_asked,
-            options_of=partial(options_of, given=self.given, project=self.roots.settings),
+            options_of=partial(self.options_of, configs=ConfigFiles()),
             memory=memory,
             text=text,
         )
 
-    def for_module_of(self, path: Path, name: str) -> Job:
+    @property
+    def libraries(self) -> tuple[Path, ...]:
+        """The folders of its libraries, links followed."""
+        return tuple(real_path(Path(folder)) for folder in self.options.import_paths)
+
+    def options_of(self, path: Path, configs: ConfigFiles) -> CompileOptions:
+        """Return the options for a file that it imports."""
+        return options_of(path, self.given, self.roots.settings, configs)
+
+    def for_module_of(self, path: Path, name: str, configs: ConfigFiles) -> Job:
         """Return the job for an imported file whose module the one of this file needs."""
-        options = options_of(path, given=self.given, project=self.roots.settings)
-        options = replace(options, target="py")
+        options = replace(self.options_of(path, configs), target="py")
         return Job(path, name, options, self.roots, is_asked=False, given=self.given)
 
 
-def options_of(path: Path, *, given: GivenOptions, project: Path | None) -> CompileOptions:
+def options_of(
+    path: Path, given: GivenOptions, project: Path | None, configs: ConfigFiles
+) -> CompileOptions:
     """Return the options for a file, which need not be among those that were asked for.
 
     Args:
         path: The file.
         given: Options that go before those of settings files.
         project: The folder of the settings that count for a library that has none of its own.
+        configs: The settings files.
 
     Raises:
         ConfigError: If its settings file is wrong.
     """
-    from osc2tx.config import ConfigFiles
-
-    configs = ConfigFiles()
     config = configs.for_source(path)
     if config.path is None and project is not None:
         config = configs.for_folder(project)

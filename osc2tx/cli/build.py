@@ -10,7 +10,14 @@ import click
 
 from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.cli.diff_output import print_diff, read_text
-from osc2tx.cli.options import compile_options, seen_from, stated_sources, target_options
+from osc2tx.cli.options import (
+    cache_option,
+    compile_options,
+    seen_from,
+    stated_sources,
+    target_options,
+    workers_option,
+)
 from osc2tx.cli.progress import progress_bar
 from osc2tx.cli.reporting import Exit, Reporter, count_of, found, report_options
 from osc2tx.compilation.driver import Compilation
@@ -19,6 +26,7 @@ from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError, ConfigFiles, GivenOptions
 from osc2tx.options import PRODUCT_NAMES, ProductName
 from osc2tx.support.paths import is_committed
+from osc2tx_shared.cache import cache_folder
 from osc2tx_shared.classes import dataclass, replace
 from osc2tx_shared.text import complain, put, visible
 
@@ -40,6 +48,7 @@ class _Task:
     workers: int
     force: bool
     prune: bool
+    cache: Path | None
 
 
 @click.command()
@@ -67,14 +76,8 @@ class _Task:
 @click.option("--watch", is_flag=True, help="Go on and build again when a source changes.")
 @click.option("--force", is_flag=True, help="Write also over what was edited by hand.")
 @click.option("--prune", is_flag=True, help="Remove outputs whose source has vanished.")
-@click.option(
-    "-j",
-    "--jobs",
-    "workers",
-    type=click.IntRange(min=1),
-    metavar="N",
-    help="Compile in N processes.  [default: one for each processor]",
-)
+@workers_option
+@cache_option
 @report_options
 def build(
     paths: tuple[str, ...],
@@ -88,6 +91,7 @@ def build(
     force: bool,
     prune: bool,
     workers: int | None,
+    cache: Path | None,
     reporter: Reporter,
 ) -> Exit:
     """Write a py_trees module for every scenario file, and OpenSCENARIO XML where it is exact.
@@ -114,7 +118,7 @@ def build(
     is_whole = not paths
     places = _places(paths, out_dir)
     workers = workers or processors()
-    task = _Task(*places, given, reporter, workers, force, prune or is_whole)
+    task = _Task(*places, given, reporter, workers, force, prune or is_whole, cache)
     if diff_against is not None:
         return _diff_against(task, diff_against)
     if reads_only:
@@ -139,9 +143,16 @@ def _run(task: _Task, options: BuildOptions) -> tuple[BuildResult, Exit, str]:
     from osc2tx.building.build import build as build_files
 
     configs = ConfigFiles()
-    with progress_bar("compiling") as progress:
+    is_kept = cache_folder(task.cache) is not None
+    with progress_bar("compiling", is_kept=is_kept) as progress:
         result = build_files(
-            task.paths, task.out_dir, task.given, options, configs=configs, progress=progress
+            task.paths,
+            task.out_dir,
+            task.given,
+            replace(options, cache=task.cache),
+            configs=configs,
+            progress=progress,
+            waiting=_say_who_builds,
         )
     code, report = task.reporter.report(result.results, result.bugs)
     if any(Path(path).is_dir() for path in task.paths):
@@ -153,6 +164,10 @@ def _run(task: _Task, options: BuildOptions) -> tuple[BuildResult, Exit, str]:
     if result.failures:
         code = max(code, Exit.UNREADABLE)
     return result, code, found(report)
+
+
+def _say_who_builds(process: str) -> None:
+    complain(f"waiting for the build of process {process}")
 
 
 def _write(task: _Task) -> tuple[Exit, Sequence[FileResult]]:

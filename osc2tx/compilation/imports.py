@@ -135,8 +135,8 @@ class ImportLoader:
         self._folder = real_path(path).parent
         self._prefix = posixpath.dirname(name)
         libraries = (Path(os.path.abspath(each)) for each in import_paths)  # a link may be changed
-        folders = (self._folder, *map(real_path, roots), *libraries)
-        self._search = tuple(dict.fromkeys(folders))
+        self._named_from = (*map(real_path, roots), *libraries)
+        self._search = tuple(dict.fromkeys((self._folder, *self._named_from)))
         self._real = {root: real_path(root) for root in self._search}
         self._named = Roots(tuple(map(real_path, roots.sources)), roots.settings)
         self._libraries = tuple(map(real_path, import_paths))
@@ -240,7 +240,7 @@ class ImportLoader:
         root = self._named.root_of(path, self._libraries)
         if root is not None:
             relative = path.relative_to(root)
-            before = takewhile(lambda each: self._real[each] != root, self._search[1:])
+            before = takewhile(lambda each: self._real[each] != root, self._named_from)
             others = [each / relative for each in before]
             self.lookups |= {other: look_up(other) for other in others}
             if not any(self.lookups[other].text is not None for other in others):
@@ -257,9 +257,14 @@ class ImportLoader:
 def _parsed(
     name: str, text: str, path: Path, allow: frozenset[str]
 ) -> tuple[ast.File, tuple[Diagnostic, ...]]:
-    """Return the tree of a library and what is wrong with it; many files import the same ones."""
+    """Return the tree of a library and what is wrong with it; many files import the same ones.
+
+    Its comments travel to its own module, and to none of a file that imports it: an edit of them
+    changes nothing there.
+    """
     found = DiagnosticSink()
-    return parse(SourceFile(name, text, path), found, allow=allow), found.sorted()
+    source = SourceFile(name, text, path)
+    return parse(source, found, allow=allow, with_comments=False), found.sorted()
 
 
 def _nothing(statement: ast.Import) -> ast.File:

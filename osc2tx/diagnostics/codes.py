@@ -134,6 +134,7 @@ CODES = _table(
     Code("OSC514", "not-in-xml", ERROR, "OpenSCENARIO XML cannot say this."),
     Code("OSC515", "nearly-in-xml", ERROR, "OpenSCENARIO XML can only nearly say this."),
     Code("OSC516", "beyond-any-world", ERROR, "A quantity is larger than any world has."),
+    Code("OSC519", "contradictory-durations", ERROR, "Durations contradict.", "7.6.2.1"),
     Code("OSC517", "renamed-module", WARNING, "A file is called like a module of Python."),
     # --- 2xx names and imports ---
     Code("OSC201", "unknown-name", ERROR, "A name stands for nothing here.", "7.7.4"),

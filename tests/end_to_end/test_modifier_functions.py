@@ -145,7 +145,8 @@ def test_an_edit_of_a_body_changes_its_function(tmp_path: Path) -> None:
     assert lines == {"        lateral(m_ + 0.1 * m),"}
     # Where it is written out, as a value of it changes, the new body stands.
     lines = set(after["a.py"].splitlines()) - set(before["a.py"].splitlines())
-    assert {line.strip() for line in lines} == {"lateral(0.5 * m + 0.1 * m),"}
+    (line,) = lines
+    assert "lateral(0.5 * m + 0.1 * m)" in line
 
 
 def test_files_that_import_each_other_have_copies(tmp_path: Path) -> None:

@@ -29,7 +29,7 @@ from osc2tx.backends.py_trees.naming import (
     invocation_names,
     method_name,
 )
-from osc2tx.backends.py_trees.source_map import ScenarioMap, place_of
+from osc2tx.backends.py_trees.source_map import ScenarioMap
 from osc2tx.backends.py_trees.user_actions import action_key, is_function
 from osc2tx.backends.py_trees.view import (
     ArgumentView,
@@ -120,8 +120,8 @@ class BehaviorTreeBuilder:
             () if isinstance(node, ir.Wait | ir.Emit | ir.Finish | ir.Call | ir.On) else node.until
         )
         if until:
-            self._source_map.nodes.append(place_of(until[0].span))
-        self._source_map.nodes.append(place_of(node.span))
+            self._source_map.nodes.append(self._source_map.place_of(until[0].span))
+        self._source_map.nodes.append(self._source_map.place_of(node.span))
         call = self._call(node, depth=depth)
         if until:
             triggers = self._calls.triggers(until)

@@ -21,7 +21,7 @@ from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
 from osc2tx.backends.py_trees.naming import SCENARIO_ATTRIBUTES, NameTable, identifier
 from osc2tx.backends.py_trees.objects import ObjectWriter
-from osc2tx.backends.py_trees.source_map import ScenarioMap, place_of
+from osc2tx.backends.py_trees.source_map import ScenarioMap
 from osc2tx.backends.py_trees.type_methods import TypeMethods
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.uses import Uses
@@ -103,7 +103,7 @@ class ScenarioWriter:
         self._objects = ObjectWriter(expressions, types)
         events = (each for each in scenario.declarations if isinstance(each, ir.Event))
         self._first_implicit_event = next((each for each in events if each.is_implicit), None)
-        self.source_map = ScenarioMap()
+        self.source_map = ScenarioMap(scenario.span.source.name)
 
     def write(self) -> ScenarioView:
         """Return the view model; afterwards `source_map` is complete."""
@@ -158,7 +158,7 @@ class ScenarioWriter:
 
     def _declaration(self, declaration: ir.Declaration, *, is_first: bool) -> StatementView:
         name = self._names[declaration.name]
-        self.source_map.fields[str(name)] = place_of(declaration.span)
+        self.source_map.fields[str(name)] = self.source_map.place_of(declaration.span)
         lines = declaration.comments
         if declaration is self._first_implicit_event:
             lines = ("Events that the scenario uses without declaring them",)
@@ -194,7 +194,7 @@ class ScenarioWriter:
         write = self._calls.expressions.write
         statements = []
         for index, constraint in enumerate(self._scenario.constraints):
-            self.source_map.constraints.append(place_of(constraint.span))
+            self.source_map.constraints.append(self.source_map.place_of(constraint.span))
             above, behind = apart(constraint.comments)
             statements.append(
                 StatementView(
@@ -336,7 +336,7 @@ class ScenarioWriter:
                 continue
             name = self._names[method.name]
             path = f"{method.external.module}.{method.external.function}"
-            self.source_map.fields[path] = place_of(method.span)
+            self.source_map.fields[path] = self.source_map.place_of(method.span)
             kind = (
                 code(self._types.annotation(method.result)) if method.result is not None else None
             )
@@ -368,7 +368,7 @@ class ScenarioWriter:
         return text if parameter.default is None else f"{text} = {writer.write(parameter.default)}"
 
     def _placement(self, placement: ir.Placement) -> StatementView:
-        self.source_map.placements.append(place_of(placement.span))
+        self.source_map.placements.append(self.source_map.place_of(placement.span))
         actor = code(self._calls.expressions.field(placement.actor))
         # A placement speaks of the start anyway.
         modifiers = (self._calls.modifier(replace(m, at="all")) for m in placement.modifiers)

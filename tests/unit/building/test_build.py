@@ -73,7 +73,8 @@ def test_settings_of_a_file_reach_the_module(project: Project) -> None:
     write(project.sources / "osc2tx.toml", '[scenarios.a]\nstd = "2.2"\none_of = "seeded"\n')
     project.build(given=GivenOptions(one_of="first"))
     text = (project.out / "a.py").read_text()
-    assert "OpenSCENARIO DSL 2.2, dialect asam; `one_of` takes its first member." in text
+    assert "OpenSCENARIO DSL 2.2, dialect asam." in text
+    assert 'one_of = "first"' in text
 
 
 def test_the_folder_of_the_settings_may_be_imported_from(project: Project) -> None:

@@ -11,6 +11,7 @@ from osc2tx_runtime import opendrive
 from osc2tx_runtime.domain.map.road_graph import graph_of
 from osc2tx_runtime.domain.modifiers import (
     Along,
+    AlongTrajectory,
     Lane,
     Lateral,
     Location,
@@ -32,6 +33,7 @@ from osc2tx_runtime.domain.placing.point_placement import PointPlaces
 from osc2tx_runtime.domain.placing.pose_resolution import heading_of, one_of_kind
 from osc2tx_runtime.domain.points_and_poses import RoutePoint
 from osc2tx_runtime.domain.routes.lane_coordinates import place_at_distance, road_entry
+from osc2tx_runtime.domain.routes.network_paths import trajectory_in_world
 from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition
@@ -81,6 +83,9 @@ class Placer:
         self._draws = draws
         modifiers = settled(modifiers)
         speed = speed_at(self._world, modifiers, self._of)
+        timed = one_of_kind(modifiers, AlongTrajectory)
+        if speed is None and timed is not None:
+            speed = self._begin(timed)[1]
         own_speed = speed if speed is not None else (0.0 if now is None else now.v)
         at = self._place(actor, modifiers, own_speed, now, spawn, is_free)
         if speed and not actor.movable:
@@ -130,6 +135,9 @@ class Placer:
         along = one_of_kind(modifiers, Along)
         if along is not None:
             return self._on_route(actor, along, lane, position, is_free)
+        timed = one_of_kind(modifiers, AlongTrajectory)
+        if timed is not None:
+            return self._points.at_pose(actor, self._begin(timed)[0])
         if now is not None and now.lane_position is not None:
             return self._from_here(actor, now.lane_position, lane, position)
         distance = None if position is None else self._of(position.size())
@@ -231,6 +239,16 @@ class Placer:
             if is_free(step.position):
                 return step.position
         raise PlacementError(f"{actor.id}: {route.found} has no free lane {distance:g} m along it")
+
+    def _begin(self, timed: AlongTrajectory) -> tuple[opendrive.Pose, float]:
+        """Pose at the begin of a trajectory, and the speed (m/s) there; zero before its time."""
+        trajectory = trajectory_in_world(self._map, now(timed.trajectory))
+        curve = trajectory.curve
+        begin = curve.at_length(value_of(timed.start_offset))
+        (x, y, z), way = curve.point(begin), curve.heading(begin) or 0.0
+        heading = curve.yaw(begin)
+        pace = math.hypot(*curve.rate(begin)[:2]) if trajectory.time_stamps[0] <= 0.0 else 0.0
+        return opendrive.Pose(x, y, z, way if heading is None else heading), pace
 
     def _from_here(
         self,

@@ -41,7 +41,7 @@ class Compositions(Scenario):
             self.with_limit(),
             self.other.keep_speed(duration=1 * s),
             duration=20 * s,
-            overlap="equal",
+            overlap="any",
         )
 
     def _ego_drive_then_keep_speed(self) -> Behaviour:
