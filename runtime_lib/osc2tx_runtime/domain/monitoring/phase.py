@@ -10,6 +10,7 @@ from osc2tx_runtime.domain.modifiers import PhysicalMovement
 from osc2tx_runtime.domain.monitoring.conditions import Condition, Reading
 from osc2tx_runtime.domain.monitoring.tolerances import QUANTITIES
 from osc2tx_runtime.errors import NOT_MET, PARTLY_MET, ScenarioError
+from osc2tx_runtime.opendrive import MapError
 from osc2tx_runtime.world.measuring.projected_motion import projected
 from osc2tx_runtime.world.plant.plant import EXACT
 from osc2tx_runtime.world.protocol import EXTERNAL
@@ -20,7 +21,10 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.protocol import World
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["Phase", "Severity", "Violation"]
+__all__ = ["UNMEASURABLE", "Phase", "Severity", "Violation"]
+
+UNMEASURABLE = (ScenarioError, MapError)
+"""What keeps a condition from being measured."""
 
 Severity = Literal["failure", "warning"]
 
@@ -239,7 +243,7 @@ class Phase:
         """Return whether a condition holds, and note it if it does not."""
         try:
             reading = condition.measure()
-        except ScenarioError:  # there is no such place here: planning says so
+        except UNMEASURABLE:  # there is no such place here: planning says so
             return True
         if reading is None:
             return True

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.monitoring.phase import Phase, Violation
+from osc2tx_runtime.domain.monitoring.phase import UNMEASURABLE, Phase, Violation
 from osc2tx_runtime.domain.monitoring.registry import conditions_of
 from osc2tx_runtime.language.actions.action import Action
 
@@ -60,8 +60,12 @@ class Monitors:
         if self._begun:
             for action in self._begun:
                 phase = Phase(action, context.world, time, context.dt)
+                try:
+                    is_watched = phase.begin(conditions_of(phase))
+                except UNMEASURABLE:  # a value that there is not: planning says so
+                    continue
                 self._phases[action] = phase
-                if phase.begin(conditions_of(phase)):
+                if is_watched:
                     self._watched.append(phase)
             self._begun.clear()
 
