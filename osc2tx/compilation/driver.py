@@ -344,7 +344,8 @@ class Compilation:
 
     def check(self) -> bool:
         """Run all stages that can report something; return whether there is no error."""
-        return self.is_supported
+        with room_for_trees():  # around all: no collection of garbage between the stages either
+            return self.is_supported
 
     def _failed(self) -> bool:
         return self.sink.has_errors

@@ -199,14 +199,16 @@ def supertypes(symbol: TypeSymbol) -> Iterator[TypeSymbol]:
     while current is not None and current not in seen:
         seen.add(current)
         yield current
-        current = base_of(current)
+        # Not by `base_of`: this is asked hundreds of times a line.
+        current = current.base if isinstance(current, _DERIVED) else None
+
+
+_DERIVED = (StructSymbol, ActorSymbol, ScenarioSymbol, ActionSymbol)
 
 
 def base_of(symbol: TypeSymbol) -> TypeSymbol | None:
     """Return the supertype of a type."""
-    if isinstance(symbol, (StructSymbol, ActorSymbol, ScenarioSymbol, ActionSymbol)):
-        return symbol.base  # a tuple: this is asked hundreds of times a line
-    return None
+    return symbol.base if isinstance(symbol, _DERIVED) else None
 
 
 def is_subtype(symbol: TypeSymbol, ancestor: TypeSymbol) -> bool:

@@ -75,26 +75,54 @@ class Removal:
 
 Entry: TypeAlias = Constraint | Removal
 
+Shared: TypeAlias = "dict[sym.TypeSymbol, tuple[list[Entry], Mapping[Key, sym.TypeSymbol]]]"
+"""What each type states itself, and the objects in that."""
+
 
 class Collector:
-    """Collects the constraints of types."""
+    """Collects the constraints of types.
+
+    Args:
+        model: The checked program.
+        special: The conditional types that objects are known to be of.
+        shared: What types state themselves, which types that derive from them state too.
+    """
 
     def __init__(
-        self, model: SemanticModel, special: Mapping[Key, tuple[Special, ...]] | None = None
+        self,
+        model: SemanticModel,
+        special: Mapping[Key, tuple[Special, ...]] | None = None,
+        shared: Shared | None = None,
     ) -> None:
-        """Take the checked program, and the conditional types that objects are known to be of."""
+        """See the class."""
         self._model = model
         self._writer = OperationListBuilder(model)
         self._special = special or {}
+        self._shared = {} if shared is None or special else shared
         self._files = {file.span.source: number for number, file in enumerate(model.files)}
         self.objects: dict[Key, sym.TypeSymbol] = {}
 
     def collect(self, owner: sym.TypeSymbol) -> list[Entry]:
         """Return what constrains an instance of a type, in the order of the text."""
-        it = None if isinstance(owner, sym.ModifierSymbol) else ()
-        place = Place(model=self._model, owner=owner, prefix=(), it=it)
-        own = [*self._of_own_actor(owner), *self._of_type(place, owner, depth=0)]
+        own = list(self._of_own_actor(owner))
+        for ancestor in reversed(list(supertypes(owner))):
+            entries, objects = self._of_ancestor(ancestor)
+            own += entries
+            self.objects |= objects
         return [*self._of_globals(own), *own]
+
+    def _of_ancestor(
+        self, ancestor: sym.TypeSymbol
+    ) -> tuple[list[Entry], Mapping[Key, sym.TypeSymbol]]:
+        """Return what a type states itself, and the objects in that."""
+        if ancestor not in self._shared:
+            it = None if isinstance(ancestor, sym.ModifierSymbol) else ()
+            place = Place(model=self._model, owner=ancestor, prefix=(), it=it)
+            others, self.objects = self.objects, {}
+            entries = list(self._of_own(place, ancestor, depth=0))
+            self._shared[ancestor] = entries, self.objects
+            self.objects = others
+        return self._shared[ancestor]
 
     def _of_own_actor(self, owner: sym.TypeSymbol) -> Iterator[Entry]:
         """Yield what modifiers say that are members of the type of a behavior's actor."""
@@ -144,9 +172,12 @@ class Collector:
 
     def _of_type(self, place: Place, owner: sym.TypeSymbol, depth: int) -> Iterator[Entry]:
         for ancestor in reversed(list(supertypes(owner))):
-            yield from self._of_condition(place, ancestor)
-            for statement in self._in_order_of_text(ancestor):
-                yield from self._of_statement(place, ancestor, statement, depth)
+            yield from self._of_own(place, ancestor, depth)
+
+    def _of_own(self, place: Place, ancestor: sym.TypeSymbol, depth: int) -> Iterator[Entry]:
+        yield from self._of_condition(place, ancestor)
+        for statement in self._in_order_of_text(ancestor):
+            yield from self._of_statement(place, ancestor, statement, depth)
 
     def _in_order_of_text(self, type_: sym.TypeSymbol) -> list[ast.Statement]:
         """Return the members of a type; an extension may precede it (§7.3.11.3.2)."""

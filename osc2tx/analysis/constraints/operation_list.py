@@ -8,7 +8,7 @@ operation that can have any value of its type.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import field
+from functools import cached_property
 from typing import TypeAlias
 
 from osc2tx.analysis.constraints.constants import ConstantEvaluator, WithoutValueError
@@ -65,21 +65,35 @@ class Operation:
     node: ast.Node | None = None
 
 
-@dataclass(slots=True, eq=False)
 class OperationList:
     """Operations; the last one is the whole expression."""
 
-    items: list[Operation] = field(default_factory=list)
+    def __init__(self) -> None:
+        """Begin with none; all are added before the first question."""
+        self.items: list[Operation] = []
+        self.alone: Domain | None = None  # what a plain one leaves of its parameter, once known
 
-    @property
+    @cached_property
     def keys(self) -> frozenset[Key]:
         """The parameters in it."""
-        return frozenset(o.key for o in self.items if o.key is not None)
+        return frozenset(self.keys_in_order)
 
-    @property
+    @cached_property
     def keys_in_order(self) -> tuple[Key, ...]:
         """The parameters, as they stand in it: the order of a set is not the same in each run."""
         return tuple(dict.fromkeys(o.key for o in self.items if o.key is not None))
+
+    @cached_property
+    def is_plain(self) -> bool:
+        """Whether it compares one parameter with constants: one visit narrows all it can."""
+        *operands, _ = self.items
+        variables = sum(o.key is not None for o in operands)
+        return variables == 1 and all(o.key is not None or self._is_constant(o) for o in operands)
+
+    def _is_constant(self, operation: Operation) -> bool:
+        converts = operation.name == "convert"
+        of = self.items[operation.operands[0]] if converts else operation
+        return of.name == "const"
 
     @property
     def root(self) -> Operation:

@@ -77,6 +77,29 @@ class ConstraintLowering:
     def setting(self, key: Key, type_: types.Type) -> Setting:
         """Return what is known of a parameter; its constraints count as written from now on."""
         mentioned = tuple(c for c in self.found.by_key.get(key, ()) if is_known_here(c, key))
+        if len(mentioned) == 1 and (constant := self._constant(key, type_, mentioned[0])):
+            return constant
+        return self._setting(key, type_, mentioned)
+
+    def _constant(self, key: Key, type_: types.Type, only: Constraint) -> Setting | None:
+        """Return what the only constraint on a parameter sets it to, if that is a constant.
+
+        It is the same in all scenarios that inherit it: each constant is lowered once.
+        """
+        if only.subject != key or not only.operations.is_plain or only.is_range:
+            return None
+        if only not in self.ctx.constants:
+            setting = self._setting(key, type_, (only,))
+            self.ctx.constants[only] = setting, self._written.get(key)
+            return setting
+        setting, written = self.ctx.constants[only]
+        if written is not None:
+            self._written[key] = written
+        self._used.add(only)
+        self._with_comments.add(only.node)
+        return setting
+
+    def _setting(self, key: Key, type_: types.Type, mentioned: tuple[Constraint, ...]) -> Setting:
         own = [c for c in mentioned if c.subject == key and c.value is not None]
         if isinstance(type_, types.ListType | types.RangeType):
             own = [c for c in own if not c.is_range]  # what is in it is left to a check
