@@ -46,7 +46,7 @@ def with_bounds(time: ir.Expression) -> ir.Expression:
     lower: ir.Expression
     upper: ir.Expression
     match time:
-        case ir.RangeValue():
+        case ir.RangeValue() | ir.HalfRange() | ir.Choices():
             return time
         case ir.Conditional(condition=condition, when_true=one, when_false=other) if isinstance(
             first := with_bounds(one), ir.RangeValue
