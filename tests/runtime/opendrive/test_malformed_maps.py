@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, MapError, read_map, read_map_text
 from tests.runtime.opendrive.small_maps import LANES, make_map, map_text, road_text, shape
 
@@ -147,7 +148,7 @@ def test_tiny_sections_survive() -> None:
 @pytest.mark.parametrize("distance", [float("nan"), float("inf"), float("-inf")])
 def test_distance_that_is_not_finite(distance: float) -> None:
     road = make_map(road_text(shape("line", 10.0), 10.0))
-    with pytest.raises(ValueError, match="finite"):
+    with pytest.raises(PlacementError, match="finite"):
         road.advance(LanePosition("1", -1, 1.0), distance)
 
 
