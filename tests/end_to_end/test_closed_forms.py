@@ -4,7 +4,8 @@ A case in `motion/closed_forms/*.txt` begins with `=== title | options | outcome
 members of the scenario. Options are a map and a version of the standard, if they are not
 `highway.xodr` and 2.2. An outcome is one of
 
-- `success TIME`, then what actors have at a time (default: the end): `ego@2 s=80 v=15`,
+- `success TIME`, then what actors have at a time (default: the end): `ego@2 s=80 v=15`, and the
+  events of the run: `events near@0 done@2`,
 - `failure` or `refused` by the run, with a part of the reason,
 - the codes with which the compiler refuses the scenario.
 """
@@ -103,5 +104,9 @@ def test_outcome(
         assert rest in result.reason
     lines = [json.loads(line) for line in result.trace_lines]
     found = [line for line in lines if line["kind"] == "state"]
+    events = [f"{line['name']}@{line['t']:g}" for line in lines if line["kind"] == "event"]
     for expected in states:
-        check(expected, found, result.time)
+        if expected.startswith("events"):
+            assert events == expected.split()[1:]
+        else:
+            check(expected, found, result.time)

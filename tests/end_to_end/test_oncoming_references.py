@@ -37,6 +37,7 @@ scenario top:
 CHANGES = {
     "ego.change_lane(side: same, reference: met)": 5.25,
     "ego.change_lane(side: left, reference: met)": 1.75,
+    "ego.change_lane(num_of_lanes: 2, side: left, reference: met)": -1.75,
     "ego.change_lane(num_of_lanes: 3, side: inside, reference: met)": -5.25,
     "ego.change_lane(side: outside, reference: met)": 8.75,
     "ego.drive(duration: 6s) with:\n                lane(same_as: met)": 5.25,
@@ -46,7 +47,8 @@ CHANGES = {
 
 def test_the_lane_it_is_in_is_none_to_change_to(load: Load, tmp_path: Path) -> None:
     change = "ego.change_lane(num_of_lanes: 2, side: left, reference: met)"
-    trace = run(load(emit(asam(TEXT.format(change=change), tmp_path))), RunSettings())
+    text = TEXT.format(change=change).replace("lane(2, at: start)", "lane(4, at: start)")
+    trace = run(load(emit(asam(text, tmp_path))), RunSettings())
     assert trace.status == "failure"
     assert "in the lane to change to already, lane -1" in trace.reason
 

@@ -92,7 +92,8 @@ class PlacementLowering:
         node = self._begin_on_path(node, actor)
         placing = [first_value(m) for m in node.modifiers if _places(m) and m.at != "end"]
         placing += open_start_speed(node.qualified_name, node.modifiers)
-        placing += _followed_lane(node)
+        if actor not in self._found:
+            placing += [*_followed_lane(node), *_followed_line(node)]
         if not placing:
             return self._later_start(node)
         found = self._found.setdefault(actor, _Found(node.span))
@@ -279,6 +280,37 @@ def _followed_lane(node: ir.Invoke) -> Iterator[ir.ModifierCall]:
             continue
         said = replace(argument, parameter=same, is_positional=False)
         yield ir.ModifierCall(span=argument.span, name=name, arguments=(said,), at="start")
+
+
+# Actions along a line -> the modifier that says the same, and its parameter.
+_LINES = {
+    "follow_path": ("along", "route"),
+    "replay_path": ("along", "route"),
+    "follow_trajectory": ("along_trajectory", "trajectory"),
+    "replay_trajectory": ("along_trajectory", "trajectory"),
+}
+
+
+def _followed_line(node: ir.Invoke) -> Iterator[ir.ModifierCall]:
+    """Yield the line on which an actor starts that goes along it, if nothing says where it starts.
+
+    What is relative has its place only when the action starts.
+    """
+    if any(each.name in _PLACES and each.at != "end" for each in node.modifiers):
+        return
+    action = node.qualified_name.rpartition(".")[2]
+    if action in _LINES:
+        name, same = _LINES[action]
+        given = {argument.parameter: argument for argument in node.arguments}
+        if "absolute" in given:
+            said = [replace(given["absolute"], parameter=same, is_positional=False)]
+            said += [given["start_offset"]] if "start_offset" in given else []
+            yield ir.ModifierCall(span=node.span, name=name, arguments=tuple(said), at="start")
+    for each in node.modifiers:
+        of_path = any(argument.value.type.name == "path" for argument in each.arguments)
+        if each.name == "along_trajectory" or (each.name == "along" and of_path):
+            said = [a for a in each.arguments if a.parameter != "end_offset"]
+            yield replace(each, arguments=tuple(said), at="start", comments=())
 
 
 def _is_zero(argument: ir.Argument) -> bool:

@@ -96,6 +96,7 @@ class ExecutionContext:
             in a serial carries its exact end on to what follows.
         snapshot: Number of the values that nodes read: changes with every step, with every pass
             in which a sampled variable gets a new value, and when effects are carried out.
+        is_placing: The first assignments of the run are not carried out yet; conditions wait.
         settled: The instant is settled; what is unfinished now is unfinished at this instant.
         one_of: Policy of the scenario: `race`, `first` or `seeded`.
         random: Seeded generator. For draws inside nodes use `random_for`: two parallel nodes
@@ -135,6 +136,7 @@ class ExecutionContext:
         self.tick = 0
         self.late = 0.0
         self.snapshot = 0
+        self.is_placing = False
         self.settled = False
         self.random = random.Random(self.settings.seed)
         self.slots = Slots()
@@ -260,6 +262,12 @@ class ExecutionContext:
         self.effects.apply()
         self.snapshot += 1
         self.settled = False
+        self.resting.wake_all()
+
+    def placed(self) -> None:
+        """Let conditions see the actors, which are where the first assignments put them."""
+        self.is_placing = False
+        self.snapshot += 1
         self.resting.wake_all()
 
     def settles(self) -> bool:

@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime import opendrive
 from osc2tx_runtime.domain.map.road_graph import graph_of
 from osc2tx_runtime.domain.modifiers import (
     Along,
+    AlongTrajectory,
     Lane,
     Lateral,
     Location,
@@ -32,6 +34,7 @@ from osc2tx_runtime.domain.placing.point_placement import PointPlaces
 from osc2tx_runtime.domain.placing.pose_resolution import heading_of, one_of_kind
 from osc2tx_runtime.domain.points_and_poses import RoutePoint
 from osc2tx_runtime.domain.routes.lane_coordinates import place_at_distance, road_entry
+from osc2tx_runtime.domain.routes.network_paths import trajectory_in_world
 from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition
@@ -81,11 +84,16 @@ class Placer:
         self._draws = draws
         modifiers = settled(modifiers)
         speed = speed_at(self._world, modifiers, self._of)
+        timed = one_of_kind(modifiers, AlongTrajectory)
+        if speed is None and timed is not None:
+            speed = self._begin(timed)[1]
         own_speed = speed if speed is not None else (0.0 if now is None else now.v)
+        lateral = one_of_kind(modifiers, Lateral)
+        if lateral is not None and lateral.side_of is None and lateral.is_fixed:
+            is_free = partial(self._is_free_aside, actor, lateral, is_free)
         at = self._place(actor, modifiers, own_speed, now, spawn, is_free)
         if speed and not actor.movable:
             raise PlacementError(f"{actor.id} is stationary, so it has no speed")
-        lateral = one_of_kind(modifiers, Lateral)
         if lateral is not None:
             if not isinstance(at, LanePosition):
                 raise PlacementError(f"{actor.id}: lateral needs a lane, not a point off the lanes")
@@ -130,6 +138,9 @@ class Placer:
         along = one_of_kind(modifiers, Along)
         if along is not None:
             return self._on_route(actor, along, lane, position, is_free)
+        timed = one_of_kind(modifiers, AlongTrajectory)
+        if timed is not None:
+            return self._points.at_pose(actor, self._begin(timed)[0])
         if now is not None and now.lane_position is not None:
             return self._from_here(actor, now.lane_position, lane, position)
         distance = None if position is None else self._of(position.size())
@@ -150,6 +161,16 @@ class Placer:
             )
         pose = location.pose
         return Position(x=pose.x, y=pose.y, z=pose.z, h=pose.yaw or 0.0)
+
+    def _is_free_aside(
+        self,
+        actor: PhysicalObject,
+        lateral: Lateral,
+        is_free: Callable[[LanePosition], bool],
+        place: LanePosition,
+    ) -> bool:
+        """Whether a start place can be used at a distance from the centre of its lane."""
+        return is_free(self._aside(actor, place, lateral))
 
     def _aside(self, actor: PhysicalObject, at: LanePosition, lateral: Lateral) -> LanePosition:
         """The place across the lane, in the lane or beside another actor."""
@@ -231,6 +252,16 @@ class Placer:
             if is_free(step.position):
                 return step.position
         raise PlacementError(f"{actor.id}: {route.found} has no free lane {distance:g} m along it")
+
+    def _begin(self, timed: AlongTrajectory) -> tuple[opendrive.Pose, float]:
+        """Pose at the begin of a trajectory, and the speed (m/s) there; zero before its time."""
+        trajectory = trajectory_in_world(self._map, now(timed.trajectory))
+        curve = trajectory.curve
+        begin = curve.at_length(value_of(timed.start_offset))
+        (x, y, z), way = curve.point(begin), curve.heading(begin) or 0.0
+        heading = curve.yaw(begin)
+        pace = math.hypot(*curve.rate(begin)[:2]) if trajectory.time_stamps[0] <= 0.0 else 0.0
+        return opendrive.Pose(x, y, z, way if heading is None else heading), pace
 
     def _from_here(
         self,

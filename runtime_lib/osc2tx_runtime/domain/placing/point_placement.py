@@ -90,6 +90,10 @@ class PointPlaces:
         """A point of a path or crossing, looking along it; vehicles in the lane that is there."""
         pose = place_of_route(self._map, point)
         assert isinstance(pose, opendrive.Pose)
+        return self.at_pose(actor, pose)
+
+    def at_pose(self, actor: PhysicalObject, pose: opendrive.Pose) -> LanePosition | opendrive.Pose:
+        """A pose of a way; of vehicles in the lane that is there."""
         on = self._map.locate(pose.x, pose.y, heading=pose.h, max_distance=1e-3)
         if on is None or not actor.lane_bound or math.cos(self._map.pose(on).h - pose.h) <= 0.0:
             return pose

@@ -1,7 +1,8 @@
 """Conditions: rise, fall, elapsed, every, and functions of the scenario.
 
 A condition is sampled once per snapshot: the state of the world is that of the step, and sampled
-variables may change between two passes of an instant (`context.snapshot` counts). It starts with
+variables may change between two passes of an instant (`context.snapshot` counts). At the start of
+the run none is true before the actors are where their first assignments put them. It starts with
 its use: `rise` and `fall` take their first sample there, which is no edge; `elapsed` and `every`
 count steps from there.
 """
@@ -130,6 +131,8 @@ class Level:
         """Return whether the function is true in the present snapshot."""
         snapshot = self._context.snapshot
         if snapshot != self._sampled:
+            if self._context.is_placing:
+                return False
             try:  # as in `evaluate`
                 self._value = bool(self._function())
             except NO_RESULT as error:
@@ -196,7 +199,7 @@ class Edge:
         self._context = context
         self._sampled = context.snapshot
         self._settled = context.step  # from which step on the value counts as settled
-        self._value = evaluate(function)
+        self._value = None if context.is_placing else evaluate(function)
         self._edge = False
         self.is_vain = self._value is target
 
@@ -204,6 +207,12 @@ class Edge:
         """Return whether the function turns in the present snapshot."""
         context = self._context
         if context.snapshot != self._sampled:
+            if context.is_placing:
+                return False
+            if self._value is None:  # its first sample is that of the actors in their places
+                self._value, self._sampled = evaluate(self._function), context.snapshot
+                self.is_vain = self._value is self._target
+                return False
             before = self._value
             try:  # as in `evaluate`; each step of each condition comes by here
                 self._value = bool(self._function())

@@ -92,6 +92,7 @@ class Along(MovementModifier):
     slots=(LONGITUDINAL, LATERAL),
     topics=(COURSE, LANE, SIDE),
     no_start="does not take effect at the start; use position(at: start)",
+    placement=True,
     places=True,
     paces=True,
     bounds=True,

@@ -25,7 +25,7 @@ from osc2tx_runtime import (
     main,
     require_api,
 )
-from osc2tx_runtime.modifiers import along, lane, position, speed, tow_trailer
+from osc2tx_runtime.modifiers import along, along_trajectory, lane, position, speed, tow_trailer
 from osc2tx_runtime.units import m, mps, s
 
 require_api(1)
@@ -84,6 +84,7 @@ class Paths(Scenario):
         self.place(
             self.ego, tow_trailer(trailer=self.cart), lane(1), position(100 * m), speed(10 * mps)
         )
+        self.place(self.other, along_trajectory(trajectory=self.in_time))
 
     def behavior(self) -> Behaviour:
         """What happens."""
