@@ -39,7 +39,7 @@ errors:
 interrupts:
 plain_numbers:
 units:
-opendrive: enums plain_numbers
+opendrive: enums errors plain_numbers
 world: clock enums errors opendrive
 language: clock errors units world
 domain.points_and_poses: errors
