@@ -49,11 +49,13 @@ def offset_change(leaf: Leaf, offset: float, profile: str, peak: float | None) -
     """Return the change of the place in the lane.
 
     Raises:
-        Inexpressible: It is in a lane of oncoming traffic.
+        Inexpressible: It is in a lane of oncoming traffic, or reaches over the line to one.
     """
     roads, lane = leaf.ctx.roads, leaf.state.lane
-    if roads is not None and lane is not None and is_oncoming(roads.map, lane):
-        raise Inexpressible(NO_ONE_SIDE, leaf.node.span)
+    if roads is not None and lane is not None:
+        reached = lane._replace(offset=lane.offset + offset_of(leaf.state))
+        if is_oncoming(roads.map, lane) or is_oncoming(roads.map, reached):
+            raise Inexpressible(NO_ONE_SIDE, leaf.node.span)
     way = abs(offset - offset_of(leaf.state))
     course = course_of_shift(way, profile, peak, None, leaf.limits)
     note_drift(leaf, way, (profile, peak, None), course)
