@@ -84,6 +84,7 @@ docs-config: $(STAMP)
 coverage: $(STAMP)
 	$(BIN)/python tools/make_coverage.py
 	$(BIN)/python tools/make_reference.py
+	$(BIN)/python tools/make_monitors_doc.py
 
 parser: $(STAMP)
 	sh tools/make_parser.sh
@@ -99,6 +100,7 @@ tables: $(STAMP)
 	$(BIN)/python tools/make_readme_example.py
 	$(BIN)/python tools/make_coverage.py
 	$(BIN)/python tools/make_reference.py
+	$(BIN)/python tools/make_monitors_doc.py
 
 $(STAMP): pyproject.toml runtime_lib/pyproject.toml
 	$(PYTHON) -m venv $(VENV)

@@ -80,7 +80,7 @@ def branches(count: int) -> Behaviour:
 
 
 def reactions(count: int) -> Behaviour:
-    return Parallel("p", *(On(Event(), do=[Emit(Event())]) for _ in range(count)), Wait(Event()))
+    return Parallel("p", *(On(Event(), Emit(Event())) for _ in range(count)), Wait(Event()))
 
 
 def instant(tree: Behaviour) -> Callable[[], object]:

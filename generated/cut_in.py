@@ -3,7 +3,7 @@
 Another car overtakes the ego vehicle and cuts in with a short gap.
 
 Made by osc2tx from cut_in.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -34,8 +34,8 @@ class CutIn(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.other = self.cast("other", Vehicle())
-        self.v_ego = self.parameter("v_ego", 70 * kph, unit="kph")
 
+        self.v_ego = self.parameter("v_ego", 70 * kph, unit="kph")
         # Faster than the ego vehicle, but not by much
         self.v_other = self.parameter("v_other", within(80 * kph, 95 * kph), unit="kph")
         self.gap = self.parameter("gap", 8 * m, unit="m")
@@ -51,6 +51,7 @@ class CutIn(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "cut_in",
             self.ego.drive("ego_drives", speed(self.v_ego)),

@@ -4,7 +4,7 @@ A truck passes the hero, cuts in and brakes. The hero evades to the right. Both 
 before an obstacle, side by side. The story of the case study, in plain OpenSCENARIO DSL 2.1.
 
 Made by osc2tx from cut_in_and_evade.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -58,6 +58,7 @@ class CutInAndEvade(Scenario):
         self.v_npc_catchup = self.parameter("v_npc_catchup", 80 * kph, unit="kph")
         self.lag = self.parameter("lag", 5 * m, unit="m")
         self.safety_gap = self.parameter("safety_gap", 3 * self.lag + 5 * m, unit="m")
+
         self.crash_avoided = Event()
         self.obstacle_detected = Event()
 
@@ -73,24 +74,25 @@ class CutInAndEvade(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "cut_in_and_evade",
             # Twilight
             self.env.assign_celestial_position(
                 light_source=self.env.sun, azimuth=270 * deg, elevation=12 * deg
             ),
-            self.parallel(),
+            self._hero_part_and_npc_part(),
         )
 
-    def parallel(self) -> Behaviour:
+    def _hero_part_and_npc_part(self) -> Behaviour:
         return Parallel(
             "parallel",
             self.hero_part(),
             self.npc_part(),
         )
 
-    # --- Hero ---
     def hero_part(self) -> Behaviour:
+        """Hero."""
         return Serial(
             "hero_part",
             Until(
@@ -121,8 +123,8 @@ class CutInAndEvade(Scenario):
             Wait(elapsed(5 * s)),
         )
 
-    # --- Truck ---
     def npc_part(self) -> Behaviour:
+        """Truck."""
         return Serial(
             "npc_part",
             Until(

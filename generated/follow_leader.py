@@ -3,7 +3,7 @@
 A car follows its leader at a constant gap while the leader slows down and speeds up again.
 
 Made by osc2tx from follow_leader.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -31,6 +31,7 @@ class FollowLeader(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.leader = self.cast("leader", Vehicle())
         self.follower = self.cast("follower", Vehicle())
+
         self.v_start = self.parameter("v_start", 60 * kph, unit="kph")
         self.v_low = self.parameter("v_low", 30 * kph, unit="kph")
 
@@ -45,6 +46,7 @@ class FollowLeader(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "follow_leader",
             self.lead(),

@@ -33,18 +33,21 @@ require_api(1)
 class HelloWorld(Scenario):
     name = "hello_world"
     source = "hello_world.osc"
-    first_come = True
 
     def declare(self) -> None:
         """Cast, events and values."""
         # --- DEFINITIONS ---
         self.carla_map = self.cast("carla_map", Map(map_file="Town06"))
+
         self.env = self.cast("env", Environment())
+
         self.hero = self.cast("hero", Vehicle(model="vehicle.tesla.model3", name="hero"))
+
         self.npc = self.cast(
             "npc",
             Vehicle(model="vehicle.carlamotors.european_hgv", name="npc", color=Rgb("0,128,0")),
         )
+
         self.obstacle = self.cast(
             "obstacle", StationaryObject(name="obstacle", model="static.prop.trafficwarning")
         )
@@ -54,6 +57,7 @@ class HelloWorld(Scenario):
         self.v_npc_fast = self.v_hero + 12.42 * mph
         self.v_npc_slow = self.v_hero - 10 * kph
         self.v_npc_catchup = self.v_hero * (10 * kph)
+
         self.lag = 5 * m
         self.gap = self.lag * 3
         self.safety_gap = self.gap - 3 * m
@@ -75,13 +79,14 @@ class HelloWorld(Scenario):
         self.place(self.obstacle, position(x=478.93, y=-14.07, z=0.0, h=-1.57 * rad, frame="carla"))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "hello_world",
-            self.do_serial(),
-            self.do_parallel(),
+            self._env_then_hero(),
+            self._hero_and_npc(),
         )
 
-    def do_serial(self) -> Behaviour:
+    def _env_then_hero(self) -> Behaviour:
         return Serial(
             "do serial",
             # --- TWILIGHT SETTINGS ---
@@ -89,17 +94,15 @@ class HelloWorld(Scenario):
             self.hero.set_lights(mode="auto"),
         )
 
-    def do_parallel(self) -> Behaviour:
+    def _hero_and_npc(self) -> Behaviour:
         return Parallel(
             "do parallel",
-            self.hero_serial(),
-            self.npc_serial(),
+            self._hero_drive_then_change_lane(),
+            self._npc_drive_then_change_lane(),
         )
 
-    # ==========================
-    # --- HERO LOGIC ---
-    # ==========================
-    def hero_serial(self) -> Behaviour:
+    def _hero_drive_then_change_lane(self) -> Behaviour:
+        """HERO LOGIC."""
         return Serial(
             "hero: serial",
             Wait(self.go_signal),
@@ -151,10 +154,8 @@ class HelloWorld(Scenario):
             Wait(elapsed(5 * s)),
         )
 
-    # ==========================
-    # --- NPC LOGIC ---
-    # ==========================
-    def npc_serial(self) -> Behaviour:
+    def _npc_drive_then_change_lane(self) -> Behaviour:
+        """NPC LOGIC."""
         return Serial(
             "npc: serial",
             Wait(self.go_signal),

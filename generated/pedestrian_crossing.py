@@ -3,7 +3,7 @@
 A pedestrian crosses the road in front of the ego vehicle, which brakes, waits and drives on.
 
 Made by osc2tx from pedestrian_crossing.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -41,8 +41,10 @@ class PedestrianCrossing(Scenario):
 
         # On the right sidewalk, in the middle of the road
         self.curb = self.argument("curb", Point(x=250 * m, y=-5 * m, z=0 * m))
+
         self.v_ego = self.parameter("v_ego", 40 * kph, unit="kph")
         self.v_walk = self.parameter("v_walk", 1.4 * mps, unit="mps")
+
         self.crossing_started = Event()
         self.road_is_free = Event()
 
@@ -52,6 +54,7 @@ class PedestrianCrossing(Scenario):
         self.place(self.ego, lane(1), position(120 * m), speed(self.v_ego))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "pedestrian_crossing",
             self.walker_part(),

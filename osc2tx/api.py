@@ -19,20 +19,19 @@ True
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import partial
 from pathlib import Path
 from typing import TypedDict, Unpack
 
-from osc2tx.building.jobs import find_jobs, options_of
-from osc2tx.building.manifest import beside
+from osc2tx.building.jobs import find_jobs, job_for
+from osc2tx.building.ownership import beside
 from osc2tx.compilation.driver import Compilation
-from osc2tx.compilation.inputs import InputError
+from osc2tx.compilation.inputs import Input, InputError
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.compilation.products import files_of_module
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Diagnostic, Severity
 from osc2tx.options import Dialect, OneOfPolicy, Standard, Target, XmlProfile, XmlVersion
-from osc2tx.support.paths import MODULE
+from osc2tx.support.paths import MODULE, real_path
 from osc2tx_shared.classes import dataclass
 
 __all__ = ["CompileResult", "compile_file", "compile_text"]
@@ -155,13 +154,9 @@ def compile_text(
         ConfigError: If a settings file is wrong.
     """
     path = Path(folder, name)
-    config = ConfigFiles().for_source(path)
-    given = GivenOptions(**options)
-    chosen = config.options_for(path, given)
-    others = partial(options_of, given=given)
-    return _result(
-        Compilation(path, name, chosen, roots=config.roots, text=text, options_of=others)
-    )
+    item = Input(path, real_path(path.parent) / path.name, Path(folder), is_asked=True)
+    job = job_for(item, GivenOptions(**options), ConfigFiles().for_source(path))
+    return _result(job.compilation(text=text))
 
 
 def _result(compilation: Compilation) -> CompileResult:

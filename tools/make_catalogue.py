@@ -23,6 +23,7 @@ from osc2tx.semantics.dialects import DIALECTS
 from osc2tx.syntax import ast
 from osc2tx_runtime.domain import capabilities
 from osc2tx_runtime.domain.modifiers import MODIFIERS
+from osc2tx_runtime.domain.monitoring.registry import CLARIFIED, MONITORS, UNMONITORED
 
 REPOSITORY = Path(__file__).parent.parent
 TABLES = REPOSITORY / "osc2tx" / "catalogue"
@@ -129,6 +130,7 @@ def library() -> dict[str, Any]:
         *_abstract(actions, classes),
         *_unmatched("action", actions, classes),
         *_unmatched("modifier", _by_short_name(modifiers), kinds),
+        *_without_monitor(classes, kinds, {n for n in kinds if _owner(modifiers, n) == "map"}),
         *_without_statement("action", {name.rpartition(".")[2] for name in classes}, set()),
         *_without_statement(
             "modifier", set(kinds), {n for n in kinds if _owner(modifiers, n) == "map"}
@@ -204,6 +206,25 @@ def _without_statement(what: xml.What, names: set[str], found_on_map: set[str]) 
         yield f"{what} {name}: OpenSCENARIO XML knows it, but the library and the runtime do not"
     for name in sorted(written & xml.WITHOUT_FORM[what].keys()):
         yield f"{what} {name}: OpenSCENARIO XML has a form of it, and a reason why not"
+
+
+def _without_monitor(
+    classes: Mapping[str, Any], kinds: Mapping[str, Any], of_map: set[str]
+) -> Iterator[str]:
+    """Yield the modifiers, and actions that move actors, that runs do not check."""
+    moving = {name.rpartition(".")[2] for name, each in classes.items() if each["slots"]}
+    moving |= {name.rpartition(".")[2] for name, each in classes.items() if each["moves"]}
+    for what, names, known in (
+        ("modifier", kinds.keys() - of_map, MONITORS.keys()),
+        ("action", moving, CLARIFIED.keys()),
+    ):
+        for name in sorted(names - known - UNMONITORED.keys()):
+            yield (
+                f"{what} {name}: it has neither a monitor nor a reason why not"
+                " (runtime_lib/osc2tx_runtime/domain/monitoring)"
+            )
+        for name in sorted(known & UNMONITORED.keys() & names):
+            yield f"{what} {name}: it has a monitor, and a reason why not"
 
 
 def _action(name: str, entry: Mapping[str, Any], found: Declarations) -> dict[str, Any]:

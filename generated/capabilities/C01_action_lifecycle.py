@@ -39,6 +39,7 @@ class ActionLifecycle(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "action_lifecycle",
             # Ends by itself: 4 m/s at 2 m/s^2
@@ -47,11 +48,11 @@ class ActionLifecycle(Scenario):
             ),
             # Without a goal; somebody else has to end it
             self.ego.keep_speed("cruise", duration=3 * s),
-            self.ego_one_of(),
+            self._ego_impossible_one_of(),
         )
 
-    # There are not nine lanes to the right: fails at once, and the other member goes on
-    def ego_one_of(self) -> Behaviour:
+    def _ego_impossible_one_of(self) -> Behaviour:
+        """There are not nine lanes to the right: fails at once, and the other member goes on."""
         return OneOf(
             "ego: one_of",
             self.ego.change_lane("impossible", num_of_lanes=9, side="right"),

@@ -4,7 +4,7 @@ C02 Actor binding: one behavior, written for any vehicle, is performed by the ac
 invoked on. The third car is never addressed and keeps its state.
 
 Made by osc2tx from capabilities/C02_actor_binding.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -35,6 +35,7 @@ class GainSpeed(Scenario):
         self.target = self.parameter("target", 15 * mps, unit="mps")
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "gain_speed",
             self.actor.change_speed(
@@ -62,6 +63,7 @@ class ActorBinding(Scenario):
         self.place(self.third, lane(3), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "actor_binding",
             self.settle(),

@@ -4,7 +4,7 @@ C02 Parts of actors: sizes, axles and hitches that a scenario says or leaves to 
 actor are values like any other; they place cars and make triggers.
 
 Made by osc2tx from capabilities/C02_actor_parts.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -74,6 +74,7 @@ class ActorParts(Scenario):
         self.distance = 2 * self.ego.bounding_box.length
         self.wheelbase = self.van.axles[0].position_x - self.van.axles[1].position_x
         self.reach = self.load.coupler.position_x - self.van.trailer_receiver.position_x
+
         self.close = Event(
             fall(
                 lambda: self.van.space_gap(reference=self.ego, direction="longitudinal")
@@ -96,14 +97,15 @@ class ActorParts(Scenario):
         self.place(self.load, lane(4), position(100 * m))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "actor_parts",
             self.van.drive(speed(10 * mps)),
-            self.ego_serial(),
+            self._ego_drive_then_change_speed(),
             self.load.remain_stationary(),
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_drive_then_change_speed(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Until(

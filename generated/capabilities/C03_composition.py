@@ -4,7 +4,7 @@ C03 Composition: serials inside a parallel. Steps follow each other without a ga
 side by side, and the whole ends with its last branch.
 
 Made by osc2tx from capabilities/C03_composition.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -39,6 +39,7 @@ class Composition(Scenario):
         self.place(self.other, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "composition",
             self.ego_part(),

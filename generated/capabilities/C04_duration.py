@@ -39,17 +39,18 @@ class Durations(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "durations",
             # Open-ended: ends after 3 s
             self.ego.drive("cruise", speed(10 * mps), duration=3 * s),
             # With a goal: reaches it after exactly 4 s
             self.ego.change_speed("faster", target=20 * mps, rate_profile="smooth", duration=4 * s),
-            self.ego_one_of(),
+            self._ego_hurried_one_of(),
         )
 
     # A whole block has 2 s; its content is longer, so it fails and the other member goes on
-    def ego_one_of(self) -> Behaviour:
+    def _ego_hurried_one_of(self) -> Behaviour:
         return OneOf(
             "ego: one_of",
             self.hurried(),

@@ -3,7 +3,7 @@
 C05 Move, drive, walk: the three motion primitives, each with a speed of its own.
 
 Made by osc2tx from capabilities/C05_move_drive_walk.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -34,6 +34,7 @@ class MoveDriveWalk(Scenario):
         self.car = self.cast("car", Vehicle())
         self.ball = self.cast("ball", MovableObject())
         self.walker = self.cast("walker", Person())
+
         self.ball_place = self.argument("ball_place", Point(x=60 * m, y=-30 * m, z=0 * m))
         self.walker_place = self.argument("walker_place", Point(x=40 * m, y=-30 * m, z=0 * m))
 
@@ -54,6 +55,7 @@ class MoveDriveWalk(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "move_drive_walk",
             self.car.drive(speed(20 * mps)),

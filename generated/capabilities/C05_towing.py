@@ -3,7 +3,7 @@
 C05 Towing: a trailer that is coupled from the start follows its car around the bend of the road.
 
 Made by osc2tx from capabilities/C05_towing.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -39,6 +39,7 @@ class Towing(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "towing",
             self.car.drive(speed(15 * mps), duration=16 * s),

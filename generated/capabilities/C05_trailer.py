@@ -3,7 +3,7 @@
 C05 Drive with a trailer: a truck is coupled to a trailer behind it, pulls it along and lets it go.
 
 Made by osc2tx from capabilities/C05_trailer.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -41,16 +41,17 @@ class DrivingWithATrailer(Scenario):
         self.place(self.truck, lane(2), position(7 * m, ahead_of=self.load), speed(0 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "driving_with_a_trailer",
             Until(
                 self.load.remain_stationary(),
                 elapsed(1 * s),
             ),
-            self.truck_serial(),
+            self._truck_drive_then_couple(),
         )
 
-    def truck_serial(self) -> Behaviour:
+    def _truck_drive_then_couple(self) -> Behaviour:
         return Serial(
             "truck: serial",
             self.truck.drive(speed(0 * mps), duration=1 * s),

@@ -4,7 +4,7 @@ C06 Speed control: the same change of speed by three rate profiles: constant acc
 course, and as fast as the vehicle can.
 
 Made by osc2tx from capabilities/C06_speed_control.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -32,6 +32,7 @@ class SpeedControl(Scenario):
         self.even = self.cast("even", Vehicle())
         self.gentle = self.cast("gentle", Vehicle())
         self.hasty = self.cast("hasty", Vehicle())
+
         self.v_start = self.parameter("v_start", 10 * mps, unit="mps")
         self.v_target = self.parameter("v_target", 20 * mps, unit="mps")
 
@@ -42,6 +43,7 @@ class SpeedControl(Scenario):
         self.place(self.hasty, lane(3), position(50 * m), speed(self.v_start))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "speed_control",
             self.even.change_speed(

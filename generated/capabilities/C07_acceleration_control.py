@@ -4,7 +4,7 @@ C07 Acceleration control: reach an acceleration with a constant jerk, hold it, t
 one at once.
 
 Made by osc2tx from capabilities/C07_acceleration_control.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -36,6 +36,7 @@ class AccelerationControl(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "acceleration_control",
             self.ego.change_acceleration(

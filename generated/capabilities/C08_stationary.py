@@ -3,7 +3,7 @@
 C08 Stationary: one car holds its place from the start, the other one brakes to a stand first.
 
 Made by osc2tx from capabilities/C08_stationary.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -38,13 +38,14 @@ class Stationary(Scenario):
         self.place(self.arriving, lane(2), position(50 * m), speed(16 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "stationary",
             self.parked.remain_stationary(),
-            self.arriving_serial(),
+            self._arriving_drive_then_hold(),
         )
 
-    def arriving_serial(self) -> Behaviour:
+    def _arriving_drive_then_hold(self) -> Behaviour:
         return Serial(
             "arriving: serial",
             self.arriving.drive(speed(16 * mps), duration=2 * s),

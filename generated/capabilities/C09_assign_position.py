@@ -4,7 +4,7 @@ C09 Assign position: a car is put elsewhere at once: at a point of the world, of
 route, and beside another car.
 
 Made by osc2tx from capabilities/C09_assign_position.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -33,6 +33,7 @@ class AssignPosition(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.other = self.cast("other", Vehicle())
+
         self.target = self.argument("target", Point(x=400 * m, y=-5.25 * m, z=0 * m))
 
     def placement(self) -> None:
@@ -41,13 +42,14 @@ class AssignPosition(Scenario):
         self.place(self.ego, lane(4), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "assign_position",
             self.other.drive(speed(10 * mps)),
-            self.ego_serial(),
+            self._ego_drive_then_to_point(),
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_drive_then_to_point(self) -> Behaviour:
         return Serial(
             "ego: serial",
             self.ego.drive(speed(10 * mps), duration=1 * s),

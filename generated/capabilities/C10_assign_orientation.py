@@ -3,7 +3,7 @@
 C10 Assign orientation: a person turns to a heading of the world and walks on that way.
 
 Made by osc2tx from capabilities/C10_assign_orientation.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -31,6 +31,7 @@ class AssignOrientation(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.walker = self.cast("walker", Person())
+
         self.start_point = self.argument("start_point", Point(x=100 * m, y=-40 * m, z=0 * m))
         self.north_east = self.argument(
             "north_east", Orientation(yaw=60 * deg, pitch=0 * deg, roll=0 * deg)
@@ -46,6 +47,7 @@ class AssignOrientation(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "assign_orientation",
             self.walker.walk("east", speed(1 * mps), duration=5 * s),

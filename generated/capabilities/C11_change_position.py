@@ -4,7 +4,7 @@ C11 Change position: a car finds its own way to a point: along lanes to one that
 road, a person straight across to one of the world.
 
 Made by osc2tx from capabilities/C11_change_position.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -34,6 +34,7 @@ class ChangePosition(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.car = self.cast("car", Vehicle())
         self.walker = self.cast("walker", Person())
+
         self.begin = self.argument("begin", Point(x=100 * m, y=-30 * m, z=0 * m))
         self.goal = self.argument("goal", Point(x=106 * m, y=-38 * m, z=0 * m))
 
@@ -48,13 +49,14 @@ class ChangePosition(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "change_position",
-            self.car_serial(),
-            self.walker_serial(),
+            self._car_drive_then_change_position(),
+            self._walker_walk_then_change_position(),
         )
 
-    def car_serial(self) -> Behaviour:
+    def _car_drive_then_change_position(self) -> Behaviour:
         return Serial(
             "car: serial",
             self.car.drive(speed(15 * mps), duration=1 * s),
@@ -63,7 +65,7 @@ class ChangePosition(Scenario):
             ),
         )
 
-    def walker_serial(self) -> Behaviour:
+    def _walker_walk_then_change_position(self) -> Behaviour:
         return Serial(
             "walker: serial",
             self.walker.walk(speed(1 * mps), duration=1 * s),

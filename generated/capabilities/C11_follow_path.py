@@ -4,7 +4,7 @@ C11 Follow path: a smooth path through points of the world, at the vehicle's own
 same car replays a straight one exactly.
 
 Made by osc2tx from capabilities/C11_follow_path.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -31,6 +31,7 @@ class PathFollowing(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.begin = self.argument("begin", Pose(x=60 * m, y=-8.75 * m, z=0 * m))
         self.middle = self.argument("middle", Pose(x=100 * m, y=-4 * m, z=0 * m))
         self.end_point = self.argument("end_point", Pose(x=140 * m, y=-8.75 * m, z=0 * m))
@@ -41,6 +42,7 @@ class PathFollowing(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "path_following",
             self.ego.drive(speed(10 * mps), duration=1 * s),

@@ -3,7 +3,7 @@
 C11 Relative path: the same shape for two cars, resolved where each of them is when it begins.
 
 Made by osc2tx from capabilities/C11_relative_path.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -33,6 +33,7 @@ class RelativePath(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.one = self.cast("one", Vehicle())
         self.other = self.cast("other", Vehicle())
+
         self.here = self.argument("here", Pose(x=0 * m, y=0 * m))
         self.ahead = self.argument("ahead", Pose(x=30 * m, y=0 * m))
         self.aside = self.argument("aside", Pose(x=60 * m, y=-3.5 * m))
@@ -51,6 +52,7 @@ class RelativePath(Scenario):
         self.place(self.other, lane(4), position(80 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "relative_path",
             self.begin(),

@@ -4,7 +4,7 @@ C11 Path along a road: points in road coordinates, joined on the road network, s
 the bend between them.
 
 Made by osc2tx from capabilities/C11_road_path.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -36,6 +36,7 @@ class RoadPathScenario(Scenario):
         self.place(self.ego, lane(2), position(60 * m), speed(12 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "road_path",
             self.ego.drive(speed(12 * mps), duration=1 * s),

@@ -3,7 +3,7 @@
 C12 Along a trajectory: a drive that is where a trajectory along the lane says, when it says so.
 
 Made by osc2tx from capabilities/C12_along_trajectory.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -31,6 +31,7 @@ class AlongTrajectory(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.begin = self.argument("begin", Pose(x=60 * m, y=-8.75 * m, z=0 * m))
         self.middle = self.argument("middle", Pose(x=100 * m, y=-8.75 * m, z=0 * m))
         self.end_point = self.argument("end_point", Pose(x=160 * m, y=-8.75 * m, z=0 * m))
@@ -48,6 +49,7 @@ class AlongTrajectory(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "along_trajectory",
             self.ego.drive(speed(10 * mps), duration=1 * s),

@@ -4,7 +4,7 @@ C12 Follow trajectory: points with times. The car is at each point when its time
 it replays a second trajectory exactly, which slows it down.
 
 Made by osc2tx from capabilities/C12_follow_trajectory.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -31,6 +31,7 @@ class TrajectoryFollowing(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.p0 = self.argument("p0", Pose(x=60 * m, y=-8.75 * m, z=0 * m))
         self.p1 = self.argument("p1", Pose(x=90 * m, y=-8.75 * m, z=0 * m))
         self.p2 = self.argument("p2", Pose(x=130 * m, y=-8.75 * m, z=0 * m))
@@ -41,6 +42,7 @@ class TrajectoryFollowing(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "trajectory_following",
             self.ego.drive(speed(10 * mps), duration=1 * s),

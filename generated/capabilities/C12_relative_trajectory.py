@@ -3,7 +3,7 @@
 C12 Relative trajectory: points with times in the frame of the car, as it is when it begins.
 
 Made by osc2tx from capabilities/C12_relative_trajectory.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -31,6 +31,7 @@ class RelativeTrajectory(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.here = self.argument("here", Pose(x=0 * m, y=0 * m))
         self.ahead = self.argument("ahead", Pose(x=40 * m, y=0 * m))
         self.aside = self.argument("aside", Pose(x=80 * m, y=3.5 * m))
@@ -48,6 +49,7 @@ class RelativeTrajectory(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "relative_trajectory",
             self.ego.drive(speed(10 * mps), duration=1 * s),

@@ -4,7 +4,7 @@ C13 Time gap: a driver that avoids collisions comes up behind slower ones. It fo
 gap of the intelligent-driver model: 2 m and 1.5 s. Without the modifier it would run into them.
 
 Made by osc2tx from capabilities/C13_careful_following.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -39,14 +39,15 @@ class CarefulFollowing(Scenario):
         self.place(self.slower, lane(2), position(150 * m), speed(12 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "careful_following",
             self.ego.drive(speed(25 * mps), avoid_collisions(True)),
-            self.slower_serial(),
+            self._slower_drive_then_change_speed(),
             duration=60 * s,
         )
 
-    def slower_serial(self) -> Behaviour:
+    def _slower_drive_then_change_speed(self) -> Behaviour:
         return Serial(
             "slower: serial",
             self.slower.drive(speed(12 * mps), duration=30 * s),

@@ -4,7 +4,7 @@ C13 Time gap: the follower closes up to 1.5 s behind its leader and stays there 
 slows down.
 
 Made by osc2tx from capabilities/C13_time_gap.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -35,6 +35,7 @@ class TimeGap(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.leader = self.cast("leader", Vehicle())
         self.follower = self.cast("follower", Vehicle())
+
         self.closed_up = Event()
 
     def placement(self) -> None:
@@ -48,13 +49,14 @@ class TimeGap(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "time_gap",
-            self.leader_serial(),
-            self.follower_serial(),
+            self._leader_drive_then_slow_down(),
+            self._follower_close_up_then_stay(),
         )
 
-    def leader_serial(self) -> Behaviour:
+    def _leader_drive_then_slow_down(self) -> Behaviour:
         return Serial(
             "leader: serial",
             Until(
@@ -68,7 +70,7 @@ class TimeGap(Scenario):
             self.leader.drive(duration=15 * s),
         )
 
-    def follower_serial(self) -> Behaviour:
+    def _follower_close_up_then_stay(self) -> Behaviour:
         return Serial(
             "follower: serial",
             self.follower.change_time_gap(

@@ -4,7 +4,7 @@ C14 Gaps in a given time: a car comes to 20 m behind another one in exactly 8 s,
 order that leaves the time open, to 30 m.
 
 Made by osc2tx from capabilities/C14_gap_in_time.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -44,14 +44,15 @@ class GapInTime(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "gap_in_time",
             self.lead.drive(duration=30 * s),
-            self.follower_serial(),
+            self._follower_change_space_gap_serial(),
             overlap="any",
         )
 
-    def follower_serial(self) -> Behaviour:
+    def _follower_change_space_gap_serial(self) -> Behaviour:
         return Serial(
             "follower: serial",
             self.follower.change_space_gap(

@@ -4,7 +4,7 @@ C14 Space gap: the follower closes up to 12 m behind its leader, from rear end t
 this gap, and leads a third car that holds a gap to its side.
 
 Made by osc2tx from capabilities/C14_space_gap.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -51,14 +51,15 @@ class SpaceGap(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "space_gap",
             self.leader.drive(speed(20 * mps)),
-            self.follower_serial(),
-            self.side_car_serial(),
+            self._follower_close_up_then_stay(),
+            self._side_car_drive_then_nearer(),
         )
 
-    def follower_serial(self) -> Behaviour:
+    def _follower_close_up_then_stay(self) -> Behaviour:
         return Serial(
             "follower: serial",
             self.follower.change_space_gap(
@@ -69,7 +70,7 @@ class SpaceGap(Scenario):
             ),
         )
 
-    def side_car_serial(self) -> Behaviour:
+    def _side_car_drive_then_nearer(self) -> Behaviour:
         return Serial(
             "side_car: serial",
             self.side_car.drive(speed(20 * mps), duration=1 * s),

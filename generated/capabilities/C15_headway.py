@@ -4,7 +4,7 @@ C15 Headway: fronts count, not ends. One car takes a place 25 m behind the leade
 holds it, another one a place 3 s behind it, which is a distance by its own speed.
 
 Made by osc2tx from capabilities/C15_headway.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -51,14 +51,15 @@ class Headway(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "headway",
             self.leader.drive(speed(18 * mps)),
-            self.near_serial(),
-            self.far_serial(),
+            self._near_closes_then_near_stays(),
+            self._far_closes_then_far_stays(),
         )
 
-    def near_serial(self) -> Behaviour:
+    def _near_closes_then_near_stays(self) -> Behaviour:
         return Serial(
             "near: serial",
             self.near.change_space_headway(
@@ -67,7 +68,7 @@ class Headway(Scenario):
             self.near.keep_space_headway("near_stays", reference=self.leader, duration=4 * s),
         )
 
-    def far_serial(self) -> Behaviour:
+    def _far_closes_then_far_stays(self) -> Behaviour:
         return Serial(
             "far: serial",
             self.far.change_time_headway(

@@ -5,7 +5,7 @@ or fog leaves less than 100 m to see, and out otherwise. A car with its lights s
 dark.
 
 Made by osc2tx from capabilities/C16_automatic_lights.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -44,15 +44,16 @@ class AutomaticLights(Scenario):
         self.place(self.dark, lane(1), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "automatic_lights",
             self.ego.drive(speed(20 * mps)),
             self.dark.drive(speed(20 * mps)),
-            self.serial(),
+            self._env_then_ego(),
             duration=9 * s,
         )
 
-    def serial(self) -> Behaviour:
+    def _env_then_ego(self) -> Behaviour:
         return Serial(
             "serial",
             self.env.assign_celestial_position(light_source=self.env.sun, elevation=40 * deg),

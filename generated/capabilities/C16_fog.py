@@ -4,7 +4,7 @@ C16 Weather control: fog hides what is ahead. Two careful drivers come to a brok
 clear air and one, later, in fog; the second one sees it only 50 m away and brakes harder.
 
 Made by osc2tx from capabilities/C16_fog.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -47,17 +47,18 @@ class FogScenario(Scenario):
         self.place(self.late, lane(2), position(280 * m), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "fog",
             self.standing.remain_stationary(),
             self.broken.remain_stationary(),
             self.early.drive(speed(15 * mps), avoid_collisions(True)),
             self.late.drive(speed(15 * mps), avoid_collisions(True)),
-            self.env_serial(),
+            self._env_fog_serial(),
             duration=30 * s,
         )
 
-    def env_serial(self) -> Behaviour:
+    def _env_fog_serial(self) -> Behaviour:
         return Serial(
             "env: serial",
             Wait(elapsed(12 * s)),

@@ -4,7 +4,7 @@ C16 Weather control: rain, fog, wind, snow, clouds and air change while a car dr
 action does not name stays as it was.
 
 Made by osc2tx from capabilities/C16_weather.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -41,13 +41,14 @@ class WeatherControl(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "weather_control",
             self.ego.drive(speed(20 * mps), duration=6 * s),
-            self.env_serial(),
+            self._env_air_then_clouds(),
         )
 
-    def env_serial(self) -> Behaviour:
+    def _env_air_then_clouds(self) -> Behaviour:
         return Serial(
             "env: serial",
             self.env.air(temperature=celsius(12), pressure=1010 * hPa, relative_humidity=0.9),

@@ -4,7 +4,7 @@ C16 Weather readings: rain, fog and wind are conditions, and are noted when they
 place say how high the sun stands, until an action puts it elsewhere.
 
 Made by osc2tx from capabilities/C16_weather_readings.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -50,6 +50,7 @@ class WeatherReadings(Scenario):
 
         # A wind to beware of
         self.storm = self.argument("storm", Wind(speed=15 * mps, direction=270 * deg))
+
         self.wet = Event(rise(lambda: self.env.weather.rain.intensity > 2 * mmph))
         self.hidden = Event(rise(lambda: self.env.weather.fog.visual_range < 100 * m))
         self.stormy = Event(rise(lambda: self.env.weather.wind.speed >= self.storm.speed))
@@ -66,13 +67,14 @@ class WeatherReadings(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "weather_readings",
-            self.ego_serial(),
-            self.env_serial(),
+            self._ego_drive_then_change_speed(),
+            self._env_rain_then_assign_celestial_position(),
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_drive_then_change_speed(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Until(
@@ -92,7 +94,7 @@ class WeatherReadings(Scenario):
             self.ego.change_speed(target=5 * mps, rate_profile="constant", rate_peak=2.5 * mpsps),
         )
 
-    def env_serial(self) -> Behaviour:
+    def _env_rain_then_assign_celestial_position(self) -> Behaviour:
         return Serial(
             "env: serial",
             Wait(elapsed(1 * s)),

@@ -4,7 +4,7 @@ C17 Drivers that obey: while no action controls it, a car that is left to a care
 the red light and waits; another model takes it through.
 
 Made by osc2tx from capabilities/C17_behavioral_model.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -51,6 +51,7 @@ class BehavioralModels(Scenario):
         self.place(self.ego, lane(1), position(10 * m), speed(12 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "behavioral_models",
             self.lights.set_semantic_state(traffic_light=self.ahead, state="stop"),

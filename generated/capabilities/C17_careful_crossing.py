@@ -4,7 +4,7 @@ C17 Traffic signals and rules: a driver that avoids collisions stops for a perso
 until its way is free and drives on.
 
 Made by osc2tx from capabilities/C17_careful_crossing.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -36,9 +36,9 @@ class CarefulCrossing(Scenario):
         self.road = self.cast("road", Map(map_file="crossing.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.walker = self.cast("walker", Person())
-
         # On the right sidewalk, in the middle of the road
         self.curb = self.argument("curb", Point(x=250 * m, y=-5 * m, z=0 * m))
+
         self.v_ego = self.parameter("v_ego", 40 * kph, unit="kph")
 
     def placement(self) -> None:
@@ -47,14 +47,15 @@ class CarefulCrossing(Scenario):
         self.place(self.walker, position(at_point=self.curb, project_on_route=False), yaw(90 * deg))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "careful_crossing",
             self.ego.drive(speed(self.v_ego), avoid_collisions(True)),
-            self.walker_serial(),
+            self._walker_remain_stationary_then_walk(),
             duration=40 * s,
         )
 
-    def walker_serial(self) -> Behaviour:
+    def _walker_remain_stationary_then_walk(self) -> Behaviour:
         return Serial(
             "walker: serial",
             Until(

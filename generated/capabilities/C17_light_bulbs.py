@@ -4,7 +4,7 @@ C17 Light bulbs: what single bulbs do starts something else; a stop line that is
 has it, and what is known of the light.
 
 Made by osc2tx from capabilities/C17_light_bulbs.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -72,6 +72,7 @@ class LightBulbs(Scenario):
                 primary_stop_line_marking="solid",
             ),
         )
+
         self.red_shines = Event(rise(lambda: self.east.bulbs[0].state == "is_on"))
         self.green_shines = Event(
             rise(lambda: self.east.state_equal(["is_off", "is_off", "is_on"]))
@@ -94,13 +95,14 @@ class LightBulbs(Scenario):
         self.place(self.ego, lane(1), position(20 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "light_bulbs",
             self.lights.play_cycles(cycles=self.road.traffic_light_control),
-            self.ego_serial(),
+            self._ego_drive_serial(),
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_drive_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Until(

@@ -4,7 +4,7 @@ C17 Signal conditions: what a light shows starts something else: the lamps it ha
 they mean.
 
 Made by osc2tx from capabilities/C17_signal_conditions.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -38,6 +38,7 @@ class SignalConditions(Scenario):
         self.lights = self.cast("lights", TrafficLightController())
         self.east = self.argument("east", TrafficLight(map_id="101"))
         self.main_road = self.argument("main_road", TrafficLightGroup(map_id="1"))
+
         self.green = Event(
             rise(lambda: self.east.state_equal(bulbs=self.east.semantic_state_to_state("go")))
         )
@@ -48,13 +49,14 @@ class SignalConditions(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "signal_conditions",
-            self.lights_serial(),
-            self.serial(),
+            self._lights_set_semantic_state_then_set_group_bulb_state(),
+            self._wait_serial(),
         )
 
-    def lights_serial(self) -> Behaviour:
+    def _lights_set_semantic_state_then_set_group_bulb_state(self) -> Behaviour:
         return Serial(
             "lights: serial",
             self.lights.set_semantic_state(traffic_light=self.east, state="stop"),
@@ -69,7 +71,7 @@ class SignalConditions(Scenario):
             ),
         )
 
-    def serial(self) -> Behaviour:
+    def _wait_serial(self) -> Behaviour:
         return Serial(
             "serial",
             Wait(self.green),

@@ -3,7 +3,7 @@
 C17 Signal cycles: the lights of a group run through their phases by themselves.
 
 Made by osc2tx from capabilities/C17_signal_cycles.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -34,6 +34,7 @@ class SignalCycles(Scenario):
         self.lights = self.cast("lights", TrafficLightController())
         self.east = self.argument("east", TrafficLight(map_id="101"))
         self.main_road = self.argument("main_road", TrafficLightGroup(map_id="1"))
+
         self.free = self.argument(
             "free",
             TrafficLightPhase(
@@ -53,6 +54,7 @@ class SignalCycles(Scenario):
         self.cycle = self.argument("cycle", TrafficLightCycle(phases=[self.free, self.closed]))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "signal_cycles",
             self.lights.play_cycles("run_by_itself", cycles=[self.cycle], duration=12 * s),

@@ -3,7 +3,7 @@
 C17 Signal lamps: a whole box, one lamp of it, and all boxes of a group.
 
 Made by osc2tx from capabilities/C17_signal_lamps.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -36,6 +36,7 @@ class SignalLamps(Scenario):
         self.main_road = self.argument("main_road", TrafficLightGroup(map_id="1"))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "signal_lamps",
             self.lights.set_state(traffic_light=self.east, state=["is_on", "is_off", "is_off"]),

@@ -4,7 +4,7 @@ C17 Traffic signals: a light is red and turns green; the car stops before the li
 The lights across change as a group.
 
 Made by osc2tx from capabilities/C17_traffic_signals.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -45,13 +45,14 @@ class TrafficSignals(Scenario):
         self.place(self.ego, lane(1), position(10 * m), speed(12 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "traffic_signals",
-            self.lights_serial(),
+            self._lights_set_semantic_state_then_set_group_semantic_state(),
             self.ego.drive(speed(12 * mps), avoid_collisions(True), duration=20 * s),
         )
 
-    def lights_serial(self) -> Behaviour:
+    def _lights_set_semantic_state_then_set_group_semantic_state(self) -> Behaviour:
         return Serial(
             "lights: serial",
             self.lights.set_semantic_state(traffic_light=self.ahead, state="stop"),

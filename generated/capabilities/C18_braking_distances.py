@@ -4,7 +4,7 @@ C18 Road conditions: the way a car needs to stop from 15 m/s with all its force:
 rain, on snow, and on the ice that rain makes below zero.
 
 Made by osc2tx from capabilities/C18_braking_distances.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -32,6 +32,7 @@ class BrakingDistances(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.env = self.cast("env", Environment())
         self.ego = self.cast("ego", Vehicle())
+
         self.v_full = self.parameter("v_full", 15 * mps, unit="mps")
 
     def placement(self) -> None:
@@ -39,6 +40,7 @@ class BrakingDistances(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(self.v_full))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "braking_distances",
             self.ego.drive(speed(self.v_full), duration=1 * s),

@@ -4,7 +4,7 @@ C18 Road conditions: snow on the road takes grip away. The same full braking tak
 road and three times as long on snow.
 
 Made by osc2tx from capabilities/C18_road_conditions.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -32,6 +32,7 @@ class RoadConditions(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.env = self.cast("env", Environment())
         self.ego = self.cast("ego", Vehicle())
+
         self.v_full = self.parameter("v_full", 15 * mps, unit="mps")
 
     def placement(self) -> None:
@@ -39,6 +40,7 @@ class RoadConditions(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(self.v_full))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "road_conditions",
             self.ego.drive(speed(self.v_full), duration=1 * s),

@@ -5,7 +5,7 @@ a second it rains below zero. From there on they lose only what ice transmits, a
 v^2 / (2 mu g) further on. A person on foot is not held up by any of it.
 
 Made by osc2tx from capabilities/C18_sudden_ice.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -51,30 +51,31 @@ class SuddenIce(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "sudden_ice",
-            self.fast_serial(),
-            self.slow_serial(),
+            self._fast_drive_serial(),
+            self._slow_drive_serial(),
             self.walker.walk(speed(1.4 * mps)),
-            self.env_serial(),
+            self._env_air_then_rain(),
             duration=25 * s,
         )
 
-    def fast_serial(self) -> Behaviour:
+    def _fast_drive_serial(self) -> Behaviour:
         return Serial(
             "fast: serial",
             self.fast.drive(speed(20 * mps), duration=1 * s),
             self.fast.drive(acceleration(-6 * mpss)),
         )
 
-    def slow_serial(self) -> Behaviour:
+    def _slow_drive_serial(self) -> Behaviour:
         return Serial(
             "slow: serial",
             self.slow.drive(speed(12 * mps), duration=1 * s),
             self.slow.drive(acceleration(-6 * mpss)),
         )
 
-    def env_serial(self) -> Behaviour:
+    def _env_air_then_rain(self) -> Behaviour:
         return Serial(
             "env: serial",
             self.env.air(temperature=celsius(-5)),

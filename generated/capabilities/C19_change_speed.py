@@ -3,7 +3,7 @@
 C19 Speed changes: so much faster than now, then the speed as it is, whatever came before.
 
 Made by osc2tx from capabilities/C19_change_speed.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -35,6 +35,7 @@ class RelativeSpeed(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(12 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "relative_speed",
             self.ego.drive(speed(12 * mps), duration=1 * s),

@@ -4,7 +4,7 @@ C19 Own shapes: a speed that swells and falls back, computed by the scenario its
 acceleration that fades; what the shapes say of themselves can be read as well.
 
 Made by osc2tx from capabilities/C19_own_shape.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from dataclasses import dataclass
@@ -16,7 +16,6 @@ from osc2tx_runtime import (
     CommonSpeedShape,
     Event,
     Map,
-    OwnShape,
     Parallel,
     Scenario,
     Vehicle,
@@ -78,11 +77,13 @@ class OwnShapeScenario(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.swelling = self.cast("swelling", Vehicle())
         self.starting = self.cast("starting", Vehicle())
+
         self.wave = self.argument("wave", Swell(base=10 * mps, height=4 * mps, length=8 * s))
         self.push = self.argument("push", Fading(first=3 * mpss, length=6 * s))
         self.ramp = self.argument(
             "ramp", CommonSpeedShape(rate_profile="constant", rate_peak=2 * mpss, target=6 * mps)
         )
+
         self.half_way = Event(
             rise(lambda: self.swelling.speed >= self.wave.compute(self.wave.duration() / 4.0))
         )
@@ -93,15 +94,12 @@ class OwnShapeScenario(Scenario):
         self.place(self.starting, lane(2), position(50 * m), speed(self.ramp.compute(1 * s)))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "own_shape",
-            self.swelling.drive(
-                speed(shape=OwnShape(self.wave, Swell.compute, Swell.duration)),
-                duration=self.wave.duration(),
-            ),
+            self.swelling.drive(speed(shape=self.wave), duration=self.wave.duration()),
             self.starting.drive(
-                acceleration(shape=OwnShape(self.push, Fading.compute, Fading.duration)),
-                duration=self.wave.duration() + self.ramp.duration(),
+                acceleration(shape=self.push), duration=self.wave.duration() + self.ramp.duration()
             ),
             Wait(self.half_way),
         )

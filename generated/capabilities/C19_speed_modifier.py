@@ -3,7 +3,7 @@
 C19 Speed modifier: a speed of its own, and speeds relative to it: faster, slower, by a factor.
 
 Made by osc2tx from capabilities/C19_speed_modifier.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -32,6 +32,7 @@ class SpeedModifier(Scenario):
         self.faster = self.cast("faster", Vehicle())
         self.slower = self.cast("slower", Vehicle())
         self.scaled = self.cast("scaled", Vehicle())
+
         self.v_pace = self.parameter("v_pace", 54 * kph, unit="kph")
 
     def placement(self) -> None:
@@ -42,6 +43,7 @@ class SpeedModifier(Scenario):
         self.place(self.scaled, lane(4), position(100 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "speed_modifier",
             self.pace.drive(speed(self.v_pace)),

@@ -3,7 +3,7 @@
 C19 Velocity profile: the same speed by shapes of the acceleration: even, and smooth with a peak.
 
 Made by osc2tx from capabilities/C19_speed_shape.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -31,6 +31,7 @@ class VelocityProfile(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.even = self.cast("even", Vehicle())
         self.gentle = self.cast("gentle", Vehicle())
+
         self.even_shape = self.argument(
             "even_shape", CommonSpeedShape(rate_profile="constant", rate_peak=1.6 * mpss)
         )
@@ -44,6 +45,7 @@ class VelocityProfile(Scenario):
         self.place(self.gentle, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "velocity_profile",
             self.even.drive(speed(18 * mps, shape=self.even_shape)),

@@ -4,7 +4,7 @@ C20 Acceleration modifier: a drive with a constant acceleration, then one with a
 ends at a stand.
 
 Made by osc2tx from capabilities/C20_acceleration_modifier.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -36,6 +36,7 @@ class AccelerationModifier(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(8 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "acceleration_modifier",
             self.ego.drive(speed(8 * mps), duration=1 * s),

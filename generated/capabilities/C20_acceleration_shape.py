@@ -3,7 +3,7 @@
 C20 Acceleration profile: the jerk with which a drive takes up its acceleration.
 
 Made by osc2tx from capabilities/C20_acceleration_shape.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -30,6 +30,7 @@ class AccelerationProfile(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.build_up = self.argument(
             "build_up", CommonAccelerationShape(rate_profile="constant", rate_peak=0.5 * mpspsps)
         )
@@ -39,6 +40,7 @@ class AccelerationProfile(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "acceleration_profile",
             self.ego.drive(speed(10 * mps), duration=1 * s),

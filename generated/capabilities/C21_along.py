@@ -3,7 +3,7 @@
 C21 Along a path: a drive that follows a path through the world and ends ten metres before its end.
 
 Made by osc2tx from capabilities/C21_along.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -31,6 +31,7 @@ class AlongAPath(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.begin = self.argument("begin", Pose(x=70 * m, y=-8.75 * m, z=0 * m))
         self.end_point = self.argument("end_point", Pose(x=190 * m, y=-8.75 * m, z=0 * m))
         self.way = self.argument(
@@ -42,6 +43,7 @@ class AlongAPath(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "along_a_path",
             self.ego.drive(speed(20 * mps), duration=1 * s),

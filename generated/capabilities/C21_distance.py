@@ -3,7 +3,7 @@
 C21 Ways: so far and no further, and a place in the world that is kept.
 
 Made by osc2tx from capabilities/C21_distance.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -33,6 +33,7 @@ class Ways(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.walker = self.cast("walker", Person())
+
         self.corner = self.argument("corner", Point(x=80 * m, y=-30 * m, z=0 * m))
 
     def placement(self) -> None:
@@ -43,13 +44,14 @@ class Ways(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "ways",
-            self.ego_serial(),
+            self._ego_first_leg_then_second_leg(),
             self.walker.walk(keep_position()),
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_first_leg_then_second_leg(self) -> Behaviour:
         return Serial(
             "ego: serial",
             self.ego.drive("first_leg", speed(15 * mps), distance(60 * m)),

@@ -4,7 +4,7 @@ C21 Position modifier: where a phase starts (along the road, ahead of and behind
 metres and in seconds) and where it ends.
 
 Made by osc2tx from capabilities/C21_position_modifier.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -54,6 +54,7 @@ class PositionModifier(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "position_modifier",
             self.ego.drive(speed(15 * mps)),

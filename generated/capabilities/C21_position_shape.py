@@ -4,7 +4,7 @@ C21 Position shapes: where a car is at any time. One stops smoothly after 60 m, 
 to another car, one has a course of its own.
 
 Made by osc2tx from capabilities/C21_position_shape.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from dataclasses import dataclass
@@ -14,7 +14,6 @@ from osc2tx_runtime import (
     Behaviour,
     CommonPositionShape,
     Map,
-    OwnShape,
     Parallel,
     Scenario,
     Vehicle,
@@ -56,6 +55,7 @@ class PositionShape(Scenario):
         self.lead = self.cast("lead", Vehicle())
         self.closing = self.cast("closing", Vehicle())
         self.own = self.cast("own", Vehicle())
+
         self.smoothly = self.argument("smoothly", CommonPositionShape(rate_profile="smooth"))
         self.faster = self.argument("faster", Gaining(pace=10 * mps, more=4 * m, period=4 * s))
 
@@ -67,12 +67,13 @@ class PositionShape(Scenario):
         self.place(self.own, lane(3), speed(10 * mps), position(self.faster.compute(0 * s)))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "position_shape",
             self.stopping.drive(distance(60 * m, shape=self.smoothly)),
             self.lead.drive(),
             self.closing.drive(position(25 * m, behind=self.lead, shape=self.smoothly, at="end")),
-            self.own.drive(position(shape=OwnShape(self.faster, Gaining.compute))),
+            self.own.drive(position(shape=self.faster)),
             duration=8 * s,
         )
 

@@ -4,7 +4,7 @@ C22 Lane offset: a car drives left of the middle of its lane, then takes another
 of its lateral speed.
 
 Made by osc2tx from capabilities/C22_lane_offset.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -16,7 +16,7 @@ from osc2tx_runtime import (
     main,
     require_api,
 )
-from osc2tx_runtime.modifiers import lane, position, speed
+from osc2tx_runtime.modifiers import lane, lateral, position, speed
 from osc2tx_runtime.units import m, mps, s
 
 require_api(1)
@@ -33,9 +33,10 @@ class LaneOffset(Scenario):
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
-        self.place(self.ego, lane(2), position(50 * m), speed(15 * mps))
+        self.place(self.ego, lane(2), position(50 * m), speed(15 * mps), lateral(distance=0.4 * m))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "lane_offset",
             self.ego.follow_lane("aside", offset=0.4 * m, duration=5 * s),

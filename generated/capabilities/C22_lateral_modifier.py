@@ -4,7 +4,7 @@ C22 Lateral modifiers: an offset in the lane, a number of lanes to the side, the
 car, a distance to its side.
 
 Made by osc2tx from capabilities/C22_lateral_modifier.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -48,6 +48,7 @@ class LateralModifiers(Scenario):
         self.place(self.joining, lane(3), position(60 * m, ahead_of=self.ego), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "lateral_modifiers",
             self.ego.drive(speed(15 * mps), keep_lane()),

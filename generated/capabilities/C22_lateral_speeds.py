@@ -4,7 +4,7 @@ C22 Lateral speeds: across the lane so fast at the end, or at the start only; an
 its own.
 
 Made by osc2tx from capabilities/C22_lateral_speeds.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from dataclasses import dataclass
@@ -13,7 +13,6 @@ from osc2tx_runtime import (
     AnyLateralShape,
     Behaviour,
     Map,
-    OwnShape,
     Parallel,
     Scenario,
     Serial,
@@ -57,6 +56,7 @@ class LateralSpeeds(Scenario):
         self.drifting = self.cast("drifting", Vehicle())
         self.bulging = self.cast("bulging", Vehicle())
         self.leaning = self.cast("leaning", Vehicle())
+
         self.out = self.argument("out", Bulge(reach=0.8 * m, length=4 * s))
 
     def placement(self) -> None:
@@ -78,16 +78,15 @@ class LateralSpeeds(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "lateral_speeds",
-            self.drifting_serial(),
-            self.bulging.drive(
-                lateral(shape=OwnShape(self.out, Bulge.compute, Bulge.duration)), duration=4 * s
-            ),
+            self._drifting_drive_serial(),
+            self.bulging.drive(lateral(shape=self.out), duration=4 * s),
             self.leaning.drive(duration=4 * s),
         )
 
-    def drifting_serial(self) -> Behaviour:
+    def _drifting_drive_serial(self) -> Behaviour:
         return Serial(
             "drifting: serial",
             self.drifting.drive(speed(0.6 * mps, direction="lateral", at="end"), duration=2 * s),

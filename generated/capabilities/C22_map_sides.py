@@ -3,7 +3,7 @@
 C22 Inner and outer side: the car goes to the side away from oncoming traffic, wherever one drives.
 
 Made by osc2tx from capabilities/C22_map_sides.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -35,6 +35,7 @@ class MapSides(Scenario):
         self.place(self.ego, lane(1, from_="right"), position(10 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "map_sides",
             self.ego.drive(speed(10 * mps), duration=1 * s),

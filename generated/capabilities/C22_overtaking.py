@@ -4,7 +4,7 @@ C22 Overtaking: on a road of one lane each way a car lets another one come by, o
 one in the lane of oncoming traffic and goes back to its own.
 
 Made by osc2tx from capabilities/C22_overtaking.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -46,15 +46,16 @@ class Overtaking(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "overtaking",
             self.slow.drive(speed(8 * mps)),
             self.oncoming.drive(speed(12 * mps)),
-            self.ego_serial(),
+            self._ego_behind_then_out(),
             overlap="start",
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_behind_then_out(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Until(

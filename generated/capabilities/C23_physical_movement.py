@@ -4,7 +4,7 @@ C23 Physical movement: the same command with physics and without. The one who mu
 takes its time, the one who need not is there at the next step.
 
 Made by osc2tx from capabilities/C23_physical_movement.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -17,7 +17,7 @@ from osc2tx_runtime import (
     require_api,
 )
 from osc2tx_runtime.modifiers import lane, physical_movement, position, speed
-from osc2tx_runtime.units import m, mps, s
+from osc2tx_runtime.units import m, mps
 
 require_api(1)
 
@@ -38,11 +38,11 @@ class PhysicalMovements(Scenario):
         self.place(self.free, lane(3), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "physical_movements",
-            self.bound.drive(speed(20 * mps), physical_movement("must_be_physical")),
-            self.free.drive(speed(20 * mps), physical_movement("prefer_non_physical")),
-            duration=6 * s,
+            self.bound.change_speed(physical_movement("must_be_physical"), target=20 * mps),
+            self.free.change_speed(physical_movement("prefer_non_physical"), target=20 * mps),
         )
 
 

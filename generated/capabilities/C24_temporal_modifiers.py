@@ -4,7 +4,7 @@ C24 Temporal modifiers: a delay before, a limit during, and an end in time that 
 planned for: the target speed is there when the time is over.
 
 Made by osc2tx from capabilities/C24_temporal_modifiers.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -33,6 +33,7 @@ class TemporalModifiers(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.delay = self.parameter("delay", 1.5 * s, unit="s")
 
     def placement(self) -> None:
@@ -40,6 +41,7 @@ class TemporalModifiers(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "temporal_modifiers",
             self.ego.drive(speed(10 * mps), duration=1 * s),

@@ -4,7 +4,7 @@ C25 Relative modifiers: lane, place and speed of the second car are all given by
 at the start and while the first one changes.
 
 Made by osc2tx from capabilities/C25_relative_modifiers.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -44,13 +44,14 @@ class RelativeModifiers(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "relative_modifiers",
-            self.lead_serial(),
+            self._lead_drive_then_lead_changes(),
             self.wing.drive(speed(same_as=self.lead)),
         )
 
-    def lead_serial(self) -> Behaviour:
+    def _lead_drive_then_lead_changes(self) -> Behaviour:
         return Serial(
             "lead: serial",
             self.lead.drive(speed(15 * mps), duration=2 * s),

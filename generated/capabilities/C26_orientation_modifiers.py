@@ -4,7 +4,7 @@ C26 Orientation modifiers: headings against the road, against the world and agai
 person.
 
 Made by osc2tx from capabilities/C26_orientation_modifiers.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -33,6 +33,7 @@ class OrientationModifiers(Scenario):
         self.along = self.cast("along", Person())
         self.guide = self.cast("guide", Person())
         self.opposite = self.cast("opposite", Person())
+
         self.along_place = self.argument("along_place", Point(x=100 * m, y=-30 * m, z=0 * m))
         self.guide_place = self.argument("guide_place", Point(x=100 * m, y=-40 * m, z=0 * m))
         self.opposite_place = self.argument("opposite_place", Point(x=100 * m, y=-50 * m, z=0 * m))
@@ -59,6 +60,7 @@ class OrientationModifiers(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "orientation_modifiers",
             self.along.walk(speed(1 * mps)),

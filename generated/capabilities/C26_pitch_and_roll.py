@@ -4,7 +4,7 @@ C26 Pitch and roll: a car lies on the road as that climbs and is banked, a box i
 a sign stands askew.
 
 Made by osc2tx from capabilities/C26_pitch_and_roll.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -41,6 +41,7 @@ class PitchAndRoll(Scenario):
         self.car = self.cast("car", Vehicle())
         self.box = self.cast("box", MovableObject())
         self.sign = self.cast("sign", StationaryObject())
+
         self.box_place = self.argument("box_place", Point(x=5 * m, y=40 * m, z=0 * m))
         self.sign_pose = self.argument(
             "sign_pose",
@@ -49,6 +50,7 @@ class PitchAndRoll(Scenario):
         self.on_its_side = self.argument(
             "on_its_side", Orientation(yaw=20 * deg, pitch=0 * deg, roll=90 * deg)
         )
+
         self.up_hill = Event(rise(lambda: self.car.pose.orientation.pitch < -1 * deg))
 
     def placement(self) -> None:
@@ -62,14 +64,15 @@ class PitchAndRoll(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "pitch_and_roll",
-            self.car_serial(),
-            self.box_serial(),
+            self._car_drive_serial(),
+            self._box_move_then_assign_orientation(),
             duration=12 * s,
         )
 
-    def car_serial(self) -> Behaviour:
+    def _car_drive_serial(self) -> Behaviour:
         return Serial(
             "car: serial",
             Until(
@@ -79,7 +82,7 @@ class PitchAndRoll(Scenario):
             self.car.drive(orientation(pitch=0 * deg, roll=0 * deg, measure_by="relative_to_road")),
         )
 
-    def box_serial(self) -> Behaviour:
+    def _box_move_then_assign_orientation(self) -> Behaviour:
         return Serial(
             "box: serial",
             self.box.move(duration=1 * s),

@@ -4,7 +4,7 @@ C27 Distance to a point of the world: the car brakes where its straight distance
 below a limit.
 
 Made by osc2tx from capabilities/C27_point_distance.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -33,6 +33,7 @@ class PointDistance(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.near = Event(
             fall(
                 lambda: self.ego.distance_to_xyz_point(
@@ -48,6 +49,7 @@ class PointDistance(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "point_distance",
             Until(

@@ -4,7 +4,7 @@ C27 World coordinates: a barrier stands at x, y, z of the world; a walker starts
 stops when the straight distance to a point is short enough.
 
 Made by osc2tx from capabilities/C27_world_coordinates.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -36,6 +36,7 @@ class WorldCoordinates(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.barrier = self.cast("barrier", StationaryObject())
         self.walker = self.cast("walker", Person())
+
         self.barrier_pose = self.argument(
             "barrier_pose", Pose(x=130 * m, y=-24 * m, z=0 * m, yaw=90 * deg)
         )
@@ -52,6 +53,7 @@ class WorldCoordinates(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "world_coordinates",
             Until(

@@ -4,7 +4,7 @@ C28 Relative coordinates: distances in the frame of the actor that asks. The wal
 the road, so a car that passes along the road moves from its left to its right.
 
 Made by osc2tx from capabilities/C28_relative_coordinates.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -37,6 +37,7 @@ class RelativeCoordinates(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.walker = self.cast("walker", Person())
         self.car = self.cast("car", Vehicle())
+
         self.spot = self.argument("spot", Point(x=150 * m, y=-25 * m, z=0 * m))
         self.abreast = Event(
             fall(
@@ -60,13 +61,14 @@ class RelativeCoordinates(Scenario):
         self.place(self.car, lane(1), position(51.5 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "relative_coordinates",
             self.walker.remain_stationary(),
-            self.car_serial(),
+            self._car_approach_then_drive(),
         )
 
-    def car_serial(self) -> Behaviour:
+    def _car_approach_then_drive(self) -> Behaviour:
         return Serial(
             "car: serial",
             Until(

@@ -4,7 +4,7 @@ C29 Abstract route: the map finds a lane section of three lanes; the car starts 
 says.
 
 Made by osc2tx from capabilities/C29_abstract_route.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -31,6 +31,7 @@ class AbstractRoute(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.way = self.argument("way", LaneSection())
 
     def placement(self) -> None:
@@ -41,6 +42,7 @@ class AbstractRoute(Scenario):
         self.place(self.ego, along(self.way, start_offset=200 * m), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "abstract_route",
             self.ego.drive(speed(15 * mps), duration=3 * s),

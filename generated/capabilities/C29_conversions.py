@@ -4,7 +4,7 @@ C29 Conversions: points of the road to points of the world and back, and what is
 of a road.
 
 Made by osc2tx from capabilities/C29_conversions.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -32,6 +32,7 @@ class Conversions(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.later = Event()
         self.s_of_point = self.sample(
             lambda: self.road.xyz_to_route_point(x=300 * m, y=-5 * m, z=0 * m).s, self.later, 0 * m
@@ -73,6 +74,7 @@ class Conversions(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "conversions",
             self.ego.drive(speed(10 * mps), duration=1 * s),

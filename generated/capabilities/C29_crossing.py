@@ -4,7 +4,7 @@ C29 Crossing: a person walks along a sidewalk, over the zebra crossing of the ma
 other sidewalk; another one takes a crossing of its own, which leads over the street at an angle.
 
 Made by osc2tx from capabilities/C29_crossing.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -37,7 +37,9 @@ class CrossingTheStreet(Scenario):
         self.road = self.cast("road", Map(map_file="crossing.xodr"))
         self.walker = self.cast("walker", Person())
         self.other = self.cast("other", Person())
+
         self.near_side = self.argument("near_side", Lane(lane_type="pedestrian"))
+
         self.far_side = self.argument("far_side", Lane(lane_type="pedestrian"))
 
         # where the map has a crosswalk
@@ -50,6 +52,7 @@ class CrossingTheStreet(Scenario):
         self.begin = self.argument("begin", RoutePoint(route=self.near_side, s=230 * m, t=0 * m))
         self.goal = self.argument("goal", RoutePoint(route=self.far_side, s=260 * m, t=0 * m))
         self.way = self.argument("way", self.road.create_route([self.begin, self.zebra, self.goal]))
+
         self.on_zebra = Event(rise(lambda: self.walker.pose.position.y > 0 * m))
         self.width = self.sample(lambda: self.zebra.width, self.on_zebra, 0 * m)
         self.starts_at = self.sample(lambda: self.zebra.start_s_coord, self.on_zebra, 0 * m)
@@ -84,6 +87,7 @@ class CrossingTheStreet(Scenario):
         self.place(self.other, along(self.shortcut), speed(1 * mps), throughout=True)
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "crossing_the_street",
             self.walker.walk(along(self.way), speed(1.5 * mps)),

@@ -3,7 +3,7 @@
 C29 Geodetic points: a drive to a place that is given by its latitude and longitude.
 
 Made by osc2tx from capabilities/C29_geodetic_points.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -30,6 +30,7 @@ class GeodeticPoints(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.begin = self.argument(
             "begin", GeodeticPoint(latitude=-0.0000475 * deg, longitude=0.001 * deg)
         )
@@ -43,6 +44,7 @@ class GeodeticPoints(Scenario):
         self.place(self.ego, along(self.way), speed(20 * mps), throughout=True)
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "geodetic_points",
             self.ego.drive(along(self.way), speed(20 * mps)),

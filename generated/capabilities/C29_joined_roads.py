@@ -4,7 +4,7 @@ C29 Joined roads: the map finds the motorway after a ramp, the lane of the motor
 part of it before that, and its right lane from end to end.
 
 Made by osc2tx from capabilities/C29_joined_roads.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -44,13 +44,21 @@ class JoinedRoads(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="merge.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.ramp = self.argument("ramp", Road(anchors=["ramp"]))
+
         self.motorway = self.argument("motorway", Road())
+
         self.on_ramp = self.argument("on_ramp", Lane())
+
         self.joining = self.argument("joining", Lane())
+
         self.joined = self.argument("joined", LaneSection())
+
         self.left_way = self.argument("left_way", CompoundLane())
+
         self.right_way = self.argument("right_way", CompoundLane())
+
         self.away = Event(elapsed(1 * s))
         self.motorway_length = self.sample(lambda: self.motorway.length, self.away, 0 * m)
         self.lane_length = self.sample(lambda: self.joining.length, self.away, 0 * m)
@@ -80,6 +88,7 @@ class JoinedRoads(Scenario):
         self.place(self.ego, along(self.on_ramp, start_offset=20 * m), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "joined_roads",
             self.ego.drive(speed(15 * mps), duration=3 * s),

@@ -4,7 +4,7 @@ C29 Lanes abreast: the map finds two lanes side by side and one of the other car
 on them, where their s says.
 
 Made by osc2tx from capabilities/C29_lanes_abreast.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -33,8 +33,11 @@ class LanesAbreast(Scenario):
         self.ego = self.cast("ego", Vehicle())
         self.other = self.cast("other", Vehicle())
         self.oncoming = self.cast("oncoming", Vehicle())
+
         self.inner = self.argument("inner", Lane())
+
         self.outer = self.argument("outer", Lane())
+
         self.opposite = self.argument("opposite", Lane())
 
     def placement(self) -> None:
@@ -47,6 +50,7 @@ class LanesAbreast(Scenario):
         self.place(self.oncoming, along(self.opposite, start_offset=200 * m), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "lanes_abreast",
             self.ego.drive(speed(15 * mps)),

@@ -4,7 +4,7 @@ C29 Route coordinates: s along the road and t across it, on a road that bends. T
 point given in them, is asked for its own, and passes a point given in them.
 
 Made by osc2tx from capabilities/C29_route_coordinates.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -33,6 +33,7 @@ class RouteCoordinates(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="curve.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.passed = Event(rise(lambda: self.ego.get_s_coord() >= 250 * m))
         self.t_there = self.sample(lambda: self.ego.get_t_coord(), self.passed, 0 * m)
 
@@ -41,6 +42,7 @@ class RouteCoordinates(Scenario):
         self.place(self.ego, speed(15 * mps), throughout=True)
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "route_coordinates",
             self.ego.assign_position(

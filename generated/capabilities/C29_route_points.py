@@ -4,7 +4,7 @@ C29 Points of a route: how far it is along the road to a point given by s and t,
 from points to coordinates.
 
 Made by osc2tx from capabilities/C29_route_points.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -33,6 +33,7 @@ class RoutePoints(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.half_way = Event(
             rise(
                 lambda: self.ego.distance_to_odr_point(
@@ -58,6 +59,7 @@ class RoutePoints(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(16 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "route_points",
             Until(

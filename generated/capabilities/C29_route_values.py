@@ -3,7 +3,7 @@
 C29 Route values: what the map says of the roads that were chosen, and a route made of two of them.
 
 Made by osc2tx from capabilities/C29_route_values.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -36,9 +36,11 @@ class RouteValues(Scenario):
 
         # from the east to the south
         self.arm = self.argument("arm", Road(anchors=["east"]))
+
         self.onward = self.argument("onward", Road())
         self.middle = self.argument("middle", Junction())
         self.way = self.argument("way", self.road.create_route([self.arm, self.onward]))
+
         self.away = Event(rise(lambda: self.ego.pose.position.x <= 120 * m))
         self.arm_length = self.sample(lambda: self.arm.length, self.away, 0 * m)
         self.way_length = self.sample(lambda: self.way.length, self.away, 0 * m)
@@ -80,6 +82,7 @@ class RouteValues(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "route_values",
             self.ego.drive(

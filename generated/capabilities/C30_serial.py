@@ -3,7 +3,7 @@
 C30 Serial execution: each step starts in the instant in which the step before it ends.
 
 Made by osc2tx from capabilities/C30_serial.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -37,6 +37,7 @@ class SerialExecution(Scenario):
         self.place(self.ego, lane(1), position(50 * m), speed(12 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "serial_execution",
             self.ego.drive("drive_on", speed(12 * mps), duration=2 * s),

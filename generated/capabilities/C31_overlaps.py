@@ -4,7 +4,7 @@ C31 Overlaps: how the second member of a parallel lies in time to the first one,
 within it, around it, at its start, at its end, and by offsets of starts and ends.
 
 Made by osc2tx from capabilities/C31_overlaps.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -39,6 +39,7 @@ class Overlaps(Scenario):
         self.place(self.other, lane(3), position(150 * m), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "overlaps",
             self.begin(),

@@ -4,7 +4,7 @@ C31 Parallel execution: speed and lane of one car at the same time, a second car
 members that meet at their ends.
 
 Made by osc2tx from capabilities/C31_parallel.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -39,6 +39,7 @@ class ParallelExecution(Scenario):
         self.place(self.other, lane(1), position(50 * m), speed(12 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "parallel_execution",
             self.together(),

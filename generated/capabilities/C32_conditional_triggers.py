@@ -4,7 +4,7 @@ C32 Conditional triggers: a declared event with a condition, one that is emitted
 beside the story.
 
 Made by osc2tx from capabilities/C32_conditional_triggers.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -38,6 +38,7 @@ class ConditionalTriggers(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.other = self.cast("other", Vehicle())
+
         self.near = Event(
             rise(
                 lambda: self.ego.space_gap(reference=self.other, direction="longitudinal") > -20 * m
@@ -52,16 +53,17 @@ class ConditionalTriggers(Scenario):
         self.place(self.other, lane(2), position(150 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "conditional_triggers",
-            self.do_parallel(),
+            self._ego_part_and_other_part(),
             On(
                 self.ready,
-                do=[Emit(self.noticed)],
+                Emit(self.noticed),
             ),
         )
 
-    def do_parallel(self) -> Behaviour:
+    def _ego_part_and_other_part(self) -> Behaviour:
         return Parallel(
             "do parallel",
             self.ego_part(),

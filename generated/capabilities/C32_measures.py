@@ -4,7 +4,7 @@ C32 Triggers by measures: time to collision, gaps and headways in time and space
 its value in the instant in which it falls below its limit.
 
 Made by osc2tx from capabilities/C32_measures.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -35,6 +35,7 @@ class TriggerMeasures(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.slow = self.cast("slow", Vehicle())
+
         self.ttc_low = Event(fall(lambda: self.ego.time_to_collision(reference=self.slow) > 4 * s))
         self.gap_low = Event(
             fall(lambda: self.slow.time_gap(reference=self.ego, direction="longitudinal") > 2.5 * s)
@@ -64,13 +65,14 @@ class TriggerMeasures(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "trigger_measures",
             self.slow.drive(speed(10 * mps)),
-            self.ego_serial(),
+            self._ego_approach_then_evade(),
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_approach_then_evade(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Until(

@@ -3,7 +3,7 @@
 C32 Triggers by the motion of a car: how fast it turns, what throws it aside, how steep its way is.
 
 Made by osc2tx from capabilities/C32_motion_readings.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -33,6 +33,7 @@ class MotionReadings(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="curve.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.bend = Event(rise(lambda: self.ego.velocity.angular.yaw > 0.1 * radps))
         self.out_of_it = Event(fall(lambda: self.ego.acceleration.translational.y > 1 * mpsps))
         self.braking = Event(rise(lambda: self.ego.acceleration.translational.norm() > 2.5 * mpsps))
@@ -54,6 +55,7 @@ class MotionReadings(Scenario):
         self.place(self.ego, lane(1), position(50 * m), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "motion_readings",
             Until(

@@ -4,7 +4,7 @@ C33 Custom actions: two actions that the library does not have. Python classes f
 an installed package (docs/extending.md); the scenario only declares what it uses.
 
 Made by osc2tx from capabilities/C33_custom_action.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from typing import Protocol
@@ -39,12 +39,12 @@ class Creep(Protocol):
         label: str | None = None,
         /,
         *,
-        v: Late[Speed],
+        v: Late[Speed] = 1.5 * mps,
         duration: Duration | None = None,
     ) -> Behaviour: ...
 
 
-creep: Creep = user_action("creep")
+creep: Creep = user_action("creep", Creep)
 
 
 class RollOut(Protocol):
@@ -63,7 +63,7 @@ class RollOut(Protocol):
     ) -> Behaviour: ...
 
 
-roll_out: RollOut = user_action("roll_out")
+roll_out: RollOut = user_action("roll_out", RollOut)
 
 
 class CustomAction(Scenario):
@@ -80,6 +80,7 @@ class CustomAction(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(3 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "custom_action",
             self.ego.drive(speed(3 * mps), duration=1 * s),

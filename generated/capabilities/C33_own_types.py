@@ -4,7 +4,7 @@ C33 Own types: a unit, an enum, and a struct whose constraints say what belongs 
 scenario names the mood; how fast and how hard follows from it.
 
 Made by osc2tx from capabilities/C33_own_types.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from dataclasses import dataclass
@@ -25,6 +25,7 @@ from osc2tx_runtime.units import Acceleration, Speed, m, mps, mpss, s
 require_api(1)
 
 # Units that the scenario declares
+# Knots
 knot = 0.514444
 
 # Enums that the scenario declares
@@ -36,8 +37,12 @@ class Plan:
     """Struct `plan`."""
 
     mood: Mood
+    # keep(default it == 20knot)
     cruise: Speed
     peak: Acceleration
+
+    # keep(mood == mood!calm => peak == 1mpss)
+    # keep(mood == mood!hasty => peak == 3mpss)
 
 
 class OwnTypes(Scenario):
@@ -55,6 +60,7 @@ class OwnTypes(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(5 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "own_types",
             self.ego.drive(speed(5 * mps), duration=1 * s),

@@ -4,7 +4,7 @@ C34 Conflict reported: two branches want the speed of one car at the same time, 
 who goes first. The run ends with an error that names both.
 
 Made by osc2tx from capabilities/C34_conflict_reported.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -39,13 +39,14 @@ class ConflictReported(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "conflict_reported",
             self.ego.drive(speed(20 * mps)),
-            self.ego_serial(),
+            self._ego_change_speed_serial(),
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_change_speed_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Wait(elapsed(2 * s)),

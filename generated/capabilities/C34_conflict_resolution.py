@@ -4,7 +4,7 @@ C34 Conflict resolution: who controls a car. A later step takes over from an ear
 same instant, and speed and lane are controlled apart, so that two branches may share a car.
 
 Made by osc2tx from capabilities/C34_conflict_resolution.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -39,6 +39,7 @@ class ConflictResolution(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "conflict_resolution",
             # Controls the speed, until `evade` wants it

@@ -4,7 +4,7 @@ C34 Override: a warning brake ends the cruise as soon as it starts; a comfort ac
 start while the brake is on.
 
 Made by osc2tx from capabilities/C34_override.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -39,6 +39,7 @@ class Overriding(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         self.override("cruise", "brake")
         self.override("hurry", "brake", mode="when_active")
         return Parallel(

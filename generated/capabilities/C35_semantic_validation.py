@@ -4,7 +4,7 @@ C35 Semantic validation: names, types, units, events and the domain of each valu
 before anything is built. The tests break this scenario in many ways and look for the report.
 
 Made by osc2tx from capabilities/C35_semantic_validation.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -36,9 +36,11 @@ class SemanticValidation(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.other = self.cast("other", Vehicle())
+
         self.v_ego = self.parameter("v_ego", within(10 * mps, 20 * mps), unit="mps")
         self.v_other = self.parameter("v_other", 12 * mps, unit="mps")
         self.gap = self.parameter("gap", 15 * m, unit="m")
+
         self.near = Event(
             rise(
                 lambda: self.ego.object_distance(reference=self.other, direction="euclidean")
@@ -52,13 +54,14 @@ class SemanticValidation(Scenario):
         self.place(self.other, lane(2), position(60 * m, ahead_of=self.ego), speed(self.v_other))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "semantic_validation",
-            self.ego_serial(),
+            self._ego_approach_then_evade(),
             self.other.drive(speed(self.v_other)),
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_approach_then_evade(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Until(

@@ -4,7 +4,7 @@ C37 rise: true in the instant in which the condition turns from false to true; a
 is true already does not count.
 
 Made by osc2tx from capabilities/C37_rise.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -35,6 +35,7 @@ class RisingEdge(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
+
         self.fast = Event(rise(lambda: self.ego.speed > 12.05 * mps))
         self.fast_again = Event(rise(lambda: self.ego.speed > 12.05 * mps))
 
@@ -43,13 +44,14 @@ class RisingEdge(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "rising_edge",
-            self.ego_serial(),
-            self.serial(),
+            self._ego_change_speed_serial(),
+            self._wait_serial(),
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_change_speed_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             self.ego.change_speed(target=14 * mps, rate_profile="constant", rate_peak=2 * mpss),
@@ -57,7 +59,7 @@ class RisingEdge(Scenario):
             self.ego.change_speed(target=14 * mps, rate_profile="constant", rate_peak=2 * mpss),
         )
 
-    def serial(self) -> Behaviour:
+    def _wait_serial(self) -> Behaviour:
         return Serial(
             "serial",
             Wait(self.fast),

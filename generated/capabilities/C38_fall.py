@@ -3,7 +3,7 @@
 C38 fall: true in the instant in which the condition turns from true to false.
 
 Made by osc2tx from capabilities/C38_fall.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -34,6 +34,7 @@ class FallingEdge(Scenario):
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.slow = self.cast("slow", Vehicle())
+
         self.caught_up = Event(
             fall(lambda: self.slow.space_gap(reference=self.ego, direction="longitudinal") > 10 * m)
         )
@@ -44,13 +45,14 @@ class FallingEdge(Scenario):
         self.place(self.ego, lane(1), position(50 * m), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "falling_edge",
             self.slow.drive(speed(10 * mps)),
-            self.ego_serial(),
+            self._ego_drive_then_evade(),
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_drive_then_evade(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Until(

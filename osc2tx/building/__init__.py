@@ -6,7 +6,7 @@ not at all, and those that are up to date are not touched.
 
 `build` is the way through: `jobs` says what there is to compile, `result_cache` knows the `results`
 of earlier builds that still hold (`fingerprint` is what they hold for), `workers` make the others,
-`plan` compares what the sources make with the folder, where the `manifest` says which files are
-ours, `written_digests` and `version_control` which of them nobody has edited, and `write` brings
-the folder up to date. `compare` shows changes instead; `watch` builds again when a source changes.
+`plan` compares what the sources make with the folder, where `ownership` tells which files are ours,
+`written_digests` and `version_control` which of them nobody has edited, and `write` brings the
+folder up to date. `compare` shows changes instead; `watch` builds again when a source changes.
 """

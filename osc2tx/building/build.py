@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import count
 from pathlib import Path
 
 from osc2tx.building.jobs import Job, find_jobs
-from osc2tx.building.manifest import MANIFEST_NAME, read_manifest
+from osc2tx.building.lock import only_build
 from osc2tx.building.plan import (
     PROTECTED,
     Folder,
     Orphan,
     Planned,
+    Scope,
     State,
     find_orphans,
     place_outputs,
@@ -22,7 +24,7 @@ from osc2tx.building.workers import compile_jobs, with_siblings
 from osc2tx.building.write import Update, update_folder
 from osc2tx.building.written_digests import read_digests
 from osc2tx.config import ConfigFiles, GivenOptions
-from osc2tx.support.paths import is_committed
+from osc2tx.support.paths import is_committed, real_path
 from osc2tx_shared.classes import dataclass
 
 Progress = Callable[[int, int], None]
@@ -38,6 +40,7 @@ class BuildOptions:
         prune: Remove outputs whose source has vanished.
         workers: How many processes may compile.
         want_texts: Get the texts of all outputs that differ, even if they will not be written.
+        cache: Folder of earlier results; in the user's cache if left out.
     """
 
     check_only: bool = False
@@ -45,6 +48,7 @@ class BuildOptions:
     prune: bool = False
     workers: int = 1
     want_texts: bool = False
+    cache: Path | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +78,7 @@ class BuildResult:
         results: One for each source file, in order.
         modules: How many sources make outputs.
         changes: Outputs that were not as they should be, in order.
-        written: What was written or removed, without the manifest.
+        written: What was written or removed.
         collisions: Outputs without a place of their own, a sentence each; none is written.
         failures: Outputs that could not be written, a sentence each.
     """
@@ -105,6 +109,7 @@ def build(
     *,
     configs: ConfigFiles | None = None,
     progress: Progress = lambda done, total: None,
+    waiting: Callable[[str], None] = lambda process: None,
 ) -> BuildResult:
     """Compile sources and write what they make.
 
@@ -115,42 +120,55 @@ def build(
         options: How to build.
         configs: The settings files, if the caller wants to look at them afterwards.
         progress: Is told how many of how many files are compiled.
+        waiting: Is told which process builds into the same folder, before its end is waited for.
 
     Raises:
         InputError, ConfigError: As `find_jobs`.
-        ManifestError: If the manifest is damaged.
     """
     options = options or BuildOptions()
-    jobs = find_jobs(paths, given, configs or ConfigFiles())
-    folders = [Path(path) for path in paths if Path(path).is_dir()]
-    return _Build(out_dir, options, progress).run(jobs, folders)
+    configs = configs or ConfigFiles()
+    jobs = find_jobs(paths, given, configs)
+    asked = tuple(real_path(Path(path)) for path in paths if Path(path).is_dir())
+    scope = Scope(_all_roots(jobs), asked)
+    if options.check_only:
+        return _Build(out_dir, options, configs, progress).run(jobs, scope)
+    with only_build(out_dir, waiting):
+        return _Build(out_dir, options, configs, progress).run(jobs, scope)
+
+
+def _all_roots(jobs: Sequence[Job]) -> tuple[Path, ...]:
+    """Return all folders in which sources of the jobs' projects can be."""
+    kinds = {(job.roots, job.options.import_paths): None for job in jobs}
+    folders = (each for roots, libraries in kinds for each in (*roots, *map(Path, libraries)))
+    return tuple(dict.fromkeys(map(real_path, folders)))
 
 
 class _Build:
-    def __init__(self, out_dir: Path, options: BuildOptions, progress: Progress) -> None:
+    def __init__(
+        self, out_dir: Path, options: BuildOptions, configs: ConfigFiles, progress: Progress
+    ) -> None:
         self.out_dir = out_dir
         self.options = options
+        self.configs = configs
         self.progress = progress
-        self.manifest = read_manifest(out_dir)
         self.written = read_digests(out_dir)
         self.folder = Folder(out_dir, self.written)
-        self.memory = ResultCache("builds", out_dir)
+        self.memory = ResultCache("build", configs, options.cache)
         self.failures: list[str] = []
 
-    def run(self, jobs: Sequence[Job], folders: Sequence[Path]) -> BuildResult:
+    def run(self, jobs: Sequence[Job], scope: Scope) -> BuildResult:
         results = self._compile(jobs)
-        made = with_siblings(results, self._compile)
+        made = with_siblings(results, self._compile, self.configs)
+        self.memory.close()
         results += [sibling for sibling in made[len(results) :] if sibling.bug]
         placed, collisions = place_outputs(made)
         states = self._states(placed)
-        orphans = list(find_orphans(self.manifest, placed, made, folders, self.folder))
+        orphans = list(find_orphans(placed, made, scope, self.folder))
         changes = self._changes(placed, states, orphans)
         written: list[str] = []
-        if self.options.check_only:
-            changes += self._changes_of_manifest(placed, states)
-        else:
+        if not self.options.check_only:
             update = self._update(placed, states, orphans)
-            written, failures = update_folder(self.out_dir, self.manifest, self.written, update)
+            written, failures = update_folder(self.out_dir, self.written, update)
             self.failures += failures
         return BuildResult(
             results=tuple(results),
@@ -167,21 +185,25 @@ class _Build:
         known = {job: result for job, result in recalled.items() if result is not None}
         placed, _ = place_outputs(list(known.values()))
         for planned in placed:
-            if self._needs_text(planned):
-                known.pop(planned.result.job, None)
+            if self._needs_text(planned) and (job := planned.result.job) in known:
+                whole = self.memory.with_texts(known.pop(job))
+                known |= {job: whole} if whole is not None else {}
         missing = [job for job in jobs if job not in known]
-        made = compile_jobs(
-            missing, self.options.workers, lambda done: self.progress(done, len(missing))
-        )
+        numbers = count(1)
+
+        def finished(result: FileResult) -> None:
+            self.memory.keep(result)
+            self.progress(next(numbers), len(missing))
+
+        made = compile_jobs(missing, self.options.workers, finished)
         if made:
             self.folder.look_again()
-            self.memory.keep(made)
         known |= dict(zip(missing, made, strict=True))
         return [known[job] for job in jobs]
 
     def _needs_text(self, planned: Planned) -> bool:
         try:
-            state = self.folder.state_of(planned, self.manifest)
+            state = self.folder.state_of(planned)
         except OSError:
             return False
         if self._may_be_absent(planned, state):
@@ -200,7 +222,7 @@ class _Build:
         states = {}
         for planned in placed:
             try:
-                states[planned.path] = self.folder.state_of(planned, self.manifest)
+                states[planned.path] = self.folder.state_of(planned)
             except OSError as error:
                 place = self.out_dir / planned.path
                 self.failures.append(f"{place}: cannot be written: {error.strerror}")
@@ -215,7 +237,7 @@ class _Build:
             for orphan in orphans
             if (prune or orphan.is_outdated) and (orphan.is_untouched or force)
         ]
-        listed = {planned.listed for planned in placed} | {orphan.path for orphan in orphans}
+        listed = {planned.owned for planned in placed} | {orphan.path for orphan in orphans}
         return Update(
             current=[p for p in placed if states.get(p.path) is State.CURRENT],
             writes=[
@@ -227,9 +249,7 @@ class _Build:
                 and (force or state not in PROTECTED)
             ],
             removals=removals,
-            forgotten=[
-                p for p in self.manifest.outputs if p not in listed and self.folder.is_missing(p)
-            ],
+            forgotten=[p for p in self.written if p not in listed and self.folder.is_missing(p)],
         )
 
     def _changes(
@@ -252,14 +272,3 @@ class _Build:
             if not self.options.check_only or is_committed(orphan.path)
         ]
         return changes
-
-    def _changes_of_manifest(
-        self, placed: Sequence[Planned], states: dict[str, State]
-    ) -> list[Change]:
-        """Return the manifest if it does not list what is current; a build that writes fixes it."""
-        is_listed = all(
-            self.manifest.outputs.get(planned.path) == planned.result.job.name
-            for planned in placed
-            if planned.is_committed and states.get(planned.path) is State.CURRENT
-        )
-        return [] if is_listed else [Change(self.out_dir / MANIFEST_NAME, State.STALE)]

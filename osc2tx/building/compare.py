@@ -3,16 +3,25 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from difflib import unified_diff
+from itertools import count
 from pathlib import Path, PurePosixPath
+from typing import NamedTuple
 
-from osc2tx.building.jobs import find_jobs
+from osc2tx.building.jobs import Job, find_jobs
 from osc2tx.building.plan import place_outputs
 from osc2tx.building.results import FileResult
+from osc2tx.building.version_control import (
+    LINK,
+    Entry,
+    commit_of,
+    contents_of,
+    entries_of,
+    top_of,
+)
 from osc2tx.building.workers import compile_jobs, with_siblings
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigFiles, GivenOptions
@@ -21,48 +30,61 @@ from osc2tx.support.paths import real_path
 from osc2tx_shared.classes import dataclass, replace
 
 SETTINGS = ("osc2tx.toml", "pyproject.toml")
-LINK = "120000"
+REFUSED_PARTS = ("", ".", "..", ".git")
+"""Parts of paths that lead elsewhere or would be a repository."""
+
+
+class Revision(NamedTuple):
+    """The sources of a revision, laid out in a folder of their own.
+
+    Attributes:
+        paths: Where the paths of today are; those that the revision does not have are left out.
+        libraries: Where the folders with libraries are.
+        problems: What of the revision was not laid out, a sentence each.
+    """
+
+    paths: list[Path]
+    libraries: tuple[str, ...]
+    problems: list[str]
 
 
 @contextmanager
 def checked_out(
     paths: Sequence[str | Path], revision: str, import_paths: Sequence[str]
-) -> Iterator[tuple[list[Path], tuple[str, ...]]]:
+) -> Iterator[Revision]:
     """Lay out scenario and settings files of a revision; yield where paths and libraries are.
 
-    Nothing of the repository's own folder is touched, and no command of its settings is run: the
-    files are read as git stores them.
+    Nothing of the repository's own folder is touched, and nothing of it runs: the files are read
+    as git stores them.
 
     Args:
-        paths: Files and folders as they are named today; those that the revision does not have
-            are left out.
+        paths: Files and folders as they are named today.
         revision: A commit, in any way git understands.
         import_paths: Folders with libraries; those outside of the repository stay what they are.
 
     Raises:
-        InputError: If the paths are in no repository, or it has no such revision.
+        InputError: The paths are in no repository, it has no such revision, or the revision has
+            names that git would not check out.
     """
     root = _repository(paths)
-    commit = _git(
-        root,
-        "rev-parse",
-        "--verify",
-        "--quiet",
-        "--end-of-options",
-        f"{revision}^{{commit}}",
-        failure=f"git knows no revision {revision!r}",
-    )
+    commit = commit_of(root, revision)
     with tempfile.TemporaryDirectory(prefix="osc2tx-revision-") as folder:
         top = Path(os.path.realpath(folder))
-        _lay_out(root, commit.decode().strip(), top)
+        try:
+            problems = list(_lay_out(root, commit, top))
+        except _RefusedName as error:
+            raise InputError(
+                f"{revision}: {error}; nothing is compared", unreadable=False
+            ) from None
         inside = [top / _place(path).relative_to(root) for path in paths]
         libraries = [(str(path), _place(path)) for path in import_paths]
-        yield (
+        yield Revision(
             [path for path in inside if path.exists() and _has_source(path)],
             tuple(
                 str(top / place.relative_to(root)) if place.is_relative_to(root) else written
                 for written, place in libraries
             ),
+            [f"{revision}: {problem}" for problem in problems],
         )
 
 
@@ -72,9 +94,7 @@ def _has_source(path: Path) -> bool:
 
 def _repository(paths: Sequence[str | Path]) -> Path:
     place = _place(paths[0])
-    start = place if place.is_dir() else place.parent
-    found = _git(start, "rev-parse", "--show-toplevel", failure=f"{start}: is in no git repository")
-    root = Path(os.path.realpath(found.decode().rstrip("\n")))
+    root = top_of(place if place.is_dir() else place.parent)
     for path in paths:
         if not _place(path).is_relative_to(root):
             raise InputError(f"{path}: is not in the repository {root}", unreadable=False)
@@ -87,52 +107,54 @@ def _place(path: str | Path) -> Path:
     return Path(os.path.realpath(path.parent), path.name) if path.name else real_path(path)
 
 
-def _lay_out(root: Path, commit: str, top: Path) -> None:
-    """Write the files that a build may read."""
-    listing = _git(root, "ls-tree", "-r", "-z", "--full-tree", commit)
-    names, hashes, links = [], [], []
-    for line in listing.decode("utf-8", "surrogateescape").split("\0"):
-        head, _, name = line.partition("\t")
-        place = PurePosixPath(name)
-        if place.suffix != ".osc" and place.name not in SETTINGS:
+class _RefusedName(Exception):
+    """A revision holds a name that git refuses to check out."""
+
+
+def _lay_out(root: Path, commit: str, top: Path) -> Iterator[str]:
+    """Write the files that a build may read, below `top` only; yield what is left out.
+
+    Links come last: while files are written, there is none to follow.
+
+    Raises:
+        _RefusedName: A name leads elsewhere, or two entries are one file.
+    """
+    entries = [entry for entry in entries_of(root, commit) if _is_read(entry)]
+    links = []
+    for entry, data in zip(entries, contents_of(root, entries), strict=True):
+        if any(part.casefold() in REFUSED_PARTS for part in entry.path.split("/")):
+            raise _RefusedName(f"{entry.path!r} is no name that git would check out")
+        if entry.mode == LINK:
+            links.append((entry.path, os.fsdecode(data)))
             continue
-        mode, kind, blob = head.split(" ")
-        if kind == "blob":
-            names.append(name)
-            hashes.append(blob)
-            links.append(mode == LINK)
-    contents = _blobs(root, hashes)
-    for name, is_link, data in zip(names, links, contents, strict=True):
-        target = top / name
-        target.parent.mkdir(parents=True, exist_ok=True)
-        if is_link:
-            os.symlink(os.fsdecode(data), target)
-        else:
-            target.write_bytes(data)
+        target = top / entry.path
+        try:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            with target.open("xb") as file:
+                file.write(data)
+        except (FileExistsError, NotADirectoryError):
+            raise _RefusedName(f"{entry.path!r} is there twice") from None
+    for path, goal in links:
+        if not _leads_inside(top, path, goal):
+            yield f"{path} is a link out of the repository, which is not read"
+            continue
+        target = top / path
+        try:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.symlink_to(goal)
+        except (FileExistsError, NotADirectoryError):
+            raise _RefusedName(f"{path!r} is there twice") from None
 
 
-def _blobs(root: Path, hashes: Sequence[str]) -> Iterator[bytes]:
-    """Yield the contents of objects, as `git cat-file --batch` writes them."""
-    text = _git(root, "cat-file", "--batch", stdin="\n".join(hashes).encode() + b"\n")
-    start = 0
-    for _ in hashes:
-        end = text.index(b"\n", start)
-        size = int(text[start:end].split(b" ")[2])
-        yield text[end + 1 : end + 1 + size]
-        start = end + 1 + size + 1
+def _is_read(entry: Entry) -> bool:
+    place = PurePosixPath(entry.path)
+    return place.suffix == ".osc" or place.name in SETTINGS
 
 
-def _git(folder: Path, *arguments: str, stdin: bytes = b"", failure: str = "") -> bytes:
-    try:
-        ended = subprocess.run(
-            ["git", "-C", str(folder), *arguments], input=stdin, capture_output=True, check=False
-        )
-    except FileNotFoundError:
-        raise InputError("--diff-against needs git, and there is none", unreadable=False) from None
-    if ended.returncode:
-        reason = failure or ended.stderr.decode(errors="replace").strip()
-        raise InputError(reason, unreadable=False)
-    return ended.stdout
+def _leads_inside(top: Path, path: str, goal: str) -> bool:
+    """Return whether a link stays below `top`; links that are there already do so."""
+    place = os.path.realpath((top / path).parent / goal)
+    return Path(place).is_relative_to(top)
 
 
 def diff_lines(path: str, old: str | None, new: str | None) -> Iterator[str]:
@@ -202,16 +224,22 @@ def compare_with(
     Raises:
         InputError, ConfigError: If either cannot be read.
     """
+
+    def compile_more(jobs: Sequence[Job]) -> list[FileResult]:
+        return compile_jobs(jobs, workers)
+
     new_jobs = find_jobs(paths, given, ConfigFiles())
     libraries = given.import_paths or ()
-    with checked_out(paths, revision, libraries) as (old_paths, old_libraries):
-        old_given = replace(given, import_paths=old_libraries or None)
-        old_jobs = find_jobs(old_paths, old_given, ConfigFiles())
+    with checked_out(paths, revision, libraries) as old_sources:
+        old_given = replace(given, import_paths=old_sources.libraries or None)
+        old_jobs = find_jobs(old_sources.paths, old_given, ConfigFiles())
         jobs = (*old_jobs, *new_jobs)
-        results = compile_jobs(jobs, workers, lambda done: progress(done, len(jobs)))
+        numbers = count(1)
+        results = compile_jobs(jobs, workers, lambda _: progress(next(numbers), len(jobs)))
         old, new = results[: len(old_jobs)], results[len(old_jobs) :]
-        old_texts, _ = _texts(with_siblings(old, lambda more: compile_jobs(more, workers)))
-    new_texts, problems = _texts(with_siblings(new, lambda more: compile_jobs(more, workers)))
+        old_texts, _ = _texts(with_siblings(old, compile_more, ConfigFiles()))
+    new_texts, problems = _texts(with_siblings(new, compile_more, ConfigFiles()))
+    problems += old_sources.problems
     problems += [
         f"{revision}: {result.job.name} has errors and makes nothing"
         for result in old

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from osc2tx.resources import resource_dir
 from osc2tx.version import __version__
+from osc2tx_shared.cache import read_own, write_own
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 _KINDS = (".py", ".osc", ".json", ".toml", ".j2", ".xodr")
@@ -22,46 +23,63 @@ _KINDS = (".py", ".osc", ".json", ".toml", ".j2", ".xodr")
 _OURS = ("osc2tx_shared.classes", "osc2tx_shared.rules", "osc2tx_runtime", "osc2tx_shared.text")
 _LIBRARIES = ("antlr4", "black", "jinja2", "lxml", "pint")
 _STARTED = time.time_ns()
+_VERSIONS = f"{__version__} {sys.version_info[:3]}"
 
 
 def digest(data: bytes) -> str:
-    """Return the digest of a text: half of SHA-256, so that lines of the manifest stay short."""
+    """Return the digest of a text: half of SHA-256."""
     return hashlib.sha256(data).hexdigest()[:32]
 
 
-def tool_stamp() -> str | None:
-    """Return what identifies this osc2tx: all its files, its libraries, the Python that runs it.
+def tool_stamp(cache: Path) -> str | None:
+    """Return what identifies this osc2tx: its files, its libraries, the Python that runs it.
 
     The version alone would not do: between two versions the compiler, the templates and the
-    table of the runtime's interface change as well. Sizes and times of files count, as for Python's
-    own cache of compiled modules.
+    table of the runtime's interface change as well. Contents count, so that all installations of
+    the same code have the same stamp; they are read again once sizes or times of files changed, as
+    for Python's own cache of compiled modules.
+
+    Args:
+        cache: Folder of the cache, which remembers the stamp of this installation.
 
     Returns:
         The stamp; `None` if it cannot be told, as a file changed after this process began.
     """
-    found = [f"{__version__} {sys.version_info[:3]}"]
-    for path, status in _files():
-        if status.st_mtime_ns > _STARTED:
-            return None
-        found.append(f"{path} {status.st_size} {status.st_mtime_ns}")
-    return digest("\n".join(found).encode("utf-8", "surrogateescape"))
+    files = list(_files())
+    if any(status.st_mtime_ns > _STARTED for _, _, status in files):
+        return None
+    seen = [f"{path} {status.st_size} {status.st_mtime_ns}" for _, path, status in files]
+    place = (
+        cache / "stamps" / digest("\n".join((_VERSIONS, *seen)).encode("utf-8", "surrogateescape"))
+    )
+    known = read_own(place)
+    if known is not None and len(known) == 32 and known.isalnum():
+        return known.decode()
+    found = hashlib.sha256(_VERSIONS.encode())
+    for name, path, _ in files:
+        found.update(f"\0{name}\0".encode() + Path(path).read_bytes())
+    stamp = found.hexdigest()[:32]
+    write_own(place, stamp.encode())
+    return stamp
 
 
-def _files() -> Iterator[tuple[str, os.stat_result]]:
-    """Yield the files that decide what comes out, in a fixed order."""
-    folders = [str(_PACKAGE), str(resource_dir("templates"))]
+def _files() -> Iterator[tuple[str, str, os.stat_result]]:
+    """Yield the files that decide what comes out: name, path and state, in a fixed order."""
+    folders = [("", str(_PACKAGE)), ("templates", str(resource_dir("templates")))]
     for name in (*_OURS, *_LIBRARIES):
         spec = find_spec(name)
         if spec is None or spec.origin is None:
             continue
         if name in _OURS:
-            folders.append(os.path.dirname(spec.origin))
+            folders.append((name, os.path.dirname(spec.origin)))
         else:
-            yield spec.origin, os.stat(spec.origin)
+            yield name, spec.origin, os.stat(spec.origin)
     while folders:
-        with os.scandir(folders.pop()) as entries:
+        inner, folder = folders.pop()
+        with os.scandir(folder) as entries:
             for entry in sorted(entries, key=lambda entry: entry.name):
+                name = f"{inner}/{entry.name}"
                 if entry.is_dir():
-                    folders.append(entry.path)
+                    folders.append((name, entry.path))
                 elif entry.name.endswith(_KINDS):
-                    yield entry.path, entry.stat()
+                    yield name, entry.path, entry.stat()

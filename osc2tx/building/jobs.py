@@ -7,14 +7,16 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from osc2tx.compilation.inputs import find_inputs
+from osc2tx.compilation.inputs import Input, find_inputs, is_unicode
+from osc2tx.compilation.roots import Roots, innermost
 from osc2tx.diagnostics import InternalCompilerError
+from osc2tx.support.paths import real_path
 from osc2tx_shared.classes import dataclass, replace
 from osc2tx_shared.text import visible
 
 if TYPE_CHECKING:
     from osc2tx.compilation.driver import Compilation, Memory
-    from osc2tx.config import ConfigFiles, GivenOptions
+    from osc2tx.config import Config, ConfigFiles, GivenOptions
     from osc2tx.options import CompileOptions
 
 
@@ -26,7 +28,7 @@ class Job:
         path: The file.
         name: How diagnostics and generated files call it.
         options: How to compile it.
-        roots: Folders whose files it may import.
+        roots: Folders whose files it may import, and from which names count.
         is_asked: Whether somebody named this very file, and not a folder that holds it.
         given: Options that go before those of settings files.
     """
@@ -34,17 +36,19 @@ class Job:
     path: Path
     name: str
     options: CompileOptions
-    roots: tuple[Path, ...]
+    roots: Roots
     is_asked: bool
     given: GivenOptions
 
-    def compilation(self, memory: Memory | None = None) -> Compilation:
+    def compilation(self, memory: Memory | None = None, text: str | None = None) -> Compilation:
         """Return its compilation; no stage has run yet.
 
         Args:
             memory: What compilations of other jobs may have found out about imported files.
+            text: The text, if it is not that of the file.
         """
         from osc2tx.compilation.driver import Compilation
+        from osc2tx.config import ConfigFiles
 
         return Compilation(
             self.path,
@@ -52,25 +56,44 @@ class Job:
             self.options,
             roots=self.roots,
             is_trusted=self.is_asked,
-            options_of=partial(options_of, given=self.given),
+            options_of=partial(self.options_of, configs=ConfigFiles()),
             memory=memory,
+            text=text,
         )
 
-    def for_module_of(self, path: Path, name: str) -> Job:
+    @property
+    def libraries(self) -> tuple[Path, ...]:
+        """The folders of its libraries, links followed."""
+        return tuple(real_path(Path(folder)) for folder in self.options.import_paths)
+
+    def options_of(self, path: Path, configs: ConfigFiles) -> CompileOptions:
+        """Return the options for a file that it imports."""
+        return options_of(path, self.given, self.roots.settings, configs)
+
+    def for_module_of(self, path: Path, name: str, configs: ConfigFiles) -> Job:
         """Return the job for an imported file whose module the one of this file needs."""
-        options = replace(options_of(path, given=self.given), target="py")
+        options = replace(self.options_of(path, configs), target="py")
         return Job(path, name, options, self.roots, is_asked=False, given=self.given)
 
 
-def options_of(path: Path, *, given: GivenOptions) -> CompileOptions:
+def options_of(
+    path: Path, given: GivenOptions, project: Path | None, configs: ConfigFiles
+) -> CompileOptions:
     """Return the options for a file, which need not be among those that were asked for.
+
+    Args:
+        path: The file.
+        given: Options that go before those of settings files.
+        project: The folder of the settings that count for a library that has none of its own.
+        configs: The settings files.
 
     Raises:
         ConfigError: If its settings file is wrong.
     """
-    from osc2tx.config import ConfigFiles
-
-    return ConfigFiles().for_source(path).options_for(path, given)
+    config = configs.for_source(path)
+    if config.path is None and project is not None:
+        config = configs.for_folder(project)
+    return config.options_for(path, given)
 
 
 def find_jobs(
@@ -78,8 +101,8 @@ def find_jobs(
 ) -> tuple[Job, ...]:
     """Return a job for each file that the paths name.
 
-    A file may import what lies in the folder that was named, and what lies in that of its
-    settings file.
+    A file is called, and may import, what its project says, whatever path names it; without
+    `sources` in its settings, the folder that was named is the one of the sources.
 
     Args:
         paths: Files and folders.
@@ -90,13 +113,37 @@ def find_jobs(
         InputError: If a path does not exist or holds no scenario file.
         ConfigError: If a settings file is wrong.
     """
-    jobs = []
+    jobs: dict[Path, Job] = {}
     for item in find_inputs(paths):
         config = configs.for_source(item.path)
-        options = config.options_for(item.path, given)
-        roots = (item.folder, *config.roots)
-        jobs.append(Job(item.path, item.name, options, roots, item.is_asked, given))
-    return tuple(jobs)
+        place = real_source(item, config)
+        if place != item.place:
+            item = Input(place, place, item.folder, item.is_asked)
+        if place not in jobs:
+            jobs[place] = job_for(item, given, config)
+    return tuple(jobs.values())
+
+
+def real_source(item: Input, config: Config) -> Path:
+    """Return where a source is: a link to another source is that source."""
+    if not item.place.is_symlink():
+        return item.place
+    target = real_path(item.place)
+    sources = config.source_folders or (real_path(item.folder),)
+    return target if innermost(target, sources) else item.place
+
+
+def job_for(item: Input, given: GivenOptions, config: Config) -> Job:
+    """Return the job for a file of a project."""
+    options = config.options_for(item.path, given)
+    libraries = [real_path(Path(folder)) for folder in options.import_paths]
+    asked = real_path(item.folder)
+    roots = Roots(config.source_folders or (asked,), config.folder)
+    if innermost(item.place, (*roots.sources, *libraries)) is None:
+        roots = Roots((asked, *roots.sources), config.folder)
+    name = roots.name_of(item.place, libraries) or item.path.name
+    name = name if is_unicode(name) else visible(name)
+    return Job(item.path, name, options, roots, item.is_asked, given)
 
 
 def compile_all(paths: Sequence[str | Path], given: GivenOptions) -> list[Compilation]:

@@ -11,10 +11,10 @@ from enum import Enum
 from pathlib import Path
 
 from osc2tx.building.fingerprint import digest
-from osc2tx.building.manifest import Manifest, beside
+from osc2tx.building.ownership import beside, is_in_conflict, outputs_below, stated_source
 from osc2tx.building.results import FileResult, OutputRecord
 from osc2tx.building.version_control import committed_objects, is_object
-from osc2tx.building.written_digests import Digests
+from osc2tx.building.written_digests import Digests, is_inside
 from osc2tx.support.paths import (
     LOSS_REPORT,
     MODULE,
@@ -33,6 +33,7 @@ class State(Enum):
     CURRENT = "is current"
     MISSING = "is missing"
     STALE = "is stale"
+    CONFLICTED = "has conflict markers of a merge"
     EDITED = "was edited by hand"
     FOREIGN = "was not made by osc2tx"
     ORPHANED = "is orphaned"
@@ -57,12 +58,12 @@ class Planned:
 
     @property
     def is_committed(self) -> bool:
-        """Whether it belongs into version control, and into the manifest."""
+        """Whether it belongs into version control."""
         return is_committed(self.path)
 
     @property
-    def listed(self) -> str:
-        """The output that the manifest lists for it: itself, for a source map its module."""
+    def owned(self) -> str:
+        """The output that tells whose it is: itself, for a source map its module."""
         return self.path if self.is_committed else module_of(self.path)
 
 
@@ -97,18 +98,22 @@ class Folder:
     def digest_of(self, path: str) -> str | None:
         """Return the digest of a file, none if it is missing, an impossible one for a link.
 
+        The ends of its lines do not count: a working copy may have those of Windows.
+
         Raises:
             OSError: If it cannot be read, or lies behind a link.
         """
         if path not in self._digests:
-            self._digests[path] = self._read(path)
+            data = self._read(path)
+            self._digests[path] = digest(data) if data else "" if data is not None else None
         return self._digests[path]
 
     def look_again(self) -> None:
         """Forget what was read: time has passed."""
         self._digests.clear()
 
-    def _read(self, path: str) -> str | None:
+    def _read(self, path: str) -> bytes | None:
+        """Return what is in a file; nothing for a link, `None` if it is missing."""
         place = f"{self._out_dir}/{path}"
         self.require_inside(path)
         try:
@@ -118,9 +123,9 @@ class Folder:
         if stat.S_ISDIR(mode):
             raise IsADirectoryError(0, "there is a folder of this name")
         if not stat.S_ISREG(mode):
-            return ""
+            return b""
         with open(place, "rb") as file:
-            return digest(file.read())
+            return file.read().replace(b"\r\n", b"\n")
 
     def require_inside(self, path: str) -> None:
         """Refuse what lies behind a link.
@@ -143,7 +148,21 @@ class Folder:
         except OSError:
             return False
 
-    def state_of(self, planned: Planned, manifest: Manifest) -> State:
+    def source_of(self, path: str) -> str | None:
+        """Return the source that made an output; `None` if osc2tx did not make it."""
+        try:
+            stated = stated_source(path, self._read(path) or b"")
+        except OSError:
+            return None
+        written = self._written.get(path)
+        return stated if stated is not None or written is None else written.source
+
+    def outputs_below(self, inner: str = "") -> set[str]:
+        """Return what may be outputs, in a folder of the folder or all of it."""
+        found = set(outputs_below(self._out_dir, inner))
+        return found | {p for p in self._written if p.startswith(f"{inner}/" if inner else "")}
+
+    def state_of(self, planned: Planned) -> State:
         """Return how an output stands.
 
         Raises:
@@ -154,10 +173,13 @@ class Folder:
             return State.MISSING
         if present == planned.made.digest:
             return State.CURRENT
-        if planned.listed not in manifest.outputs:
+        if self.source_of(planned.owned) is None:
             return State.FOREIGN
-        may_be_replaced = not planned.is_committed or self.is_untouched(planned.path)
-        return State.STALE if may_be_replaced else State.EDITED
+        if not planned.is_committed:
+            return State.STALE
+        if is_in_conflict(self._read(planned.path) or b""):
+            return State.CONFLICTED
+        return State.STALE if self.is_untouched(planned.path) else State.EDITED
 
     def is_untouched(self, path: str) -> bool:
         """Return whether an output is as osc2tx wrote it, as it was committed, or missing.
@@ -168,13 +190,16 @@ class Folder:
         present = self.digest_of(path)
         if not present:
             return present is None
-        return present in self._written.get(path, ()) or self._is_committed(path)
+        written = self._written.get(path)
+        return (written is not None and present in written.digests) or self._is_committed(path)
 
     def _is_committed(self, path: str) -> bool:
         if self._committed is None:
             self._committed = committed_objects(self._out_dir)
         name = self._committed.get(path)
-        return name is not None and is_object((self._out_dir / path).read_bytes(), name)
+        data = self._read(path) or b""
+        stored = (data, data.replace(b"\n", b"\r\n"))
+        return name is not None and any(is_object(each, name) for each in stored)
 
 
 def place_outputs(results: Sequence[FileResult]) -> tuple[list[Planned], list[str]]:
@@ -204,21 +229,48 @@ def place_outputs(results: Sequence[FileResult]) -> tuple[list[Planned], list[st
     return sorted(placed, key=lambda planned: planned.path), sorted(problems)
 
 
+@dataclass(frozen=True, slots=True)
+class Scope:
+    """The sources of which a build knows whether they are there.
+
+    Attributes:
+        roots: All folders in which a source of some name can be.
+        asked: The folders that were named; an output is looked for only if its source could be
+            in one of them.
+    """
+
+    roots: tuple[Path, ...]
+    asked: tuple[Path, ...]
+
+    def is_gone(self, source: str) -> bool:
+        """Return whether a source would be in the folders that were named, and is nowhere."""
+        if not is_inside(source):
+            return False
+        places = [root / source for root in self.roots]
+        is_asked = any(place.is_relative_to(folder) for place in places for folder in self.asked)
+        return is_asked and not any(os.path.lexists(place) for place in places)
+
+    def folders(self) -> set[str]:
+        """Return the folders of outputs of the folders that were named."""
+        inner = {
+            folder.relative_to(root).as_posix()
+            for folder in self.asked
+            for root in self.roots
+            if folder.is_relative_to(root)
+        }
+        is_whole = any(root.is_relative_to(folder) for folder in self.asked for root in self.roots)
+        return {""} if is_whole or "." in inner else inner
+
+
 def find_orphans(
-    manifest: Manifest,
-    placed: Sequence[Planned],
-    results: Sequence[FileResult],
-    folders: Sequence[Path],
-    folder: Folder,
+    placed: Sequence[Planned], results: Sequence[FileResult], scope: Scope, folder: Folder
 ) -> Iterator[Orphan]:
-    """Yield what the manifest lists and no source makes.
+    """Yield outputs that no source makes any more.
 
     Args:
-        manifest: The manifest.
         placed: What the sources make.
         results: What became of the sources; those with errors, or bugs of ours, keep their outputs.
-        folders: The folders of sources that were named; without any, nothing is known of sources
-            that are not among the results.
+        scope: The sources that the build knows of.
         folder: The output folder.
     """
     made = {planned.path for planned in placed}
@@ -232,13 +284,15 @@ def find_orphans(
     }
     compiled = {r.job.name for r in results} - failed
     targets = {result.job.name: result.job.options.target for result in results}
-    for path, source in sorted(manifest.outputs.items()):
-        if path in made or source in failed:
+    inner = scope.folders() or {name.rpartition("/")[0] for name in compiled}
+    candidates = {path for each in inner for path in folder.outputs_below(each)}
+    for path in sorted(filter(is_committed, candidates - made)):
+        source = folder.source_of(path)
+        if source is None or source in failed or folder.is_missing(path):
             continue
         if targets.get(source, "all") not in ("all", _target_of(path)):
             continue  # nobody asked for such files today
-        is_gone = folders and not any(_is_source(each, source) for each in folders)
-        if source not in compiled and not is_gone:
+        if source not in compiled and not scope.is_gone(source):
             continue
         try:
             is_untouched = folder.is_untouched(path)
@@ -251,10 +305,6 @@ def find_orphans(
 
 def _target_of(path: str) -> str:
     return "xosc" if path.endswith((XML, LOSS_REPORT)) else "py"
-
-
-def _is_source(folder: Path, name: str) -> bool:
-    return os.path.lexists(folder / name) if ".." not in name.split("/") else False
 
 
 def _problem(group: Sequence[FileResult], folders: dict[str, FileResult]) -> str | None:

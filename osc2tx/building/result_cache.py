@@ -1,102 +1,188 @@
-"""Cache of results of builds and checks, in the user's cache folder.
+"""Cache of results of builds and checks, addressed by content.
 
-There is one file for each output folder, and one for each folder in which somebody checks. A result
-holds as long as the text of the source, the texts of all files that it imports, the places where
-those would be found first, the options and osc2tx itself are the same. Contents count, never times,
-but for the files of osc2tx: reading those would take longer than a check. Texts of outputs are not
-kept, only their digests: they are in the output folder.
+A result is found by the text of its source, its settings and osc2tx itself, and holds as long as
+imports find the same files and what the source uses of them is the same (`uses`). Keys and records
+hold no absolute path, so that another folder, branch or machine finds the same results; a folder of
+CI may hold the cache (`OSC2TX_CACHE_DIR`, `--cache-dir`). Each result is stored as soon as there is
+one. Contents count, never times, but for the files of osc2tx: reading those would take longer than
+a check.
 """
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Mapping, Sequence
+import zlib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import count
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from osc2tx.building.fingerprint import digest, tool_stamp
-from osc2tx.building.jobs import Job, options_of
-from osc2tx.building.results import Dependency, FileResult, ImportedFile, OutputRecord, check_job
+from osc2tx.building.jobs import Job
+from osc2tx.building.places import Places
+from osc2tx.building.results import (
+    Dependency,
+    Detail,
+    FileResult,
+    ImportedFile,
+    OutputRecord,
+    check_job,
+    used_files,
+)
 from osc2tx.building.stored_reports import ReportReader, ReportWriter
 from osc2tx.compilation.file_reports import LossEntry
+from osc2tx.compilation.roots import innermost
+from osc2tx.config import ConfigFiles
 from osc2tx.diagnostics import SourceFile
 from osc2tx_shared.cache import cache_folder, forget_the_oldest, read_own, write_own
+from osc2tx_shared.classes import replace
 
-FORMAT = 3
-MOST_KEPT = 64  # folders that are remembered, of each kind
+if TYPE_CHECKING:
+    from osc2tx.options import CompileOptions
+
+FORMAT = 4
+MOST_RECORDS = 4  # of one text: with imports as several branches have them
+MOST_FILES = 128  # in each of the 256 folders of a kind
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+Kind = Literal["build", "check"]
 
 
 class ResultCache:
-    """What is remembered of the builds into one output folder, or of the checks in one folder."""
+    """What is remembered of builds and checks; what a build knows, a check need not find out."""
 
-    def __init__(self, kind: Literal["builds", "checks"], place: Path) -> None:
-        """Read what there is about a folder; nothing is as good as all."""
-        folder = cache_folder()
-        self._stamp = tool_stamp() if folder else None
-        name = digest(os.path.realpath(place).encode("utf-8", "surrogateescape"))[:32]
-        self._path = folder / kind / f"{name}.json" if folder and self._stamp else None
-        self._library: dict[str, str] = {}
-        self._records = self._read()
+    def __init__(
+        self, kind: Kind, configs: ConfigFiles | None = None, folder: Path | None = None
+    ) -> None:
+        """Take the folder; without one nothing is remembered.
+
+        Args:
+            kind: What is to be done to files.
+            configs: The settings files.
+            folder: Where results are; in the user's cache if left out.
+        """
+        folder = cache_folder(folder)
+        stamp = tool_stamp(folder) if folder else None
+        self._kinds: tuple[Kind, ...] = ("check", "build") if kind == "check" else ("build",)
+        self._folder = folder if stamp else None
+        self._stamp = stamp
+        self._configs = configs or ConfigFiles()
+        self._written: set[Path] = set()
         self._texts: dict[str, bytes | None] = {}
+        self._digests: dict[str, str] = {}
         self._real: dict[str, str] = {}
+        self._clean: dict[str, bool] = {}
+        self._options: dict[tuple[object, ...], CompileOptions] = {}
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether results are stored."""
+        return self._folder is not None
 
     def load(self, job: Job) -> FileResult | None:
-        """Return the result of a job if there is one that holds."""
-        record = self._records.get(self._real_path(job.path))
-        try:
-            if record is None or record["job"] != self._key(job):
-                return None
-            return self._restore(job, record)
-        except (KeyError, IndexError, TypeError, ValueError):  # damaged: as if there were none
+        """Return the result of a job if there is one that holds; without texts of outputs."""
+        text = self._text(str(job.path)) if self._folder else None
+        if text is None:
             return None
+        places = Places.of(job)
+        for kind in self._kinds:
+            for record in self._records(self._key(kind, job, places, text)):
+                try:
+                    result = self._restore(job, record, places, text)
+                except (
+                    KeyError,
+                    IndexError,
+                    TypeError,
+                    ValueError,
+                ):  # damaged: as if there is none
+                    continue
+                if result is not None:
+                    return result
+        return None
 
-    def keep(self, results: Iterable[FileResult]) -> None:
-        """Remember results; not being able to is no problem."""
-        if self._path is None:
+    def with_texts(self, result: FileResult) -> FileResult | None:
+        """Return a result with the texts of its outputs; `None` if those are not stored."""
+        data = read_own(self._bundle(result.outputs)) if self._folder else None
+        try:
+            texts = json.loads(zlib.decompress(data or b""))
+            outputs = tuple(
+                replace(made, text=text) for made, text in zip(result.outputs, texts, strict=True)
+            )
+        except (ValueError, TypeError, zlib.error):
+            return None
+        is_whole = all(digest(made.text.encode()) == made.digest for made in outputs if made.text)
+        return replace(result, outputs=outputs) if is_whole else None
+
+    def keep(self, result: FileResult) -> None:
+        """Store a result; not being able to is no problem."""
+        if self._folder is None or result.dependencies is None or result.source is None:
             return
-        records = {key: value for key, value in self._records.items() if os.path.exists(key)}
-        for result in results:
-            key = self._real_path(result.job.path)
-            records.pop(key, None)
-            if result.dependencies is not None:
-                records[key] = self._record(result)
-        if records != self._records:
-            self._records = records
-            document = {
-                "format": FORMAT,
-                "stamp": self._stamp,
-                "library": self._library,
-                "results": records,
-            }
-            if write_own(self._path, json.dumps(document).encode()):
-                forget_the_oldest(self._path.parent, MOST_KEPT)
+        places = Places.of(result.job)
+        if any(places.are_in(text) for text in _messages(result)):
+            return  # what it says is not true elsewhere
+        key = self._key(self._kinds[0], result.job, places, result.source.text.encode())
+        if any(made.text is not None for made in result.outputs):
+            texts = json.dumps([made.text for made in result.outputs]).encode()
+            self._write(self._bundle(result.outputs), zlib.compress(texts, 1))
+        self._put(key, self._record(result, places))
 
-    def _read(self) -> dict[str, Any]:
-        data = read_own(self._path) if self._path else None
+    def close(self) -> None:
+        """Remove what has not been written for the longest time, where there is too much."""
+        for folder in self._written:
+            forget_the_oldest(folder, MOST_FILES)
+
+    # --- Files of the cache -----------------------------------------------------------------------
+
+    def _place(self, kind: str, name: str) -> Path:
+        assert self._folder is not None, "there is a cache"
+        return self._folder / kind / name[:2] / name[2:]
+
+    def _bundle(self, outputs: Sequence[OutputRecord]) -> Path:
+        return self._place("texts", digest("".join(made.digest for made in outputs).encode()))
+
+    def _write(self, place: Path, data: bytes) -> None:
+        if write_own(place, data):
+            self._written.add(place.parent)
+
+    def _records(self, key: str) -> list[dict[str, Any]]:
+        data = read_own(self._place("results", key))
         try:
             document = json.loads(data or b"{}")
-            is_known = document.get("format") == FORMAT and document.get("stamp") == self._stamp
-            if not is_known:
-                return {}
-            self._library = dict(document["library"])
-            return dict(document["results"])
-        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
-            return {}
+            records = document["records"] if document["format"] == FORMAT else []
+            return [each for each in records if isinstance(each, dict)]
+        except (ValueError, KeyError, TypeError, RecursionError):
+            return []
 
-    def _key(self, job: Job) -> list[Any]:
-        roots = [self._real_path(root) for root in job.roots]
-        return [job.name, roots, repr(job.options), job.is_asked]
+    def _put(self, key: str, record: Mapping[str, Any]) -> None:
+        """Store a record before those of the same text; one with the same imports gives way."""
+        others = [
+            each
+            for each in self._records(key)
+            if each.get("dependencies") != record["dependencies"] and each != record
+        ]
+        document = {"format": FORMAT, "records": [record, *others[: MOST_RECORDS - 1]]}
+        self._write(self._place("results", key), json.dumps(document).encode())
 
-    def _record(self, result: FileResult) -> Mapping[str, Any]:
+    def _key(self, kind: Kind, job: Job, places: Places, text: bytes) -> str:
+        is_link = not job.is_asked and job.path.is_symlink()
+        parts = [kind, self._stamp, job.name, places.roots, places.options(job.options), is_link]
+        return digest(json.dumps([*parts, digest(text)]).encode())
+
+    # --- Records ----------------------------------------------------------------------------------
+
+    def _record(self, result: FileResult, places: Places) -> Mapping[str, Any]:
         assert result.source is not None and result.dependencies is not None, "it is to last"
-        writer = ReportWriter(result.source, self._library)
-        return {
-            "job": self._key(result.job),
-            "text": digest(result.source.text.encode()),
-            "dependencies": [[d.asked, d.found, d.digest] for d in result.dependencies],
-            "imported": [[i.path, i.name, i.options, i.is_needed] for i in result.imported],
+        writer = ReportWriter(result.source, places.write)
+        record = {
+            "dependencies": [
+                [places.write(d.asked), d.found and places.write(d.found), d.digest, d.detail]
+                for d in result.dependencies
+            ],
+            "uses": result.uses,
+            "imported": [
+                [places.write(i.path), i.name, places.options(i.options), i.is_needed]
+                for i in result.imported
+            ],
             "is_complete": result.is_complete,
             "stem": result.stem,
             "outputs": [[made.suffix, made.digest] for made in result.outputs],
@@ -105,20 +191,33 @@ class ResultCache:
             "scenarios": [writer.scenario(entry) for entry in result.scenarios],
             "sources": writer.sources(),
         }
+        for key, text in writer.library.items():
+            self._write(self._place("library", key), text.encode())
+        return record
 
-    def _restore(self, job: Job, record: Mapping[str, Any]) -> FileResult | None:
-        text = self._text(str(job.path))
-        if text is None or digest(text) != record["text"]:
+    def _restore(
+        self, job: Job, record: Mapping[str, Any], places: Places, text: bytes
+    ) -> FileResult | None:
+        dependencies = tuple(
+            Dependency(places.read(asked), found and places.read(found), known, Detail(detail))
+            for asked, found, known, detail in record["dependencies"]
+        )
+        present = [self._present(each) for each in dependencies]
+        if None in present:
             return None
-        dependencies = tuple(Dependency(*entry) for entry in record["dependencies"])
-        if not all(self._holds(dependency) for dependency in dependencies):
-            return None
-        imported = tuple(ImportedFile(*entry) for entry in record["imported"])
-        if any(repr(options_of(Path(i.path), given=job.given)) != i.options for i in imported):
-            return None
+        imported = []
+        for path, name, options, is_needed in record["imported"]:
+            place = places.read(path)
+            now = self._options_of(place, job)
+            if places.options(now) != options:
+                return None
+            imported.append(ImportedFile(place, name, now, is_needed))
         source = SourceFile(job.name, text.decode(), job.path)
-        reader = ReportReader(source, record["sources"], self._text, self._library)
-        return FileResult(
+        changed = [each for each in present if each is not None and each not in dependencies]
+        if changed and not self._is_used_alike(job, source, record, changed, present):
+            return None
+        reader = ReportReader(source, record["sources"], places.read, self._text, self._library)
+        result = FileResult(
             job=job,
             source=source,
             reports=tuple(reader.report(entry) for entry in record["reports"]),
@@ -127,19 +226,83 @@ class ResultCache:
             stem=record["stem"],
             outputs=tuple(OutputRecord(suffix, found, None) for suffix, found in record["outputs"]),
             losses=tuple(LossEntry(*entry) for entry in record["losses"]),
-            dependencies=dependencies,
-            imported=imported,
+            dependencies=tuple(each for each in present if each is not None),
+            imported=tuple(imported),
+            uses=record["uses"],
         )
+        if changed:  # found at once the next time
+            key = self._key(self._kinds[0], job, places, text)
+            self._put(key, self._record(result, places))
+        return result
 
-    def _holds(self, dependency: Dependency) -> bool:
-        if not dependency.found:
-            return True  # no file can have such a name
-        if self._real_path(dependency.asked) != dependency.found:
+    def _present(self, known: Dependency) -> Dependency | None:
+        """Return a dependency as it is now; `None` if imports would find something else."""
+        if not known.found:
+            return known  # no file can have such a name
+        if self._real_path(known.asked) != known.found:
+            return None
+        if known.digest is None:
+            return None if os.path.exists(known.asked) else known
+        text = self._text(known.asked)
+        if text is None:
+            return None
+        if known.asked not in self._digests:
+            self._digests[known.asked] = digest(text)
+        now = self._digests[known.asked]
+        if now == known.digest:
+            return known
+        return None if known.detail is Detail.TEXT else replace(known, digest=now)
+
+    def _is_used_alike(
+        self,
+        job: Job,
+        source: SourceFile,
+        record: Mapping[str, Any],
+        changed: Sequence[Dependency],
+        present: Sequence[Dependency | None],
+    ) -> bool:
+        """Whether imported files changed only in what the source does not use."""
+        from osc2tx.compilation.uses import used_digest
+
+        if not record["is_complete"] or not all(self._is_clean(job, each) for each in changed):
             return False
-        if dependency.digest is None:
-            return not os.path.exists(dependency.asked)
-        text = self._text(dependency.asked)
-        return text is not None and digest(text) == dependency.digest
+        files = used_files((each for each in present if each is not None), self._decoded)
+        uses: str = record["uses"]
+        return used_digest(source.text, files, job.options.dialect) == uses
+
+    def _decoded(self, place: str) -> str:
+        return (self._text(place) or b"").decode()
+
+    def _is_clean(self, job: Job, changed: Dependency) -> bool:
+        """Whether there is nothing to report on a library by itself; on a source, no errors.
+
+        Warnings of a source are told for itself.
+        """
+        if changed.found not in self._clean:
+            path = Path(changed.found)
+            name = job.roots.name_of(path, job.libraries) or path.name
+            library = job.for_module_of(path, name, self._configs)
+            checks = ResultCache("check", self._configs, self._folder)
+            result = checks.load(library)
+            if result is None:
+                result = check_job(library)
+                checks.keep(result)
+            is_source = innermost(path, job.roots.sources) is not None
+            is_quiet = is_source or not result.reports
+            self._clean[changed.found] = result.is_complete and is_quiet
+        return self._clean[changed.found]
+
+    def _options_of(self, place: str, job: Job) -> CompileOptions:
+        key = place, job.roots.settings, job.given
+        if key not in self._options:
+            self._options[key] = job.options_of(Path(place), self._configs)
+        return self._options[key]
+
+    def _library(self, key: str) -> str:
+        data = read_own(self._place("library", key))
+        if data is None or digest(data) != key:
+            raise ValueError(key)
+        return data.decode()
 
     def _text(self, path: str) -> bytes | None:
         """Return the text of a file without its byte order mark; every file is read once."""
@@ -164,19 +327,50 @@ class ResultCache:
         return self._real[path]
 
 
-def check_jobs(jobs: Sequence[Job], *, remember: bool = True) -> list[FileResult]:
+def _messages(result: FileResult) -> Iterator[str]:
+    """Yield all that a result tells people."""
+    for report in result.reports:
+        yield report.message
+        yield from report.notes
+        yield report.help or ""
+        yield from (label.message for label in report.labels)
+    yield from (loss.summary for loss in result.losses)
+
+
+def check_jobs(
+    jobs: Sequence[Job],
+    *,
+    remember: bool = True,
+    workers: int | None = 1,
+    progress: Callable[[int, int], None] = lambda done, total: None,
+    configs: ConfigFiles | None = None,
+    cache: Path | None = None,
+) -> list[FileResult]:
     """Return what there is to report on each file, in the order of the jobs.
 
     Args:
         jobs: What to check.
-        remember: Whether results of earlier checks in this folder count, and these are kept.
+        remember: Whether results of earlier checks count, and these are kept.
+        workers: How many processes may check; one for each processor if left open.
+        progress: Is told how many of how many files are done.
+        configs: The settings files.
+        cache: Folder of the results; in the user's cache if left out.
     """
-    if not remember:
-        return [check_job(job) for job in jobs]
-    memory = ResultCache("checks", Path.cwd())
-    known = {job: result for job in jobs if (result := memory.load(job)) is not None}
-    made = {job: check_job(job) for job in jobs if job not in known}
-    if made:
-        memory.keep(made.values())
-    known |= made
+    memory = ResultCache("check", configs, cache)
+    recalled = ((job, memory.load(job)) for job in jobs if remember)
+    known = {job: result for job, result in recalled if result is not None}
+    missing = [job for job in jobs if job not in known]
+    numbers = count(1)
+
+    def finished(result: FileResult) -> None:
+        if remember:
+            memory.keep(result)
+        progress(next(numbers), len(missing))
+
+    if missing:
+        from osc2tx.building.workers import run_jobs  # a check that recalls all needs no process
+
+        made = run_jobs(check_job, missing, workers, finished)
+        known |= dict(zip(missing, made, strict=True))
+        memory.close()
     return [known[job] for job in jobs]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from enum import StrEnum
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING
 
 from osc2tx.building.fingerprint import digest
@@ -14,6 +16,11 @@ from osc2tx_shared.classes import dataclass
 
 if TYPE_CHECKING:
     from osc2tx.compilation.driver import Compilation, Memory, Output
+    from osc2tx.compilation.imports import Lookup
+    from osc2tx.compilation.uses import UsedFile
+    from osc2tx.options import CompileOptions
+
+SUFFIX = ".osc"
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +38,13 @@ class OutputRecord:
     text: str | None
 
 
+class Detail(StrEnum):
+    """What of an imported file a result depends on."""
+
+    TEXT = "text"  # all, as it is copied or reported on
+    USES = "uses"  # the declarations that are used
+
+
 @dataclass(frozen=True, slots=True)
 class Dependency:
     """A place where an imported file was looked for.
@@ -39,11 +53,13 @@ class Dependency:
         asked: The place.
         found: The same with links followed; empty if no file can have such a name.
         digest: Digest of the text there; `None` if there was no file.
+        detail: What of the text counts.
     """
 
     asked: str
     found: str
     digest: str | None
+    detail: Detail
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,13 +69,13 @@ class ImportedFile:
     Attributes:
         path: The file.
         name: What it is called.
-        options: The options it was compiled with, spelled out.
+        options: The options it was compiled with.
         is_needed: Whether its module is needed.
     """
 
     path: str
     name: str
-    options: str
+    options: CompileOptions
     is_needed: bool
 
 
@@ -80,6 +96,7 @@ class FileResult:
             that, so that it must not be used again.
         bug: A mistake of osc2tx itself that came to light.
         imported: The files that the module imports from, or would if it could.
+        uses: Digest of what the source uses of imported files.
     """
 
     job: Job
@@ -93,6 +110,7 @@ class FileResult:
     dependencies: tuple[Dependency, ...] | None
     bug: str = ""
     imported: tuple[ImportedFile, ...] = ()
+    uses: str = ""
 
     @property
     def start(self) -> Span:
@@ -126,9 +144,9 @@ def compile_job(job: Job, memory: Memory | None = None) -> FileResult:
     return _result(job, compilation, bug, outputs=outputs, losses=tuple(losses))
 
 
-def check_job(job: Job) -> FileResult:
+def check_job(job: Job, memory: Memory | None = None) -> FileResult:
     """Run all stages on a file that can report something; it makes no outputs."""
-    compilation = job.compilation()
+    compilation = job.compilation(memory)
     return _result(job, compilation, find_bug(compilation, lambda item: item.check()))
 
 
@@ -146,6 +164,7 @@ def _result(
     outputs: Sequence[Output] = (),
     losses: tuple[LossEntry, ...] = (),
 ) -> FileResult:
+    dependencies = None if bug else _dependencies(compilation)
     return FileResult(
         job=job,
         source=compilation.source,
@@ -158,9 +177,10 @@ def _result(
             for output in outputs
         ),
         losses=losses,
-        dependencies=None if bug else _dependencies(compilation),
+        dependencies=dependencies,
         bug=bug,
         imported=() if bug else _imported(compilation),
+        uses=_uses(compilation, dependencies or ()),
     )
 
 
@@ -170,22 +190,59 @@ def _imported(compilation: Compilation) -> tuple[ImportedFile, ...]:
     alone = all_compiled_alone(compilation)
     needed = {each.name for each in siblings_of(compilation)} if alone else set()
     return tuple(
-        ImportedFile(str(each.path), each.name, repr(each.options), each.name in needed)
-        for each in alone
+        ImportedFile(str(each.path), each.name, each.options, each.name in needed) for each in alone
     )
 
 
-def _dependencies(compilation: Compilation) -> tuple[Dependency, ...] | None:
+def _lookups(compilation: Compilation) -> Mapping[Path, Lookup]:
     lookups = dict(compilation.lookups)
     for alone in compilation.compiled_alone.values():
         lookups |= alone.lookups
+    return lookups
+
+
+def _dependencies(compilation: Compilation) -> tuple[Dependency, ...] | None:
+    lookups = _lookups(compilation)
     if compilation.source is None or any(lookup.is_refused for lookup in lookups.values()):
         return None
+    from osc2tx.compilation.uses import whole_files
+
+    exact = {str(path) for path in whole_files(compilation)}
+    is_partial = compilation.is_complete and all(not r.help for r in compilation.reports)
     return tuple(
         Dependency(
             str(asked),
             lookup.path,
             None if lookup.text is None else digest(lookup.text.encode()),
+            (
+                Detail.USES
+                if is_partial and asked.suffix == SUFFIX and lookup.path not in exact
+                else Detail.TEXT
+            ),
         )
         for asked, lookup in lookups.items()
     )
+
+
+def _uses(compilation: Compilation, dependencies: Sequence[Dependency]) -> str:
+    if compilation.source is None or not any(d.detail is Detail.USES for d in dependencies):
+        return ""
+    from osc2tx.compilation.uses import used_digest
+
+    texts = {lookup.path: lookup.text or "" for lookup in _lookups(compilation).values()}
+    files = used_files(dependencies, texts.__getitem__)
+    return used_digest(compilation.source.text, files, compilation.options.dialect)
+
+
+def used_files(dependencies: Iterable[Dependency], text_of: Callable[[str], str]) -> list[UsedFile]:
+    """Return the files of which a result depends on what is used.
+
+    Args:
+        dependencies: All places that were looked at.
+        text_of: Returns the text of a file, links followed.
+    """
+    from osc2tx.compilation.uses import UsedFile
+
+    wanted = (d for d in dependencies if d.detail is Detail.USES and d.digest is not None)
+    paths = dict.fromkeys(each.found for each in wanted)
+    return [UsedFile(PurePath(path).name, text_of(path)) for path in paths]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, MutableMapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,17 +12,22 @@ from osc2tx.diagnostics.report import ScenarioEntry
 
 
 class ReportWriter:
-    """Writes the reports of one source file; places are index of the text, start, end."""
+    """Writes the reports of one source file; places are index of the text, start, end.
 
-    def __init__(self, source: SourceFile, library: MutableMapping[str, str]) -> None:
+    Attributes:
+        library: The texts of the library that are pointed into, by digest.
+    """
+
+    def __init__(self, source: SourceFile, write: Callable[[str], str]) -> None:
         """Begin with the file itself as text 0.
 
         Args:
             source: The file.
-            library: Takes the texts of the library that are pointed into, by digest.
+            write: Returns what is written for a path.
         """
         self._sources = [source]
-        self._library = library
+        self._write = write
+        self.library: dict[str, str] = {}
 
     def report(self, report: Diagnostic) -> list[Any]:
         """Return a diagnostic as a list."""
@@ -45,9 +50,9 @@ class ReportWriter:
 
     def _entry(self, source: SourceFile) -> list[Any]:
         if source.path is not None:
-            return [source.name, str(source.path), None]
+            return [source.name, self._write(str(source.path)), None]
         key = digest(source.text.encode())
-        self._library[key] = source.text
+        self.library[key] = source.text
         return [source.name, None, key]
 
     def _place(self, span: Span) -> list[int]:
@@ -68,22 +73,25 @@ class ReportReader:
         self,
         source: SourceFile,
         others: Sequence[Sequence[Any]],
+        place: Callable[[str], str],
         read: Callable[[str], bytes | None],
-        library: Mapping[str, str],
+        library: Callable[[str], str],
     ) -> None:
         """Take the texts.
 
         Args:
             source: The file itself.
             others: The others, as written.
+            place: Returns the path that was written.
             read: Returns the text of a file.
-            library: Texts of the library by digest.
+            library: Returns a text of the library by its digest.
         """
         self._sources = [source]
-        for name, path, key in others:
-            if path is None:
-                self._sources.append(SourceFile(name, library[key]))
+        for name, written, key in others:
+            if written is None:
+                self._sources.append(SourceFile(name, library(key)))
                 continue
+            path = place(written)
             data = read(path)
             if data is None:
                 raise ValueError(path)

@@ -1,4 +1,4 @@
-"""Compiles many files, in several processes if that is worth it.
+"""Compiles or checks many files, in several processes if that is worth it.
 
 Results come in the order of the jobs, whoever makes them. A process that dies, as by an overflow of
 its stack, costs the file that killed it and no other.
@@ -7,8 +7,9 @@ its stack, costs the file that killed it and no other.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
-from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor, as_completed
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,11 +17,17 @@ from osc2tx.building.jobs import Job
 from osc2tx.building.results import FileResult, compile_job, failed_job
 
 if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
+
     from osc2tx.compilation.driver import Memory
+    from osc2tx.config import ConfigFiles
 
 FEWEST_FILES = 8  # for a second process: starting one takes as long as compiling a few files
 
-Progress = Callable[[int], None]
+Work = Callable[..., FileResult]
+"""What is done to a job, with the memory of compilations."""
+
+Finished = Callable[[FileResult], None]
 
 _memory: Memory = {}
 """Of a worker, which ends with the build."""
@@ -34,36 +41,63 @@ def processors() -> int:
 
 
 def compile_jobs(
-    jobs: Sequence[Job], workers: int, progress: Progress = lambda done: None
+    jobs: Sequence[Job], workers: int, finished: Finished = lambda result: None
 ) -> list[FileResult]:
     """Return the results of all jobs, in their order.
 
     Args:
         jobs: What to compile.
         workers: How many processes may work at once.
-        progress: Is told now and then how many files are done.
+        finished: Is given each result as soon as there is one.
     """
+    return run_jobs(compile_job, jobs, workers, finished)
+
+
+def run_jobs(
+    work: Work,
+    jobs: Sequence[Job],
+    workers: int | None,
+    finished: Finished = lambda result: None,
+) -> list[FileResult]:
+    """Return what some work makes of all jobs, in their order.
+
+    Args:
+        work: What is done to a job.
+        jobs: What to do it to.
+        workers: How many processes may work at once; one for each processor if left open.
+        finished: Is given each result as soon as there is one.
+    """
+    workers = workers or processors()
+    results: dict[Job, FileResult] = {}
+
+    def done(result: FileResult) -> None:
+        results[result.job] = result
+        finished(result)
+
+    memory: Memory = {}
     if workers == 1 or len(jobs) < FEWEST_FILES:
-        results: list[FileResult] = []
-        memory: Memory = {}
         for job in jobs:
-            results.append(compile_job(job, memory))
-            progress(len(results))
-        return results
-    first = compile_job(jobs[0])  # loads the compiler, which forked processes then share
-    progress(1)
-    found = _compile_in_pool(jobs[1:], workers, lambda done: progress(1 + done))
-    return [first, *(found.get(job) or _compile_alone(job) for job in jobs[1:])]
+            done(work(job, memory))
+        return [results[job] for job in jobs]
+    done(work(jobs[0], memory))  # loads the compiler, which forked processes then share
+    _work_in_pool(work, jobs[1:], workers, done)
+    for job in jobs[1:]:
+        if job not in results:
+            done(_work_alone(work, job))
+    return [results[job] for job in jobs]
 
 
 def with_siblings(
-    results: Sequence[FileResult], compile: Callable[[Sequence[Job]], list[FileResult]]
+    results: Sequence[FileResult],
+    compile: Callable[[Sequence[Job]], list[FileResult]],
+    configs: ConfigFiles,
 ) -> list[FileResult]:
     """Return results, and those of imported files whose modules they need and that are not there.
 
     Args:
         results: What came of some files.
         compile: Gives the results of jobs.
+        configs: The settings files.
     """
     found = list(results)
     known = {os.path.realpath(result.job.path) for result in results}
@@ -74,63 +108,77 @@ def with_siblings(
             for each in result.imported:
                 place = os.path.realpath(each.path)
                 if each.is_needed and place not in known:
-                    jobs[place] = result.job.for_module_of(Path(each.path), each.name)
+                    jobs[place] = result.job.for_module_of(Path(each.path), each.name, configs)
         known |= jobs.keys()
         new = compile(list(jobs.values())) if jobs else []
         found += new
     return found
 
 
-def _compile_in_pool(
-    jobs: Sequence[Job], workers: int, progress: Progress
-) -> dict[Job, FileResult]:
-    """Return the results that came in before a process died, if one did."""
-    found: dict[Job, FileResult] = {}
+def _work_in_pool(work: Work, jobs: Sequence[Job], workers: int, done: Finished) -> None:
+    """Do the work in processes, until all is done or a process has died."""
+    told: set[Job] = set()
     with _pool(min(workers, len(jobs))) as pool:
-        futures = {pool.submit(_compile_in_worker, job): job for job in jobs}
+        futures = {pool.executor.submit(_work_in_worker, work, job): job for job in jobs}
         try:
             for future in as_completed(futures):
-                found[futures[future]] = future.result()
-                progress(len(found))
+                done(future.result())
+                told.add(futures.pop(future))
         except BrokenExecutor:
-            found.update(_rescued(futures))
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
-    return found
+            for future, job in futures.items():
+                if job not in told and future.done() and future.exception() is None:
+                    done(future.result())
 
 
-def _compile_in_worker(job: Job) -> FileResult:
-    return compile_job(job, _memory)
+def _work_in_worker(work: Work, job: Job) -> FileResult:
+    return work(job, _memory)
 
 
-def _rescued(futures: dict[Future[FileResult], Job]) -> dict[Job, FileResult]:
-    return {
-        job: future.result()
-        for future, job in futures.items()
-        if future.done() and not future.cancelled() and future.exception() is None
-    }
-
-
-def _compile_alone(job: Job) -> FileResult:
-    """Compile a file in a process of its own, so that it harms no other."""
+def _work_alone(work: Work, job: Job) -> FileResult:
+    """Do the work on a file in a process of its own, so that it harms no other."""
     with _pool(1) as pool:
         try:
-            return pool.submit(compile_job, job).result()
+            return pool.executor.submit(_work_in_worker, work, job).result()
         except BrokenExecutor:
             return failed_job(job, f"{job.path}: internal error: the compiler died")
 
 
-def _pool(workers: int) -> ProcessPoolExecutor:
-    import multiprocessing
+class _Pool:
+    """Processes that end at once if they are no longer needed."""
 
-    methods = multiprocessing.get_all_start_methods()
-    context = multiprocessing.get_context("fork" if "fork" in methods else "spawn")
-    return ProcessPoolExecutor(workers, mp_context=context, initializer=_begin_worker)
+    def __init__(self, workers: int) -> None:
+        import multiprocessing
+
+        methods = multiprocessing.get_all_start_methods()
+        context = multiprocessing.get_context("fork" if "fork" in methods else "spawn")
+        listener, self._speaker = context.Pipe(duplex=False)
+        self.executor = ProcessPoolExecutor(
+            workers, mp_context=context, initializer=_begin_worker, initargs=(listener,)
+        )
+
+    def stop(self) -> None:
+        """End all processes, whatever they are at."""
+        self._speaker.send(None)  # nobody takes it up, so that everybody sees it
+        self.executor.shutdown(wait=False, cancel_futures=True)
 
 
-def _begin_worker() -> None:
-    """Leave interruptions to the parent, and end with it even if it is killed."""
+@contextmanager
+def _pool(workers: int) -> Iterator[_Pool]:
+    pool = _Pool(workers)
+    try:
+        yield pool
+    except BaseException:
+        pool.stop()
+        raise
+    pool.executor.shutdown()
+
+
+def _begin_worker(stop: Connection) -> None:
+    """Leave interruptions to the parent, and end with it even if it is killed.
+
+    Args:
+        stop: Has something to read once the process is to end.
+    """
     import multiprocessing
     import signal
     from multiprocessing.connection import wait
@@ -140,8 +188,8 @@ def _begin_worker() -> None:
     parent = multiprocessing.parent_process()
     assert parent is not None, "a worker is a child"
 
-    def end_with_parent(sentinel: int = parent.sentinel) -> None:
-        wait([sentinel])
+    def end(*signs: int | Connection) -> None:
+        wait(signs)
         os._exit(1)
 
-    Thread(target=end_with_parent, daemon=True).start()
+    Thread(target=end, args=(parent.sentinel, stop), daemon=True).start()

@@ -1,7 +1,7 @@
 """Writes outputs atomically: no file is ever half written.
 
-First the digests and the manifest say what is about to be written, then every output is put in
-place in one step, then they say that it is done. A build that is killed in between leaves each
+First the digests say what is about to be written, then every output is put in place in one step,
+then they say that it is done. A build that is killed in between leaves each
 output old or new, and the next one knows both for its own. One build at a time writes to a folder.
 """
 
@@ -13,20 +13,20 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
 
-from osc2tx.building.manifest import MANIFEST_NAME, Manifest
 from osc2tx.building.plan import Folder, Orphan, Planned
 from osc2tx.building.written_digests import (
     DIGESTS_NAME,
     IGNORE_NAME,
     IGNORE_TEXT,
     Digests,
+    Written,
     render_digests,
 )
 from osc2tx_shared.classes import dataclass
 
 TEMPORARY = ".osc2tx-tmp"
 SYNCS_AT_ONCE = 16
-RECORDS = (MANIFEST_NAME, DIGESTS_NAME, IGNORE_NAME)
+RECORDS = (DIGESTS_NAME, IGNORE_NAME)
 _WRITE_FLAGS = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
 
 
@@ -38,7 +38,7 @@ class Update:
         current: Outputs that are as they should be.
         writes: Outputs to write, with their texts.
         removals: Files to remove.
-        forgotten: Outputs that the manifest need not list any more.
+        forgotten: Outputs that are no longer there.
     """
 
     current: Sequence[Planned]
@@ -47,14 +47,11 @@ class Update:
     forgotten: Sequence[str]
 
 
-def update_folder(
-    out_dir: Path, manifest: Manifest, written: Digests, update: Update
-) -> tuple[list[str], list[str]]:
+def update_folder(out_dir: Path, written: Digests, update: Update) -> tuple[list[str], list[str]]:
     """Write and remove, and keep it known all the while what osc2tx wrote.
 
     Args:
         out_dir: The output folder.
-        manifest: The manifest that is in it.
         written: The digests that are known of it.
         update: What to do.
 
@@ -62,7 +59,7 @@ def update_folder(
         The paths that were written or removed, and a sentence for each that could not be.
     """
     writer = _Writer(out_dir)
-    records = _Records(writer, manifest, written)
+    records = _Records(writer, written)
     records.forget(update.forgotten)
     for planned in update.current:
         records.enter(planned)
@@ -72,7 +69,7 @@ def update_folder(
             return [], writer.failures
     writer.stage({planned.path: text for planned, text in update.writes})
     for planned, _ in sorted(update.writes, key=lambda pair: not pair[0].is_committed):
-        is_wanted = planned.is_committed or records.has(planned.listed)  # a map needs its module
+        is_wanted = planned.is_committed or records.has(planned.owned)  # a map needs its module
         if is_wanted and writer.put(planned.path):
             records.enter(planned)
     for orphan in update.removals:
@@ -84,51 +81,46 @@ def update_folder(
 
 
 class _Records:
-    """Manifest and digests of a folder while it changes."""
+    """The digests of a folder while it changes."""
 
-    def __init__(self, writer: _Writer, manifest: Manifest, written: Digests) -> None:
+    def __init__(self, writer: _Writer, written: Digests) -> None:
         self._writer = writer
-        self._stored = (manifest.outputs, written)
-        self._outputs = dict(manifest.outputs)
+        self._stored = written
         self._digests = dict(written)
 
     def has(self, path: str) -> bool:
         """Return whether an output is listed."""
-        return path in self._outputs
+        return path in self._digests
 
     def enter(self, planned: Planned) -> None:
         """List an output that is as it should be."""
         if planned.is_committed:
-            self._outputs[planned.path] = planned.result.job.name
-            self._digests[planned.path] = (planned.made.digest,)
+            self._digests[planned.path] = Written(planned.result.job.name, (planned.made.digest,))
 
     def forget(self, paths: Iterable[str]) -> None:
         """List outputs no more."""
         for path in paths:
-            self._outputs.pop(path, None)
             self._digests.pop(path, None)
 
     def announce(self, writes: Iterable[Planned]) -> None:
         """Save what is about to be written, beside what is there."""
-        committed = [planned for planned in writes if planned.is_committed]
-        coming = {p.path: p.result.job.name for p in committed}
-        digests = {p.path: (*self._digests.get(p.path, ()), p.made.digest) for p in committed}
-        self._save(self._outputs | coming, self._digests | digests)
+        coming = {}
+        for planned in filter(lambda each: each.is_committed, writes):
+            known = self._digests.get(planned.path)
+            digests = (*(known.digests if known else ()), planned.made.digest)
+            coming[planned.path] = Written(planned.result.job.name, digests)
+        self._save(self._digests | coming)
 
     def save(self) -> None:
         """Save what there is now."""
-        self._save(self._outputs, self._digests)
+        self._save(self._digests)
 
-    def _save(self, outputs: Mapping[str, str], digests: Digests) -> None:
-        """Write the files that are not yet so, the digests first: alone they protect nothing."""
-        listed, known = self._stored
-        files = []
-        if digests != known:
-            files += [(IGNORE_NAME, IGNORE_TEXT), (DIGESTS_NAME, render_digests(digests))]
-        if outputs != listed:
-            files += [(MANIFEST_NAME, Manifest(outputs).render())]
+    def _save(self, digests: Digests) -> None:
+        if digests == self._stored:
+            return
+        files = ((IGNORE_NAME, IGNORE_TEXT), (DIGESTS_NAME, render_digests(digests)))
         if all(self._writer.write(path, text) for path, text in files):
-            self._stored = (dict(outputs), dict(digests))
+            self._stored = dict(digests)
 
 
 class _Writer:

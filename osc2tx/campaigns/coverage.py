@@ -11,12 +11,12 @@ from dataclasses import field
 from itertools import product
 from typing import Any
 
-from osc2tx.campaigns.identity import plan_from
+from osc2tx.campaigns.identity import plan_of
 from osc2tx.campaigns.store import Store
 from osc2tx_runtime.campaigns import Executor, Plan
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["Bucket", "Item", "coverage_of", "items_of"]
+__all__ = ["Bucket", "Item", "coverage_of", "has_models", "items_of"]
 
 ENDING = ".coverage.json"
 ROUNDING = 1e-9  # of the size of a value: so close to a boundary it lies on it
@@ -164,6 +164,11 @@ class Item:
         return last
 
 
+def has_models(store: Store) -> bool:
+    """Return whether a campaign has coverage items, for which its module is imported."""
+    return any(name.endswith(ENDING) for name in store.plan["files"])
+
+
 def items_of(plan: Plan) -> dict[str, Item]:
     """Return the items of a campaign, those of invoked scenarios by path; none has hits yet.
 
@@ -198,10 +203,17 @@ def items_of(plan: Plan) -> dict[str, Item]:
 
 
 def coverage_of(store: Store) -> dict[str, Item]:
-    """Return the items of a campaign with their hits."""
-    items = items_of(plan_from(store.plan))
-    count_samples(items, store.samples())
-    return items
+    """Return the items of a campaign with their hits.
+
+    Raises:
+        CampaignError: Nothing was run yet, or the store is damaged.
+        ScenarioError: The module cannot be imported, or has no values.
+    """
+    plan, samples = plan_of(store), list(store.samples())
+    with store.as_written("coverage"):
+        items = items_of(plan)
+        count_samples(items, samples)
+        return items
 
 
 def count_samples(

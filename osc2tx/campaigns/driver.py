@@ -6,7 +6,7 @@ from collections.abc import Callable
 from contextlib import closing
 
 from osc2tx.campaigns.engine import Engine
-from osc2tx.campaigns.identity import Texts, identity_of, plan_to
+from osc2tx.campaigns.identity import Texts, identity_of, plan_to, with_files_of
 from osc2tx.campaigns.planner import Planner, columns_of, why_left_out
 from osc2tx.campaigns.samplers import sampler_by_name
 from osc2tx.campaigns.sampling import Findings, Sampler, Wanted
@@ -69,6 +69,7 @@ def run_campaign(
             identity_of(plan, texts, executor, sampler, wanted),
             plan_to(plan, texts, plan.settings.map_path),
         )
+        plan = with_files_of(plan, store)
         if wanted.samples is not None:
             store.wanted = wanted.samples
         planner = Planner(executor, sampler, wanted.samples, store.done(), findings.left_out)

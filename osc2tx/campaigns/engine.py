@@ -2,7 +2,8 @@
 
 Each worker has a pipe of its own, tells of each row as soon as it is done, and has only a few rows
 at once. So it is known which row a worker was at when it died: that one is tried once more, alone,
-and then is `crashed`; those behind it go to others.
+and then is `crashed`; those behind it go to others. A worker that tells nothing any more, not even
+that it is alive, counts as dead.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from typing import Protocol
 
 from osc2tx_runtime.campaigns import Plan, Row, RowResult
 from osc2tx_runtime.campaigns.rows import CRASHED
-from osc2tx_runtime.campaigns.worker import Refused, work
+from osc2tx_runtime.campaigns.worker import ALIVE, Refused, work
 from osc2tx_shared.classes import replace
 
 from .store import CampaignError
@@ -26,6 +27,8 @@ from .store import CampaignError
 __all__ = ["Engine", "LocalEngine", "crashed", "take"]
 
 ATTEMPTS = 2
+STALLED = 120.0  # s of silence; a worker at a long row is not silent
+BEATS = 12  # that it tells in this time
 STARTS = 3  # of workers that end before they are ready, with no row done meanwhile
 
 
@@ -51,10 +54,18 @@ class LocalEngine:
         workers: How many.
         batch: How many rows a worker has at once.
         timeout: Seconds by the clock that a row may take; None for as long as it likes.
+        stalled: Seconds of silence after which a worker counts as dead.
     """
 
-    def __init__(self, workers: int, batch: int = 16, timeout: float | None = None) -> None:
+    def __init__(
+        self,
+        workers: int,
+        batch: int = 16,
+        timeout: float | None = None,
+        stalled: float = STALLED,
+    ) -> None:
         self._workers, self._batch, self._timeout = workers, batch, timeout
+        self._stalled = stalled
 
     def run(self, plan: Plan, rows: Iterator[Row | None]) -> Generator[list[RowResult], None, None]:
         """Yield what came of rows as it comes.
@@ -62,7 +73,7 @@ class LocalEngine:
         Raises:
             CampaignError: No worker can be started.
         """
-        pool = _Pool(plan, self._workers, self._batch, self._timeout, rows)
+        pool = _Pool(plan, self._workers, self._batch, self._timeout, rows, self._stalled)
         try:
             while pool.feed():
                 found = pool.collect()
@@ -79,18 +90,20 @@ class _Worker:
         rows: Those that it was given, the one that it is at first.
         since: When it began with that one.
         is_ready: Whether it has imported the module.
+        silence: Seconds that were waited for it since it told something.
     """
 
-    def __init__(self, plan: Plan) -> None:
+    def __init__(self, plan: Plan, beat: float) -> None:
         context = multiprocessing.get_context("spawn")
         self.pipe: Connection
         self.pipe, theirs = context.Pipe()
-        self.process = context.Process(target=work, args=(theirs, plan), daemon=True)
+        self.process = context.Process(target=work, args=(theirs, plan, beat), daemon=True)
         self.process.start()
         theirs.close()
         self.rows: deque[Row] = deque()
         self.since = time.monotonic()
         self.is_ready = False
+        self.silence = 0.0
 
     def give(self, rows: list[Row]) -> None:
         """Give it rows; it has none."""
@@ -115,7 +128,9 @@ class _Pool:
         batch: int,
         timeout: float | None,
         rows: Iterator[Row | None],
+        stalled: float,
     ) -> None:
+        self._stalled, self._beat = stalled, stalled / BEATS
         self._plan, self._most, self._batch, self._timeout = plan, workers, batch, timeout
         self._rows = rows
         self._again: deque[Row] = deque()  # of workers that died
@@ -127,7 +142,7 @@ class _Pool:
     def feed(self) -> bool:
         """Give rows to those who have none; return whether there is something to wait for."""
         while len(self._workers) < self._most:
-            self._workers.append(_Worker(self._plan))
+            self._workers.append(_Worker(self._plan, self._beat))
         for worker in self._workers:
             if worker.is_ready and not worker.rows:
                 rows = self._next_rows()
@@ -149,13 +164,20 @@ class _Pool:
     def collect(self) -> list[RowResult]:
         """Wait for what workers tell; return what came of rows."""
         pipes = {worker.pipe: worker for worker in self._workers}
+        begin = time.monotonic()
         wait(list(pipes), timeout=self._patience())
+        # All may have been stopped for hours: no wait counts for more than it was meant to take.
+        waited = min(time.monotonic() - begin, self._beat)
         found: list[RowResult] = []
         for pipe, worker in pipes.items():
+            worker.silence = 0.0 if pipe.poll() else worker.silence + waited
             try:
                 while pipe.poll():
                     self._hear(worker, pipe.recv(), found)
             except (EOFError, OSError):
+                found += self._bury(worker)
+                continue
+            if worker.silence > self._stalled:
                 found += self._bury(worker)
         if self._timeout is not None:
             for worker in list(self._workers):
@@ -163,16 +185,18 @@ class _Pool:
                     found.append(self._give_up(worker))
         return found
 
-    def _patience(self) -> float | None:
+    def _patience(self) -> float:
         if self._timeout is None:
-            return None
+            return self._beat
         now = time.monotonic()
         ends = [each.since + self._timeout - now for each in self._workers if each.rows]
-        return max(0.0, min(ends)) + 0.01 if ends else None
+        return min(self._beat, max(0.0, min(ends)) + 0.01) if ends else self._beat
 
     def _hear(self, worker: _Worker, told: object, found: list[RowResult]) -> None:
         if isinstance(told, Refused):
             raise CampaignError(told.message)
+        if told == ALIVE:
+            return
         if not isinstance(told, RowResult):
             worker.is_ready = True
             return
@@ -217,7 +241,7 @@ class _Pool:
 def crashed(row: Row, attempts: int) -> RowResult:
     """Return what came of a row that ended its process each time, the same on all engines."""
     return RowResult(
-        row, {}, CRASHED, "the process of this row ended, each time", attempts=attempts
+        row, {}, CRASHED, "the process of this row ended or stalled, each time", attempts=attempts
     )
 
 

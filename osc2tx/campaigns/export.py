@@ -17,6 +17,9 @@ from .store import CampaignError
 
 __all__ = ["export_rows", "flat_rows", "write_text"]
 
+FORMULA = ("=", "+", "-", "@", "\t", "\r")
+"""How a text begins that spreadsheets evaluate."""
+
 
 def export_rows(store: Store, file: Path) -> int:
     """Write a table; its form follows from the end of its name. Return how many rows it has.
@@ -54,6 +57,7 @@ def flat_rows(store: Store) -> Iterator[dict[str, Any]]:
             **{name: run[name] for name in ("number", "seed", "status", "reason", "time")},
             **{f"parameter {name}": value for name, value in run["parameters"].items()},
             **{f"kpi {name}": value for name, value in run["measures"].items()},
+            "violations": len(run["violations"]),
             **({"digest": run["digest"]} if run["digest"] else {}),
         }
 
@@ -61,7 +65,13 @@ def flat_rows(store: Store) -> Iterator[dict[str, Any]]:
 def _csv(rows: list[dict[str, Any]]) -> str:
     names = list(dict.fromkeys(name for row in rows for name in row))
     out = io.StringIO()
-    writer = csv.DictWriter(out, names, lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)  # floats as `repr` has them
+    writer = csv.writer(out, lineterminator="\r\n")  # RFC 4180
+    writer.writerow(map(_field, names))
+    for row in rows:  # floats as `repr` has them
+        writer.writerow(_field(row.get(name)) for name in names)
     return out.getvalue()
+
+
+def _field(value: Any) -> Any:
+    """Keep as text what a spreadsheet would take for a formula, as `report/export.js` does."""
+    return f"'{value}" if isinstance(value, str) and value.startswith(FORMULA) else value

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
@@ -9,13 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from osc2tx.campaigns.sampling import Sampler, Wanted
+from osc2tx.campaigns.store import Store
 from osc2tx.version import __version__
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.campaigns import Condition, Executor, Plan, Row
 from osc2tx_runtime.running.options import read_options
 from osc2tx_shared.classes import replace
 
-__all__ = ["identity_of", "plan_from", "plan_to"]
+__all__ = ["identity_of", "plan_of", "plan_to", "with_files_of"]
 
 Texts = Mapping[str, Sequence[str]]
 """Options of a run as they are written, by name."""
@@ -45,8 +47,37 @@ def identity_of(
 
 
 def _digest_of(files: Mapping[str, str]) -> str:
-    modules = {name: text for name, text in sorted(files.items()) if name.endswith(".py")}
+    """Return a digest of what modules do: their comments and docstrings change no row."""
+    modules = {name: _code(text) for name, text in sorted(files.items()) if name.endswith(".py")}
     return hashlib.sha256(json.dumps(modules).encode()).hexdigest()
+
+
+def _code(text: str) -> str:
+    try:
+        tree = ast.parse(text)
+    except (SyntaxError, ValueError):  # loading it says why
+        return text
+    for node in ast.walk(tree):
+        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(
+            node
+        ):
+            node.body[0] = ast.Pass()
+    return ast.unparse(tree)
+
+
+def with_files_of(plan: Plan, store: Store) -> Plan:
+    """Return a plan with the modules that the rows of a store were run with.
+
+    They may differ in comments, and so in the lines that traces name.
+
+    Raises:
+        CampaignError: They are not the modules of the plan: the store is damaged.
+    """
+    stored = plan_of(store).files
+    with store.as_written("the modules of the campaign"):
+        if _digest_of(stored) != _digest_of(plan.files):
+            raise ValueError("their digest is another one")
+    return replace(plan, files=stored)
 
 
 def _map_digest(executor: Executor) -> str | None:
@@ -71,16 +102,22 @@ def plan_to(plan: Plan, texts: Texts, folders: Sequence[Path]) -> dict[str, Any]
     }
 
 
-def plan_from(data: Mapping[str, Any]) -> Plan:
-    """Return the plan that `plan_to` wrote.
+def plan_of(store: Store) -> Plan:
+    """Return the plan that a store was begun with.
 
     Raises:
+        CampaignError: Nothing was run yet, or the plan is damaged.
         SettingsError: An option is not known any more.
     """
+    with store.as_written("the plan of the campaign"):
+        return _plan_from(store.plan)
+
+
+def _plan_from(data: Mapping[str, Any]) -> Plan:
     texts = {name: text for name, text in data["options"].items() if name != "map-path"}
     settings = replace(read_options(texts), map_path=tuple(map(Path, data["map_path"])))
     return Plan(
-        files=data["files"],
+        files={str(name): str(text) for name, text in data["files"].items()},
         module=data["module"],
         scenario=data["scenario"],
         settings=settings,

@@ -56,6 +56,9 @@ def _suite(root: etree.Element, results: Results, name: str, runs: Sequence[Run]
                 "time": f"{run['seconds']:.3f}",
             },
         )
+        if run["violations"]:
+            out = etree.SubElement(case, "system-out")
+            out.text = visible_lines("\n".join(run["violations"]))
         if run["status"] == "success":
             continue
         kind = "error" if run["status"] in NOT_A_TEST else "failure"

@@ -4,11 +4,22 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from types import NoneType
 from typing import Any
 
 from osc2tx_runtime.campaigns import Row, RowResult
 
-__all__ = ["COLUMNS", "OF_THE_MACHINE", "SCHEMA", "decoded", "record", "row_of"]
+__all__ = [
+    "COLUMNS",
+    "IDENTITY_TYPES",
+    "OF_THE_MACHINE",
+    "PLAN_TYPES",
+    "SCHEMA",
+    "decoded",
+    "record",
+    "require_types",
+    "row_of",
+]
 
 SCHEMA = """
 create table campaign (name text primary key, value text not null) without rowid;
@@ -24,6 +35,7 @@ create table run (
     steps integer not null,
     time real not null,
     measures text not null,
+    violations text not null,
     digest text,
     seconds real not null,
     attempts integer not null
@@ -45,8 +57,30 @@ create table left_out (number integer primary key);
 OF_THE_MACHINE = ("seconds", "attempts")
 COLUMNS = (
     *("number", "seed", "shares", "given", "parameters", "status", "reason", "source", "steps"),
-    *("time", "measures", "digest", "seconds", "attempts"),
+    *("time", "measures", "violations", "digest", "seconds", "attempts"),
 )
+
+_NUMBER = (int, float)
+_TEXT_OR_NONE = (str, NoneType)
+
+ROW_TYPES: Mapping[str, Any] = {
+    **{"number": int, "seed": int, "shares": (dict, NoneType), "given": dict, "parameters": dict},
+    **{"status": str, "reason": str, "source": _TEXT_OR_NONE, "steps": int, "time": _NUMBER},
+    **{"measures": dict, "digest": _TEXT_OR_NONE, "seconds": _NUMBER, "attempts": int},
+}
+"""Types of the values of a row."""
+
+PLAN_TYPES: Mapping[str, Any] = {
+    **{"files": dict, "module": str, "scenario": str, "options": dict, "map_path": list},
+    **{"measures": list, "fail_if": list, "digests": bool},
+}
+"""Types of what all rows have in common."""
+
+IDENTITY_TYPES: Mapping[str, Any] = {
+    **{"scenario": str, "modules": str, "osc2tx": str, "sampler": str, "seed": int},
+    **{"options": dict, "kpi": list, "fail-if": list},
+}
+"""Types of what makes a campaign another one."""
 
 
 def row_of(run: Mapping[str, Any]) -> Row:
@@ -69,6 +103,7 @@ def record(result: RowResult) -> Sequence[Any]:
         result.steps,
         result.time,
         json.dumps(dict(result.measures)),
+        json.dumps(result.violations),
         result.digest,
         result.seconds,
         result.attempts,
@@ -76,8 +111,24 @@ def record(result: RowResult) -> Sequence[Any]:
 
 
 def decoded(values: Sequence[Any]) -> dict[str, Any]:
-    """Return a record by column, JSON as what it says."""
+    """Return a record by column, JSON as what it says.
+
+    Raises:
+        ValueError: Nothing that osc2tx writes into a column.
+    """
     found = dict(zip(COLUMNS, values, strict=True))
-    for name in ("shares", "given", "parameters", "measures"):
+    for name in ("shares", "given", "parameters", "measures", "violations"):
         found[name] = None if found[name] is None else json.loads(found[name])
+    require_types(found, ROW_TYPES)
     return found
+
+
+def require_types(values: Mapping[str, Any], types: Mapping[str, Any]) -> None:
+    """Check the values of a mapping.
+
+    Raises:
+        ValueError: One is missing, or of another type.
+    """
+    for name, wanted in types.items():
+        if not isinstance(values.get(name), wanted):
+            raise ValueError(f"`{name}` is {json.dumps(values.get(name), default=str)[:60]}")

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
 
-from osc2tx.campaigns.identity import plan_from
+from osc2tx.campaigns.identity import plan_of
 from osc2tx.campaigns.records import row_of
 from osc2tx.campaigns.store import Store
 from osc2tx_runtime import RunResult
@@ -39,7 +39,7 @@ def replay_row(
         ScenarioError: The row could not be run, and cannot.
     """
     run = store.run(number)
-    plan = plan_from(store.plan)
+    plan = plan_of(store)
     settings = replace(plan.settings, map_path=(*folders, *plan.settings.map_path))
     with closing(Executor(replace(plan, settings=settings))) as executor:
         result, values = executor.run_whole(row_of(run), trace, report)

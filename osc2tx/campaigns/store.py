@@ -1,7 +1,8 @@
 """Keeps what came of the rows of a campaign in one SQLite file.
 
 The driver alone writes. A row that arrives twice is stored once, and what was stored before a
-process was killed stays: SQLite's write-ahead log sees to that.
+process was killed stays: SQLite's write-ahead log sees to that. The file may be a stranger's or
+damaged: all that is read is checked, and every failure names the file and what of it is kept.
 """
 
 from __future__ import annotations
@@ -9,13 +10,24 @@ from __future__ import annotations
 import hashlib
 import json
 import sqlite3
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from osc2tx.campaigns.records import COLUMNS, OF_THE_MACHINE, SCHEMA, decoded, record
+from osc2tx.campaigns.records import (
+    COLUMNS,
+    IDENTITY_TYPES,
+    OF_THE_MACHINE,
+    PLAN_TYPES,
+    SCHEMA,
+    decoded,
+    record,
+    require_types,
+)
 from osc2tx_runtime.campaigns import RowResult
+from osc2tx_runtime.errors import told
 
 __all__ = ["CampaignError", "Store"]
 
@@ -24,7 +36,73 @@ class CampaignError(Exception):
     """A campaign cannot be run, or its store cannot be used; the message says what to do."""
 
 
-FORMAT = 1
+FORMAT = 2
+
+
+class _Database:
+    """An SQLite file whose failures say what is kept.
+
+    Args:
+        path: The file.
+
+    Raises:
+        sqlite3.Error: It cannot be opened.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._base = sqlite3.connect(path, timeout=30.0, isolation_level=None)
+        self._file = _file_of(path)
+
+    def close(self) -> None:
+        """Close the file."""
+        self._base.close()
+
+    def execute(self, statement: str, values: Sequence[Any] = ()) -> None:
+        """Carry out a statement."""
+        with self._failures():
+            self._base.execute(statement, values)
+
+    def rows(self, query: str, values: Sequence[Any] = ()) -> Iterator[tuple[Any, ...]]:
+        """Yield the rows of a query."""
+        with self._failures():
+            yield from self._base.execute(query, values)
+
+    @contextmanager
+    def writing(self) -> Iterator[sqlite3.Connection]:
+        """Make all changes at once, or none of them."""
+        with self._failures():
+            self._base.execute("begin immediate")
+            try:
+                yield self._base
+                self._base.execute("commit")
+            except BaseException:
+                if self._base.in_transaction:  # a full disk has ended it already
+                    self._base.execute("rollback")
+                raise
+        if _file_of(self._path) != self._file:
+            raise CampaignError(
+                f"{self._path}: the store was removed or replaced while it was in use; what was"
+                " stored since then is lost"
+            )
+
+    @contextmanager
+    def _failures(self) -> Iterator[None]:
+        try:
+            yield
+        except sqlite3.Error as error:
+            raise CampaignError(
+                f"{self._path}: {error}; the rows that were stored before are kept, as far as the"
+                " file can be read"
+            ) from error
+
+
+def _file_of(path: Path) -> tuple[int, int] | None:
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_dev, found.st_ino
 
 
 class Store:
@@ -45,33 +123,42 @@ class Store:
         try:
             if is_new:
                 path.parent.mkdir(parents=True, exist_ok=True)
-            self._base = sqlite3.connect(path, timeout=30.0, isolation_level=None)
+            self._base = _Database(path)
+        except (OSError, ValueError, sqlite3.Error) as error:
+            raise CampaignError(f"{path}: it is no store of a campaign: {error}") from error
+        try:
             if is_new:
                 self._make()
             self._check()
-        except (OSError, sqlite3.Error) as error:
-            raise CampaignError(f"{path}: it is no store of a campaign: {error}") from error
+        except CampaignError as error:
+            self._base.close()
+            if isinstance(error.__cause__, sqlite3.DatabaseError) and not isinstance(
+                error.__cause__, sqlite3.OperationalError
+            ):
+                raise CampaignError(
+                    f"{path}: it is no store of a campaign: {error.__cause__}"
+                ) from error
+            raise
 
     def _make(self) -> None:
         """Make the tables of an empty file, if nobody else has done so meanwhile."""
         if self._tables():
             return
         self._base.execute("pragma journal_mode = wal")
-        self._base.execute("begin immediate")
-        if not self._tables():
-            for statement in filter(str.strip, SCHEMA.split(";")):
-                self._base.execute(statement)
-            self._base.execute(f"pragma user_version = {FORMAT}")
-        self._base.execute("commit")
+        with self._base.writing() as base:
+            if not self._tables():
+                for statement in filter(str.strip, SCHEMA.split(";")):
+                    base.execute(statement)
+                base.execute(f"pragma user_version = {FORMAT}")
 
     def _check(self) -> None:
-        found = self._base.execute("pragma user_version").fetchone()[0]
+        ((found,),) = self._base.rows("pragma user_version")
         if found != FORMAT or not {"campaign", "run", "left_out"} <= self._tables():
             raise CampaignError(f"{self.path}: it is no store of a campaign, or of another version")
         self._base.execute("pragma synchronous = normal")
 
     def _tables(self) -> set[str]:
-        return {name for (name,) in self._base.execute("select name from sqlite_master")}
+        return {name for (name,) in self._base.rows("select name from sqlite_master")}
 
     def __enter__(self) -> Store:
         return self
@@ -89,7 +176,7 @@ class Store:
     @property
     def identity(self) -> dict[str, Any] | None:
         """What the campaign is; None of a store that is still empty."""
-        return self._told("identity")
+        return self._told("identity", IDENTITY_TYPES)
 
     @property
     def plan(self) -> dict[str, Any]:
@@ -98,27 +185,45 @@ class Store:
         Raises:
             CampaignError: The store is empty.
         """
-        found = self._told("plan")
+        found = self._told("plan", PLAN_TYPES)
         if found is None:
             raise CampaignError(f"{self.path}: nothing was run yet")
         return found
 
-    def _told(self, name: str) -> dict[str, Any] | None:
+    def _told(self, name: str, types: Mapping[str, Any]) -> dict[str, Any] | None:
         query = "select value from campaign where name = ?"
-        found = self._base.execute(query, (name,)).fetchone()
-        value: dict[str, Any] | None = json.loads(found[0]) if found else None
-        return value
+        for (text,) in list(self._base.rows(query, (name,))):
+            with self.as_written(f"the {name} of the campaign"):
+                value: dict[str, Any] = json.loads(text)
+                require_types(value, types)
+                return value
+        return None
+
+    @contextmanager
+    def as_written(self, what: str) -> Iterator[None]:
+        """Read something of the store that has to be as osc2tx writes it.
+
+        Raises:
+            CampaignError: It is not; the message names it.
+        """
+        try:
+            yield
+        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+            raise CampaignError(
+                f"{self.path}: {what} is damaged ({told(error)}); nothing was changed"
+            ) from error
 
     @property
     def wanted(self) -> int | None:
         """How many rows the last call wanted, if it said."""
-        found = self._told("samples")
+        found = self._told("samples", {"rows": int})
         return None if found is None else int(found["rows"])
 
     @wanted.setter
     def wanted(self, rows: int) -> None:
-        told = json.dumps({"rows": rows})
-        self._base.execute("insert or replace into campaign values ('samples', ?)", (told,))
+        text = json.dumps({"rows": rows})
+        with self._base.writing() as base:
+            base.execute("insert or replace into campaign values ('samples', ?)", (text,))
 
     def claim(self, identity: Mapping[str, Any], plan: Mapping[str, Any]) -> None:
         """Make the store that of a campaign, or see that it is.
@@ -136,9 +241,8 @@ class Store:
                 )
             return
         values = [("identity", json.dumps(identity)), ("plan", json.dumps(plan))]
-        self._base.execute("begin immediate")
-        self._base.executemany("insert or ignore into campaign values (?, ?)", values)
-        self._base.execute("commit")
+        with self._base.writing() as base:
+            base.executemany("insert or ignore into campaign values (?, ?)", values)
 
     # --- rows ---
 
@@ -156,42 +260,42 @@ class Store:
             for each in results
             for nth, sample in enumerate(each.samples)
         ]
-        base = self._base
-        base.execute("begin immediate")
-        try:
+        with self._base.writing() as base:
             base.executemany(f"insert or ignore into run values ({marks})", map(record, results))
             base.executemany("insert or ignore into collision values (?,?,?,?,?,?)", collisions)
             base.executemany("insert or ignore into sample values (?,?,?,?)", samples)
             base.executemany(
                 "insert or ignore into left_out values (?)", ((number,) for number in left_out)
             )
-        except BaseException:
-            base.execute("rollback")
-            raise
-        base.execute("commit")
 
     def done(self) -> set[int]:
         """Return the numbers of the rows that were run."""
-        return {number for (number,) in self._base.execute("select number from run")}
+        return {number for (number,) in self._base.rows("select number from run")}
 
     def left_out(self) -> set[int]:
         """Return the numbers of the rows that break a constraint."""
-        return {number for (number,) in self._base.execute("select number from left_out")}
+        return {number for (number,) in self._base.rows("select number from left_out")}
 
     def measures(self) -> dict[int, dict[str, float | None]]:
         """Return the measures of all rows by number."""
         query = "select number, measures from run order by number"
-        return {number: json.loads(text) for number, text in self._base.execute(query)}
+        rows = list(self._base.rows(query))
+        with self.as_written("the measures of a row"):
+            return {number: dict(json.loads(text)) for number, text in rows}
 
     def counts(self) -> dict[str, int]:
         """Return how many rows ended how."""
         query = "select status, count(*) from run group by status order by status"
-        return dict(self._base.execute(query))
+        return {status: number for status, number in self._base.rows(query)}
 
     def runs(self) -> Iterator[dict[str, Any]]:
         """Yield all rows by number: columns of the table, JSON as what it says."""
-        for values in self._base.execute(f"select {', '.join(COLUMNS)} from run order by number"):
-            yield decoded(values)
+        for values in self._base.rows(f"select {', '.join(COLUMNS)} from run order by number"):
+            yield self._decoded(values)
+
+    def _decoded(self, values: Sequence[Any]) -> dict[str, Any]:
+        with self.as_written(f"row {values[0]}"):
+            return decoded(values)
 
     def run(self, number: int) -> dict[str, Any]:
         """Return a row.
@@ -200,22 +304,25 @@ class Store:
             CampaignError: It was not run.
         """
         query = f"select {', '.join(COLUMNS)} from run where number = ?"
-        values = self._base.execute(query, (number,)).fetchone()
-        if values is None:
+        found = list(self._base.rows(query, (number,)))
+        if not found:
             why = "breaks a constraint, so it was left out" if number in self.left_out() else ""
             raise CampaignError(f"{self.path}: row {number} {why or 'was not run'}")
-        return decoded(values)
+        return self._decoded(found[0])
 
     def collisions(self) -> Iterator[tuple[Any, ...]]:
         """Yield the contacts of all rows: number, nth, time (s), both actors, speed (m/s)."""
-        yield from self._base.execute("select * from collision order by number, nth")
+        yield from self._base.rows("select * from collision order by number, nth")
 
     def samples(self) -> Iterator[tuple[int, str, dict[str, Any]]]:
         """Yield what coverage items sampled: number, `cover` or `record`, the line of the trace."""
-        for number, kind, line in self._base.execute(
+        for number, kind, text in self._base.rows(
             "select number, kind, line from sample order by number, nth"
         ):
-            yield number, kind, json.loads(line)
+            with self.as_written(f"a sample of row {number}"):
+                line = json.loads(text)
+                require_types(line, {"name": str})
+            yield number, kind, line
 
     def digest(self) -> str:
         """Return the SHA-256 of all that was found, without what depends on the machine."""
@@ -227,7 +334,7 @@ class Store:
             "select * from sample order by number, nth",
             "select number from left_out order by number",
         ):
-            for values in self._base.execute(query):
+            for values in self._base.rows(query):
                 digest.update(repr(values).encode())
         return digest.hexdigest()
 

@@ -4,8 +4,8 @@ Exit codes: 0 ok (warnings included), 1 outputs are stale, or warnings under --s
 or settings, 3 errors in a source, 4 unreadable input or unwritable output, 5 the scenario ran and
 failed, 70 a bug of ours.
 
-`init`, `check`, `build`, `report`, `fmt`, `map`, `config`, `reference` and `explain` hold the
-commands, each loaded when it is asked for; `options` and `progress` are what they share.
+`init`, `check`, `build`, `report`, `verify`, `fmt`, `map`, `config`, `reference` and `explain` hold
+the commands, each loaded when it is asked for; `options` and `progress` are what they share.
 """
 
 from __future__ import annotations
@@ -34,10 +34,12 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "build": ("osc2tx.cli.build:build", "Write a py_trees module for every scenario file."),
     "run": ("osc2tx.cli.run:run", "Run a scenario in the embedded world."),
     "campaign": ("osc2tx.cli.campaign:campaign", "Run a scenario many times, with other values."),
+    "verify": ("osc2tx.cli.verify:verify", "Check whether a trace does what its scenario states."),
     "report": ("osc2tx.cli.report:report", "Make pages of traces: one run, two, or a folder."),
     "fmt": ("osc2tx.cli.fmt:fmt", "Lay scenario files out in the style of the standard."),
     "tree": ("osc2tx.cli.tree:tree", "Draw the behavior tree of a scenario."),
     "map": ("osc2tx.cli.map:map", "Say what is in a road map, and what is wrong with it."),
+    "world": ("osc2tx.cli.world:world", "Compare a simulator with what runs rely on."),
     "config": ("osc2tx.cli.config:config", "Show the settings in force, and where they are from."),
     "reference": ("osc2tx.cli.reference:reference", "Say what a name of the library means."),
     "explain": ("osc2tx.cli.explain:explain", "Say what a diagnostic code means."),

@@ -9,9 +9,15 @@ from typing import TYPE_CHECKING
 import click
 
 from osc2tx.building.jobs import compile_all, run_all
-from osc2tx.building.manifest import MANIFEST_NAME, ManifestError
 from osc2tx.cli.diff_output import print_diff, read_text
-from osc2tx.cli.options import compile_options, seen_from, stated_sources, target_options
+from osc2tx.cli.options import (
+    cache_option,
+    compile_options,
+    seen_from,
+    stated_sources,
+    target_options,
+    workers_option,
+)
 from osc2tx.cli.progress import progress_bar
 from osc2tx.cli.reporting import Exit, Reporter, count_of, found, report_options
 from osc2tx.compilation.driver import Compilation
@@ -19,6 +25,8 @@ from osc2tx.compilation.dump import dump_product
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError, ConfigFiles, GivenOptions
 from osc2tx.options import PRODUCT_NAMES, ProductName
+from osc2tx.support.paths import is_committed
+from osc2tx_shared.cache import cache_folder
 from osc2tx_shared.classes import dataclass, replace
 from osc2tx_shared.text import complain, put, visible
 
@@ -40,6 +48,7 @@ class _Task:
     workers: int
     force: bool
     prune: bool
+    cache: Path | None
 
 
 @click.command()
@@ -67,14 +76,8 @@ class _Task:
 @click.option("--watch", is_flag=True, help="Go on and build again when a source changes.")
 @click.option("--force", is_flag=True, help="Write also over what was edited by hand.")
 @click.option("--prune", is_flag=True, help="Remove outputs whose source has vanished.")
-@click.option(
-    "-j",
-    "--jobs",
-    "workers",
-    type=click.IntRange(min=1),
-    metavar="N",
-    help="Compile in N processes.  [default: one for each processor]",
-)
+@workers_option
+@cache_option
 @report_options
 def build(
     paths: tuple[str, ...],
@@ -88,11 +91,13 @@ def build(
     force: bool,
     prune: bool,
     workers: int | None,
+    cache: Path | None,
     reporter: Reporter,
 ) -> Exit:
     """Write a py_trees module for every scenario file, and OpenSCENARIO XML where it is exact.
 
-    Without PATH and --out, `sources` and `out` of the settings file count.
+    Without PATH and --out, `sources` and `out` of the settings file count. Without PATH, outputs
+    whose source has vanished are removed.
     """
     reads_only = check_only or diff or diff_against is not None
     if emit is not None:
@@ -110,15 +115,15 @@ def build(
         raise click.UsageError("--diff and --output-format both print to standard output")
     from osc2tx.building.workers import processors
 
-    task = _Task(*_places(paths, out_dir), given, reporter, workers or processors(), force, prune)
-    try:
-        if diff_against is not None:
-            return _diff_against(task, diff_against)
-        if reads_only:
-            return _compare(task, check=check_only, diff=diff)
-        return _watch(task) if watch else _write(task)[0]
-    except ManifestError as error:
-        raise click.UsageError(str(error)) from None
+    is_whole = not paths
+    places = _places(paths, out_dir)
+    workers = workers or processors()
+    task = _Task(*places, given, reporter, workers, force, prune or is_whole, cache)
+    if diff_against is not None:
+        return _diff_against(task, diff_against)
+    if reads_only:
+        return _compare(task, check=check_only, diff=diff)
+    return _watch(task) if watch else _write(task)[0]
 
 
 def _places(paths: tuple[str, ...], out_dir: Path | None) -> tuple[tuple[str, ...], Path]:
@@ -138,9 +143,16 @@ def _run(task: _Task, options: BuildOptions) -> tuple[BuildResult, Exit, str]:
     from osc2tx.building.build import build as build_files
 
     configs = ConfigFiles()
-    with progress_bar("compiling") as progress:
+    is_kept = cache_folder(task.cache) is not None
+    with progress_bar("compiling", is_kept=is_kept) as progress:
         result = build_files(
-            task.paths, task.out_dir, task.given, options, configs=configs, progress=progress
+            task.paths,
+            task.out_dir,
+            task.given,
+            replace(options, cache=task.cache),
+            configs=configs,
+            progress=progress,
+            waiting=_say_who_builds,
         )
     code, report = task.reporter.report(result.results, result.bugs)
     if any(Path(path).is_dir() for path in task.paths):
@@ -154,6 +166,10 @@ def _run(task: _Task, options: BuildOptions) -> tuple[BuildResult, Exit, str]:
     return result, code, found(report)
 
 
+def _say_who_builds(process: str) -> None:
+    complain(f"waiting for the build of process {process}")
+
+
 def _write(task: _Task) -> tuple[Exit, Sequence[FileResult]]:
     from osc2tx.building.build import BuildOptions
     from osc2tx.building.plan import PROTECTED, State
@@ -164,7 +180,7 @@ def _write(task: _Task) -> tuple[Exit, Sequence[FileResult]]:
         if change.state in PROTECTED:
             complain(f"{change.path}: {change.state.value}; --force overwrites it")
             code = max(code, Exit.STALE)
-        elif change.state is State.ORPHANED:
+        elif change.state is State.ORPHANED and is_committed(change.path.name):
             remedy = "--prune" if change.is_untouched else "it was edited; --prune --force"
             complain(f"{change.path}: {_orphaned(change)}; {remedy} removes it")
     removed = [c for c in result.changes if c.state is State.ORPHANED and c.path in result.written]
@@ -200,9 +216,8 @@ def _compare(task: _Task, *, check: bool, diff: bool) -> Exit:
         task.reporter.find_fault(change.path, fault)
         if diff and change.text is not None:
             print_diff(str(change.path), read_text(change.path), change.text)
-    changed = [change for change in result.changes if change.path.name != MANIFEST_NAME]
     summary = f"{count_of(result.modules, 'module')} in {task.out_dir}: "
-    summary += f"{count_of(len(changed), 'file')} would change; {counts}"
+    summary += f"{count_of(len(result.changes), 'file')} would change; {counts}"
     (complain if diff else task.reporter.say)(summary)
     return max(code, Exit.STALE) if check and result.changes else code
 
@@ -239,7 +254,7 @@ def _watch(task: _Task) -> Exit:
     for _ in rounds(task.paths, files.copy, lambda: sleep(POLL_SECONDS)):
         try:
             files |= files_read(_write(task)[1])
-        except (ConfigError, InputError, ManifestError) as error:
+        except (ConfigError, InputError) as error:
             complain(f"osc2tx: error: {error}")
     return Exit.OK
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import click
 
 from osc2tx.campaigns import CampaignError
-from osc2tx.campaigns.coverage import overall
+from osc2tx.campaigns.coverage import has_models, overall
 from osc2tx.campaigns.export import export_rows, write_text
 from osc2tx.campaigns.junit import render_junit
 from osc2tx.campaigns.replay import replay_row
@@ -43,10 +43,12 @@ def replay(
     """Run one row of a campaign again, from what the store knows, and write its files.
 
     The run is the same to the last byte of its trace. If it is not, as in another version of
-    osc2tx or on another map, that is an error.
+    osc2tx or on another map, that is an error. The Python module of the store is run: replay only
+    stores of people whose code you would run.
     """
     try:
         with Store(store) as opened:
+            _tell_whose(opened)
             name, result = replay_row(opened, row, trace, report, map_path)
     except CampaignError as error:
         raise click.UsageError(str(error)) from None
@@ -83,7 +85,8 @@ def report(
     """Write what came of a campaign as one HTML page that loads nothing.
 
     Coverage holes come first, and are told from what the constraints leave no values for; failures
-    are grouped, each group with its shortest row and the command that repeats it.
+    are grouped, each group with its shortest row and the command that repeats it. Coverage needs
+    the Python module of the store, which is run.
     """
     place = page or store.with_suffix(".html")
     try:
@@ -110,8 +113,17 @@ def report(
     return Exit.OK
 
 
+def _tell_whose(store: Store) -> None:
+    """Say that a module runs that came with the store."""
+    complain(
+        f"{store.path}: runs {store.plan['module']} as the store has it, code of whoever made it"
+    )
+
+
 def _read(place: Path) -> Results:
     with Store(place) as opened:
+        if has_models(opened):
+            _tell_whose(opened)
         return results_of(opened)
 
 
@@ -133,8 +145,8 @@ def export(store: Path, file: Path) -> Exit:
     """Write all rows as a table: FILE.csv, or JSON Lines for FILE.jsonl.
 
     Columns: number, seed, status, reason, seconds of simulated time, `parameter NAME` and
-    `kpi NAME`, all in SI units, and the digest of the trace if there is one. Numbers have all their
-    digits.
+    `kpi NAME`, all in SI units, the number of conditions that did not hold, and the digest of the
+    trace if there is one. Numbers have all their digits.
     """
     try:
         with Store(store) as opened:

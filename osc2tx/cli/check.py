@@ -9,7 +9,14 @@ import click
 
 from osc2tx.building.jobs import find_jobs, run_all
 from osc2tx.building.result_cache import check_jobs
-from osc2tx.cli.options import compile_options, sources_or_stated, target_options
+from osc2tx.cli.options import (
+    cache_option,
+    compile_options,
+    sources_or_stated,
+    target_options,
+    workers_option,
+)
+from osc2tx.cli.progress import progress_bar
 from osc2tx.cli.reporting import Exit, Reporter, count_of, found, report_options
 from osc2tx.cli.standard_input import (
     compilation_of_standard_input,
@@ -17,6 +24,7 @@ from osc2tx.cli.standard_input import (
     stdin_filename,
 )
 from osc2tx.config import ConfigFiles, GivenOptions
+from osc2tx_shared.cache import cache_folder
 
 if TYPE_CHECKING:
     from osc2tx.compilation.driver import Compilation
@@ -27,12 +35,16 @@ if TYPE_CHECKING:
 @compile_options
 @target_options
 @click.option("--no-cache", is_flag=True, help="Check also what is as it was at the last check.")
+@cache_option
+@workers_option
 @stdin_filename
 @report_options
 def check(
     paths: tuple[str, ...],
     given: GivenOptions,
     no_cache: bool,
+    cache: Path | None,
+    workers: int | None,
     stdin_filename: str | None,
     reporter: Reporter,
 ) -> Exit:
@@ -44,7 +56,17 @@ def check(
         return _check_input(compilation_of_standard_input(stdin_filename, given), reporter)
     paths = sources_or_stated(paths, "check")
     configs = ConfigFiles()
-    results = check_jobs(find_jobs(paths, given, configs), remember=not no_cache)
+    jobs = find_jobs(paths, given, configs)
+    is_kept = not no_cache and cache_folder(cache) is not None
+    with progress_bar("checking", is_kept=is_kept) as progress:
+        results = check_jobs(
+            jobs,
+            remember=not no_cache,
+            workers=workers,
+            progress=progress,
+            configs=configs,
+            cache=cache,
+        )
     code, report = reporter.report(results, [result.bug for result in results if result.bug])
     for result in results:
         for entry in result.scenarios:

@@ -76,7 +76,7 @@ def written_files(place: Path) -> tuple[dict[str, str], str]:
     """
     place = real_path(place)
     try:
-        found = [place, *(Path(file) for file in _siblings(place).values() if file)]
+        found = [place, *(Path(file) for file in _siblings(place)[0].values() if file)]
         root = Path(os.path.commonpath([each.parent for each in found]))
         beside = [each.with_suffix(end) for each in found for end in (SOURCE_MAP, COVERAGE_MODEL)]
         files = {
@@ -115,7 +115,7 @@ def _found_siblings(place: Path) -> Iterator[None]:
     Others of the same names are out of sight for as long, and what it imported is forgotten
     afterwards: each of several folders has modules of its own.
     """
-    files = _siblings(place)
+    files, folders = _siblings(place)
     path, writes_none = list(sys.path), sys.dont_write_bytecode
     hidden = {
         name: module
@@ -125,7 +125,7 @@ def _found_siblings(place: Path) -> Iterator[None]:
     kept = files.keys() & (sys.modules.keys() - hidden.keys())
     for name in hidden:
         del sys.modules[name]
-    sys.path.insert(0, str(place.parent))
+    sys.path[:0] = folders
     sys.dont_write_bytecode = True  # who only looks at a folder leaves nothing in it
     importlib.invalidate_caches()
     try:
@@ -137,30 +137,38 @@ def _found_siblings(place: Path) -> Iterator[None]:
         sys.modules.update(hidden)
 
 
-def _siblings(place: Path) -> dict[str, str | None]:
-    """Return the modules and packages that a module imports from around it, with their files."""
+def _siblings(place: Path) -> tuple[dict[str, str | None], list[str]]:
+    """Return what a module imports from around it, and the folders that it is imported from.
+
+    Returns:
+        Modules and packages with their files, and the folders for the path of the search.
+    """
     found: dict[str, str | None] = {}
+    folders = [str(place.parent)]
     pending = [real_path(place)]
     while pending:
         importing = pending.pop()
         tree = ast.parse(importing.read_bytes(), str(importing))
         statements = (each for each in tree.body if isinstance(each, ast.ImportFrom))
         for name in (each.module for each in statements if each.module and not each.level):
-            file = _file_of(name, importing.parent)
-            if file is not None and name not in found:
-                found[name] = str(file)
-                pending.append(file)
+            root = _root_of(name, importing.parent)
+            if root is not None and name not in found:
+                folders += [str(root)] if str(root) not in folders else []
+                found[name] = str(root / _file_of(name))
+                pending.append(root / _file_of(name))
                 packages = name.split(".")[:-1]
                 found |= {".".join(packages[: i + 1]): None for i in range(len(packages))}
-    return found
+    return found, folders
 
 
-def _file_of(name: str, folder: Path) -> Path | None:
-    """Return the file of a module in a folder or one above it."""
-    inner = Path(*name.split(".")).with_suffix(".py")
-    return next(
-        (root / inner for root in (folder, *folder.parents) if (root / inner).is_file()), None
-    )
+def _root_of(name: str, folder: Path) -> Path | None:
+    """Return the folder from which the name of a module counts: one that holds another module."""
+    inner = _file_of(name)
+    return next((root for root in (folder, *folder.parents) if (root / inner).is_file()), None)
+
+
+def _file_of(name: str) -> Path:
+    return Path(*name.split(".")).with_suffix(".py")
 
 
 def _scenarios_in(module: ModuleType) -> dict[str, type[Scenario]]:

@@ -53,6 +53,23 @@ def seen_from(path: Path, folder: Path) -> Path:
     return path.relative_to(folder) if path.is_relative_to(folder) else path
 
 
+workers_option = click.option(
+    "-j",
+    "--jobs",
+    "workers",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Work in N processes.  [default: one for each processor]",
+)
+cache_option = click.option(
+    "--cache-dir",
+    "cache",
+    type=click.Path(file_okay=False, path_type=Path),
+    envvar="OSC2TX_CACHE_DIR",
+    help="Folder of earlier results, as CI keeps it.  [default: in the user's cache]",
+)
+
+
 _NAMES = {
     ".osc": re.compile(r"^scenario\s+([\w.]+)", re.MULTILINE),
     ".py": re.compile(r'^    name = "([\w.]+)"$', re.MULTILINE),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 
-from osc2tx_shared.text import is_watched
+from osc2tx_shared.text import complain, is_watched
 
 FEWEST_FILES = 20  # that take long enough to look at a bar
 
@@ -13,19 +13,40 @@ Show = Callable[[int, int], None]
 
 
 @contextmanager
-def progress_bar(label: str) -> Iterator[Show]:
-    """Yield what is to be told how many of how many files are done."""
+def progress_bar(label: str, *, is_kept: bool | None = None) -> Iterator[Show]:
+    """Yield what is to be told how many of how many files are done.
+
+    Args:
+        label: What is done to the files.
+        is_kept: Whether results are kept, which an interruption tells; `None` says nothing then.
+    """
     with ExitStack() as stack:
         bars: list[Show] = []
+        last = (0, 0)
 
         def show(done: int, total: int) -> None:
+            nonlocal last
+            last = done, total
             if total >= FEWEST_FILES and is_watched():
                 if not bars:
                     bars.append(_start(stack, label))
                 if done % max(1, total // 100) == 0 or done == total:
                     bars[0](done, total)
 
-        yield show
+        try:
+            yield show
+        except KeyboardInterrupt:
+            stack.close()
+            if is_kept is not None:
+                complain(_interrupted(*last, is_kept=is_kept))
+            raise
+
+
+def _interrupted(done: int, total: int, *, is_kept: bool) -> str:
+    if not done:
+        return "interrupted"
+    kept = "kept: the next run does the others" if is_kept else "lost, as there is no cache"
+    return f"interrupted: {done} of {total} files are done and {kept}"
 
 
 def _start(stack: ExitStack, label: str) -> Show:

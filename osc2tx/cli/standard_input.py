@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import sys
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from osc2tx.building.jobs import options_of
-from osc2tx.compilation.inputs import InputError
+from osc2tx.building.jobs import job_for
+from osc2tx.compilation.inputs import Input, InputError
 from osc2tx.config import ConfigFiles, GivenOptions
+from osc2tx.support.paths import real_path
 
 if TYPE_CHECKING:
     from osc2tx.compilation.driver import Compilation
@@ -45,20 +45,12 @@ def compilation_of_standard_input(name: str | None, given: GivenOptions) -> Comp
     Raises:
         InputError: If it is no text in UTF-8.
     """
-    from osc2tx.compilation.driver import Compilation  # a remembered check needs no stage
-
     data = sys.stdin.buffer.read()
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(f"standard input: no UTF-8 at byte offset {error.start}") from None
     path = Path(name or UNNAMED)
-    config = ConfigFiles().for_source(path)
-    return Compilation(
-        path,
-        path.as_posix(),
-        config.options_for(path, given),
-        roots=config.roots,
-        text=text,
-        options_of=partial(options_of, given=given),
-    )
+    folder = real_path(path.parent)
+    item = Input(path, folder / path.name, path.parent, is_asked=True)
+    return job_for(item, given, ConfigFiles().for_source(path)).compilation(text=text)

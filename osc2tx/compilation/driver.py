@@ -20,6 +20,7 @@ from osc2tx.compilation.imports import ImportLoader, Lookup, leads_outside, look
 from osc2tx.compilation.inputs import is_unicode
 from osc2tx.compilation.map_files import report_missing_maps
 from osc2tx.compilation.products import Output, files_of_module, files_of_xml
+from osc2tx.compilation.roots import Roots
 from osc2tx.compilation.siblings import find_siblings
 from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
@@ -39,6 +40,8 @@ if TYPE_CHECKING:
 
 
 __all__ = ["Compilation", "Memory", "Output"]
+
+NO_ROOTS = Roots()
 
 Memory: TypeAlias = "dict[tuple[object, ...], Compilation]"
 """Compilations of imported files for themselves, by place, name and settings."""
@@ -63,7 +66,7 @@ class Compilation:
         name: str,
         options: CompileOptions,
         *,
-        roots: Sequence[Path] = (),
+        roots: Roots = NO_ROOTS,
         is_trusted: bool = True,
         text: str | None = None,
         options_of: Callable[[Path], CompileOptions] | None = None,
@@ -75,7 +78,8 @@ class Compilation:
             path: The file.
             name: What to call it.
             options: How to compile it.
-            roots: Folders whose files it may import, besides its own folder.
+            roots: Folders whose files it may import, besides its own folder, and from which
+                names count.
             is_trusted: Whether somebody asked for this very file; else it is not read if it is a
                 link to somewhere outside of the folders.
             text: The text, for a file that exists only in the mind of the caller.
@@ -88,7 +92,7 @@ class Compilation:
         self.sink = DiagnosticSink()
         self.lookups: dict[Path, Lookup] = {}
         self.is_complete = False
-        self._roots = (path.parent, *roots)
+        self._roots = roots
         self._options_of = options_of or (lambda _: options)
         self._memory: Memory = {} if memory is None else memory
         self.compiled_alone: dict[str, Compilation] = {}
@@ -101,7 +105,7 @@ class Compilation:
         """The text."""
         if self._text is not None:
             return SourceFile(self.name, self._text, self.path)
-        if not self._is_trusted and leads_outside(self.path, self._roots):
+        if not self._is_trusted and leads_outside(self.path, (self.path.parent, *self._roots)):
             message = f"cannot read `{self.name}`: it is a link to a file outside of the folder"
             self.sink.report("OSC101", None, message, help="name the file itself to compile it")
             return None
@@ -210,15 +214,15 @@ class Compilation:
         """Return the compilation of an imported file for itself, as a build compiles it."""
         if imported.name not in self.compiled_alone:
             assert imported.path is not None, "it was read from a file"
-            options, roots = self._options_of(imported.path), self._roots[1:]
-            key = (imported.path, imported.name, repr(options), roots)
+            options = self._options_of(imported.path)
+            key = (imported.path, imported.name, repr(options), self._roots)
             made = self._memory.get(key)
             if made is None or not made.is_of(imported, self.lookups):
                 made = Compilation(
                     imported.path,
                     imported.name,
                     options,
-                    roots=roots,
+                    roots=self._roots,
                     options_of=self._options_of,
                     memory=self._memory,
                 )
@@ -227,10 +231,11 @@ class Compilation:
         return self.compiled_alone[imported.name]
 
     def _is_source(self, name: str) -> bool:
-        """Whether there is a file of this name, counted from the folder that is built."""
-        place = Path(self.path.parent, *[".."] * self.name.count("/"), name)
-        self.lookups[place] = look_up(place)
-        return self.lookups[place].text is not None
+        """Whether a folder of the project or of libraries has a file of this name."""
+        own = Path(self.path.parent, *[".."] * self.name.count("/"))
+        places = [Path(root, name) for root in (own, *self._roots, *self.options.import_paths)]
+        self.lookups |= {place: look_up(place) for place in places}
+        return any(self.lookups[place].text is not None for place in places)
 
     def is_of(self, source: SourceFile, lookups: Mapping[Path, Lookup]) -> bool:
         """Whether a text, and what was just found for its imports, is what was compiled here."""
@@ -339,7 +344,8 @@ class Compilation:
 
     def check(self) -> bool:
         """Run all stages that can report something; return whether there is no error."""
-        return self.is_supported
+        with room_for_trees():  # around all: no collection of garbage between the stages either
+            return self.is_supported
 
     def _failed(self) -> bool:
         return self.sink.has_errors

@@ -6,9 +6,11 @@ import os
 import posixpath
 from collections.abc import Collection, Iterator, Sequence
 from functools import lru_cache
+from itertools import takewhile
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
+from osc2tx.compilation.roots import Roots
 from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
 from osc2tx.diagnostics.suggestions import nearest
 from osc2tx.support.paths import real_path
@@ -114,7 +116,7 @@ class ImportLoader:
         self,
         path: Path,
         name: str,
-        roots: Sequence[Path],
+        roots: Roots,
         sink: DiagnosticSink,
         relaxed: Collection[str],
         import_paths: Sequence[Path] = (),
@@ -123,8 +125,9 @@ class ImportLoader:
 
         Args:
             path: The root file.
-            name: What it is called; imported files are named relative to the same place.
-            roots: Folders whose files may be imported.
+            name: What it is called; imported files outside of all folders are named relative to
+                the same place.
+            roots: Folders whose files may be imported, besides that of the file.
             sink: Where diagnostics go.
             relaxed: Deviations from the grammar that the dialect allows.
             import_paths: Further such folders, in which modules are looked for last.
@@ -132,8 +135,11 @@ class ImportLoader:
         self._folder = real_path(path).parent
         self._prefix = posixpath.dirname(name)
         libraries = (Path(os.path.abspath(each)) for each in import_paths)  # a link may be changed
-        self._search = tuple(dict.fromkeys((*map(real_path, roots), *libraries)))
-        self._roots = tuple(real_path(root) for root in self._search)
+        self._named_from = (*map(real_path, roots), *libraries)
+        self._search = tuple(dict.fromkeys((self._folder, *self._named_from)))
+        self._real = {root: real_path(root) for root in self._search}
+        self._named = Roots(tuple(map(real_path, roots.sources)), roots.settings)
+        self._libraries = tuple(map(real_path, import_paths))
         self._sink = sink
         self._relaxed = relaxed
         self._parsed: dict[Path, ast.File] = {}
@@ -192,7 +198,7 @@ class ImportLoader:
         asked = path
         try:
             path = real_path(path)
-            allowed = any(path.is_relative_to(root) for root in self._roots)
+            allowed = any(path.is_relative_to(root) for root in self._real.values())
             if allowed and not path.exists():
                 self.lookups[asked] = Lookup(str(path))
                 return None
@@ -213,9 +219,7 @@ class ImportLoader:
         return self._parsed[path]
 
     def _parse(self, statement: ast.Import, path: Path) -> ast.File:
-        relative = Path(os.path.relpath(path, self._folder)).as_posix()
-        name = posixpath.normpath(posixpath.join(self._prefix, relative))
-        found = DiagnosticSink()
+        name, found = self._name_of(path), DiagnosticSink()
         source = read_source(path, name, found)
         if source is not None:
             self._read[path] = Lookup(str(path), source.text)
@@ -227,6 +231,23 @@ class ImportLoader:
             self._sink.report(report.code, statement.span, report.message, help=report.help)
         return _nothing(statement)
 
+    def _name_of(self, path: Path) -> str:
+        """Return the name of an imported file.
+
+        A file that another one hides, as it is of the same name in a folder that goes before, is
+        called by the way that leads to it from the root file: no module could import it.
+        """
+        root = self._named.root_of(path, self._libraries)
+        if root is not None:
+            relative = path.relative_to(root)
+            before = takewhile(lambda each: self._real[each] != root, self._named_from)
+            others = [each / relative for each in before]
+            self.lookups |= {other: look_up(other) for other in others}
+            if not any(self.lookups[other].text is not None for other in others):
+                return relative.as_posix()
+        relative = Path(os.path.relpath(path, self._folder))
+        return posixpath.normpath(posixpath.join(self._prefix, relative.as_posix()))
+
     def _refuse(self, statement: ast.Import, message: str, help: str | None) -> ast.File:
         self._sink.report("OSC205", statement.span, message, help=help)
         return _nothing(statement)
@@ -236,9 +257,14 @@ class ImportLoader:
 def _parsed(
     name: str, text: str, path: Path, allow: frozenset[str]
 ) -> tuple[ast.File, tuple[Diagnostic, ...]]:
-    """Return the tree of a library and what is wrong with it; many files import the same ones."""
+    """Return the tree of a library and what is wrong with it; many files import the same ones.
+
+    Its comments travel to its own module, and to none of a file that imports it: an edit of them
+    changes nothing there.
+    """
     found = DiagnosticSink()
-    return parse(SourceFile(name, text, path), found, allow=allow), found.sorted()
+    source = SourceFile(name, text, path)
+    return parse(source, found, allow=allow, with_comments=False), found.sorted()
 
 
 def _nothing(statement: ast.Import) -> ast.File:

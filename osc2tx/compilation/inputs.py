@@ -6,8 +6,8 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
+from osc2tx.support.paths import real_path
 from osc2tx_shared.classes import dataclass
-from osc2tx_shared.text import visible
 
 
 class InputError(Exception):
@@ -28,21 +28,16 @@ class Input:
     """One source file to compile.
 
     Attributes:
-        path: Where it is.
-        folder: The folder that was asked for, or that of the file that was asked for; imports
-            may reach everything in it, and outputs mirror its layout.
+        path: Where it is, as it was asked for.
+        place: The same with links among the folders followed; the file itself may be a link.
+        folder: The folder that was asked for, or that of the file that was asked for.
         is_asked: Whether this very file was asked for.
     """
 
     path: Path
+    place: Path
     folder: Path
     is_asked: bool
-
-    @property
-    def name(self) -> str:
-        """How generated files call it: relative to the folder, forward slashes."""
-        name = self.path.relative_to(self.folder).as_posix()
-        return name if is_unicode(name) else visible(name)
 
 
 def find_inputs(paths: Sequence[str | Path]) -> list[Input]:
@@ -53,36 +48,34 @@ def find_inputs(paths: Sequence[str | Path]) -> list[Input]:
     Raises:
         InputError: If a path does not exist, or a folder holds no scenario file.
     """
-    found: dict[str, Input] = {}
-    folders: dict[Path, str] = {}
+    found: dict[Path, Input] = {}
+    folders: dict[Path, Path] = {}
     for path in map(Path, paths):
-        for item in _inputs_of(path):
-            found.setdefault(_real_path(item.path, folders), item)
+        for item in _inputs_of(path, folders):
+            found.setdefault(item.place, item)
     return list(found.values())
 
 
-def _real_path(path: Path, folders: dict[Path, str]) -> str:
-    """Return the path with links followed; those of a folder once for all its files."""
-    if path.is_symlink():
-        return os.path.realpath(path)
+def _input(path: Path, folder: Path, folders: dict[Path, Path], *, is_asked: bool) -> Input:
+    """Return an input; links are followed once for all files of a folder."""
     if path.parent not in folders:
-        folders[path.parent] = os.path.realpath(path.parent)
-    return os.path.join(folders[path.parent], path.name)
+        folders[path.parent] = real_path(path.parent)
+    return Input(path, folders[path.parent] / path.name, folder, is_asked)
 
 
-def _inputs_of(path: Path) -> list[Input]:
+def _inputs_of(path: Path, known: dict[Path, Path]) -> list[Input]:
     try:
         if not path.exists():
             raise InputError(f"{path}: no such file or folder")
         if not path.is_dir():
-            return [Input(path, path.parent, is_asked=True)]
+            return [_input(path, path.parent, known, is_asked=True)]
     except (OSError, ValueError) as error:
         raise InputError(f"{str(path)!r}: {error}") from None
     inputs = []
     for folder, folders, files in os.walk(path, onerror=_refuse):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
         inputs += [
-            Input(Path(folder, name), path, is_asked=False)
+            _input(Path(folder, name), path, known, is_asked=False)
             for name in sorted(files)
             if _is_source(name)
         ]

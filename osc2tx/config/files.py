@@ -20,13 +20,11 @@ class ConfigFiles:
         self._used: dict[Path, set[str]] = {}
 
     def for_source(self, source: Path) -> Config:
-        """Return the settings for a source file.
+        """Return the settings for a source file; for a link, those of the place of the link.
 
         Raises:
             ConfigError: If the settings file is unreadable or says something unknown.
         """
-        if source.is_symlink():
-            source = real_path(source)
         if source.parent not in self._resolved:
             self._resolved[source.parent] = real_path(source.parent)
         config = self._for_folder(self._resolved[source.parent])

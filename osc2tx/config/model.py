@@ -119,7 +119,8 @@ class Config:
         prefix: The table of the file that is ours; empty if all of it is.
         options: Compile options for all files.
         scenarios: Tables of single files, by the stem of the file name.
-        sources: What to build if nobody says.
+        sources: Files and folders of the project.
+        source_folders: Their folders, links followed.
         out: Where to.
     """
 
@@ -128,12 +129,13 @@ class Config:
     options: GivenOptions = GivenOptions()
     scenarios: Mapping[str, ScenarioConfig] = field(default_factory=dict)
     sources: tuple[Path, ...] = ()
+    source_folders: tuple[Path, ...] = ()
     out: Path | None = None
 
     @property
-    def roots(self) -> tuple[Path, ...]:
+    def folder(self) -> Path | None:
         """The folder that the file stands for: all in it belongs to one project."""
-        return (self.path.parent,) if self.path else ()
+        return self.path.parent if self.path else None
 
     def options_for(self, source: Path, given: GivenOptions) -> CompileOptions:
         """Return the options for a file: the command line, then its table, then the file's."""

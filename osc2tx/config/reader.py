@@ -16,6 +16,7 @@ from osc2tx.config.settings import (
     Setting,
 )
 from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.support.paths import real_path
 
 EMBEDDED = "embedded"  # the world whose options are all known here
 
@@ -61,12 +62,15 @@ class _Reader:
         checked = self._table(table, (), (*keys, *TABLES))
         scenarios = self._table(checked.get("scenarios", {}), ("scenarios",), None)
         project = self._texts(checked, PROJECT_SETTINGS, ())
+        sources = tuple(map(Path, project.get("sources", ())))
+        folders = (path.parent if path.suffix == ".osc" else path for path in sources)
         return Config(
             path=self.path,
             prefix=self.prefix,
             options=self._options(checked, ()),
             scenarios={name: self._scenario(name, value) for name, value in scenarios.items()},
-            sources=tuple(map(Path, project.get("sources", ()))),
+            sources=sources,
+            source_folders=tuple(dict.fromkeys(map(real_path, folders))),
             out=Path(project["out"][0]) if "out" in project else None,
         )
 

@@ -115,7 +115,7 @@ CODES = _table(
     Code("OSC111", "foreign-comment", ERROR, "Comments begin with `#`.", "7.2.1.2"),
     Code("OSC112", "empty-block", ERROR, "A block has no lines.", "7.2.2"),
     Code("OSC113", "implicit-serial", WARNING, "`do:` stands for `do serial:`.", "7.3.13"),
-    Code("OSC114", "empty-parentheses", WARNING, "Empty parentheses are too much.", "7.3.10"),
+    Code("OSC114", "empty-parentheses", ERROR, "Empty parentheses are too much.", "7.3.10"),
     Code("OSC115", "line-too-long", ERROR, "A logical line is longer than anybody needs.", "7.2.1"),
     # --- 5xx not supported by a backend ---
     Code("OSC501", "unsupported-declaration", ERROR, "No backend can express this member yet."),
@@ -134,6 +134,7 @@ CODES = _table(
     Code("OSC514", "not-in-xml", ERROR, "OpenSCENARIO XML cannot say this."),
     Code("OSC515", "nearly-in-xml", ERROR, "OpenSCENARIO XML can only nearly say this."),
     Code("OSC516", "beyond-any-world", ERROR, "A quantity is larger than any world has."),
+    Code("OSC519", "contradictory-durations", ERROR, "Durations contradict.", "7.6.2.1"),
     Code("OSC517", "renamed-module", WARNING, "A file is called like a module of Python."),
     # --- 2xx names and imports ---
     Code("OSC201", "unknown-name", ERROR, "A name stands for nothing here.", "7.7.4"),
@@ -200,6 +201,8 @@ CODES = _table(
     Code("OSC423", "contradicted-argument", ERROR, "An argument is not allowed.", "7.3.5.1.3"),
     Code("OSC424", "integer-overflow", ERROR, "A number does not fit its type.", "7.3.2"),
     Code("OSC425", "division-by-zero", WARNING, "A divisor is always zero.", "7.4.2"),
+    Code("OSC426", "impossible-conversion", ERROR, "A conversion has no result.", "7.4.2.6"),
+    Code("OSC427", "undefined-method", ERROR, "A method without body is invoked.", "7.3.7.1"),
     Code("OSC430", "event-from-outside", WARNING, "Nothing emits an awaited event.", "7.3.10"),
     Code("OSC431", "event-without-use", WARNING, "Nothing waits for an event.", "7.3.10"),
     Code("OSC432", "unreachable-member", WARNING, "What is before never ends.", "7.3.13"),
@@ -258,6 +261,14 @@ CODES = _table(
     Code("OSC807", "run-file", ERROR, "A file of a run cannot be found, read or written."),
     Code("OSC808", "simulator", ERROR, "The simulator is not there, or refuses."),
     Code("OSC809", "run-failed", ERROR, "A run ended with a failure, or not in time."),
+    Code("OSC810", "condition-failed", ERROR, "What a modifier states does not hold.", "8.9.1"),
+    Code(
+        "OSC811",
+        "condition-missed",
+        WARNING,
+        "What a modifier states holds only for a part of its phase.",
+        "8.8.2.2",
+    ),
 )
 
 

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from functools import lru_cache
+from itertools import chain, pairwise
 
 LIKENESS = 0.6
 _LISTED = 8
+_COMPARED = 32  # names of which each is compared with what is written
 
 
 def nearest(written: str, known: Iterable[str], likeness: float = LIKENESS) -> str | None:
     """Return the known name that looks most like what is written, if any does.
+
+    Of many names only those are compared that have the most pairs of letters in common with it, so
+    that a file in which every name is unknown takes no longer than its length.
 
     Args:
         written: The unknown name.
@@ -20,7 +26,33 @@ def nearest(written: str, known: Iterable[str], likeness: float = LIKENESS) -> s
         return None  # every short name is near
     from difflib import get_close_matches  # only needed where something is wrong
 
-    return next(iter(get_close_matches(written, sorted(set(known)), 1, likeness)), None)
+    names = sorted(set(known))
+    if len(names) > _COMPARED:
+        names = _promising(written, tuple(names))
+    return next(iter(get_close_matches(written, names, 1, likeness)), None)
+
+
+def _promising(written: str, names: tuple[str, ...]) -> list[str]:
+    """Return the names with the most pairs of letters in common, in the order of the alphabet."""
+    from collections import Counter
+
+    index = _names_by_pair(names)
+    shared = Counter(chain.from_iterable(index.get(pair, ()) for pair in _pairs(written)))
+    return sorted(name for name, _ in shared.most_common(_COMPARED))
+
+
+@lru_cache(maxsize=8)
+def _names_by_pair(names: tuple[str, ...]) -> Mapping[str, list[str]]:
+    index: dict[str, list[str]] = {}
+    for name in names:
+        for pair in _pairs(name):
+            index.setdefault(pair, []).append(name)
+    return index
+
+
+def _pairs(name: str) -> set[str]:
+    """Return the pairs of adjacent letters, the first and the last one also alone."""
+    return {"".join(pair) for pair in pairwise(f" {name} ")}
 
 
 def did_you_mean(written: str, known: Iterable[str], likeness: float = LIKENESS) -> str | None:

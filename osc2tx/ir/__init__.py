@@ -84,6 +84,7 @@ from osc2tx.ir.expressions import (
     ScenarioSelf,
     TypeTest,
     Unary,
+    Undefined,
     UserShape,
 )
 from osc2tx.ir.nodes import (
@@ -100,11 +101,12 @@ from osc2tx.ir.user_types import (
     UserField,
     UserModifier,
     UserType,
+    UserUnit,
     lineage,
     lineages,
     merged,
 )
-from osc2tx.ir.values import ExpressionBase, Kind, Unit, ValueType, qualified
+from osc2tx.ir.values import ExpressionBase, Kind, TrailingComment, Unit, ValueType, qualified
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 
 __all__ = [
@@ -180,9 +182,11 @@ __all__ = [
     "ScenarioSelf",
     "Serial",
     "Struct",
+    "TrailingComment",
     "Trigger",
     "TypeTest",
     "Unary",
+    "Undefined",
     "Unit",
     "UserAction",
     "UserEnum",
@@ -190,6 +194,7 @@ __all__ = [
     "UserModifier",
     "UserShape",
     "UserType",
+    "UserUnit",
     "ValueType",
     "Variable",
     "Wait",

@@ -11,9 +11,9 @@ from osc2tx.diagnostics import Span
 def same(one: Any, other: Any) -> bool:
     """Return whether two parts say the same about the same places of the same files.
 
-    The files may have been read twice, for two modules.
+    The files may have been read twice, for two modules; comments are only in that of their own.
     """
-    return _same(one, other, ())
+    return _same(one, other, ("comments", "end_comments"))
 
 
 def means_same(one: Any, other: Any) -> bool:
@@ -32,7 +32,7 @@ def _same(one: Any, other: Any, apart_from: tuple[str, ...]) -> bool:
     if isinstance(one, tuple):
         pairs = zip(one, other, strict=False)
         return len(one) == len(other) and all(_same(a, b, apart_from) for a, b in pairs)
-    if names := _names(one):
+    if names := field_names(one):
         return all(
             _same(getattr(one, name), getattr(other, name), apart_from)
             for name in names
@@ -51,10 +51,10 @@ def words(part: Any) -> Iterator[str]:
         elif isinstance(each, tuple):
             pending += each
         elif not isinstance(each, Span):
-            pending += [getattr(each, name) for name in _names(each)]
+            pending += [getattr(each, name) for name in field_names(each)]
 
 
-def _names(part: Any) -> Iterable[str]:
+def field_names(part: Any) -> Iterable[str]:
     """Return the fields of an instance of a dataclass; none of a plain value.
 
     `dataclasses.fields` makes a tuple at each call, which is most of what a comparison costs.

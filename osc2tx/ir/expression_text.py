@@ -31,6 +31,7 @@ from osc2tx.ir.expressions import (
     ScenarioSelf,
     TypeTest,
     Unary,
+    Undefined,
     UserShape,
 )
 
@@ -88,6 +89,8 @@ def show(expression: Expression) -> str:
             return f"[{', '.join(show(element) for element in elements)}]"
         case RangeValue(lower=lower, upper=upper):
             return f"[{show(lower)}..{show(upper)}]"
+        case Undefined(method=method):
+            return f"undefined {method}"
         case HalfRange(bound=bound, is_lower=True):
             return f"[{show(bound)}..]"
         case HalfRange(bound=bound):

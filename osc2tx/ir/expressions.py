@@ -247,6 +247,13 @@ class UserShape(ExpressionBase):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Undefined(ExpressionBase):
+    """The body of a method without implementation: an error when it is invoked (§7.3.7.1)."""
+
+    method: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class HalfRange(ExpressionBase):
     """A range with one bound; `is_lower` if that is the lower one."""
 
@@ -290,4 +297,5 @@ Expression: TypeAlias = (
     | TypeTest
     | Downcast
     | UserShape
+    | Undefined
 )

@@ -6,7 +6,7 @@ from osc2tx.diagnostics import Span
 from osc2tx.ir.behaviors import Behavior, ModifierCall
 from osc2tx.ir.coverage import Coverage
 from osc2tx.ir.declarations import Constraint, Declaration, Method
-from osc2tx.ir.user_types import UserAction, UserEnum, UserModifier, UserType
+from osc2tx.ir.user_types import UserAction, UserEnum, UserModifier, UserType, UserUnit
 from osc2tx_shared.classes import dataclass
 
 
@@ -95,6 +95,7 @@ class Module:
         enums: Enums of the file, and those of imported files that it speaks of.
         modifiers: Modifiers that are functions of their parameters: those of the file, and those
             of imported files that it applies.
+        units: Units of its files that comments tell about.
         comments: The comment lines at the head of the file.
     """
 
@@ -108,3 +109,4 @@ class Module:
     actions: tuple[UserAction, ...] = ()
     enums: tuple[UserEnum, ...] = ()
     modifiers: tuple[UserModifier, ...] = ()
+    units: tuple[UserUnit, ...] = ()

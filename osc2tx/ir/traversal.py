@@ -37,6 +37,7 @@ from osc2tx.ir.expressions import (
     ScenarioSelf,
     TypeTest,
     Unary,
+    Undefined,
     UserShape,
 )
 from osc2tx.ir.values import ExpressionBase
@@ -144,6 +145,7 @@ def children(expression: Expression) -> tuple[Expression, ...]:
             | EventArgument()
             | InvokedValue()
             | Element()
+            | Undefined()
         ):
             return ()
         case Attribute(base=base):

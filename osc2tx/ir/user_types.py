@@ -43,6 +43,8 @@ class UserType:
         fields: Those of its own that have values.
         unused: Those of its own that no file speaks of.
         methods: Its own methods, in source order.
+        keeps: Its constraints as the source has them, each with the comment lines above it; every
+            object of it states those that it needs itself.
     """
 
     name: str
@@ -53,6 +55,7 @@ class UserType:
     comments: tuple[str, ...] = ()
     unused: tuple[UserField, ...] = ()
     methods: tuple[Method, ...] = ()
+    keeps: tuple[str, ...] = ()
 
     @property
     def all_fields(self) -> tuple[UserField, ...]:
@@ -62,20 +65,41 @@ class UserType:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class UserEnum:
-    """An enum that the scenario's files declare, with all its members."""
+    """An enum that the scenario's files declare, with all its members.
+
+    Attributes:
+        told: Comment lines of its members, by their names, of those that have some.
+    """
 
     name: str
     span: Span
     members: tuple[str, ...]
+    comments: tuple[str, ...] = ()
+    told: tuple[tuple[str, tuple[str, ...]], ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class UserUnit:
+    """A unit that the scenario's files declare and somebody tells something about."""
+
+    name: str
+    span: Span
+    comments: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ActionParameter:
-    """A parameter of a user's own action; one with a default has a value in every invocation."""
+    """A parameter of a user's own action; one with a default has a value in every invocation.
+
+    Attributes:
+        default: The default, if it is the same for all invocations.
+    """
 
     name: str
     type: ValueType
     has_default: bool
+    default: Expression | None = None
+    comments: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

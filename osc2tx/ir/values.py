@@ -54,6 +54,12 @@ class Unit:
     is_standard: bool
 
 
+class TrailingComment(str):
+    """The last comment line of a statement, where it stands behind the first line of it."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ExpressionBase:
     """What all expressions have: a type and the place they come from."""

@@ -8,10 +8,13 @@ from typing import TypeVar
 
 from osc2tx import ir
 from osc2tx.analysis import ConstraintAnalysis
+from osc2tx.analysis.constraints.collect import Constraint
+from osc2tx.analysis.constraints.domains import Domain
 from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx.analysis.constraints.parameter_lookup import Place
 from osc2tx.analysis.same_actors import SameActor
 from osc2tx.diagnostics import DiagnosticSink, Span
+from osc2tx.lowering.constraints.parameter_settings import Setting
 from osc2tx.lowering.value_types import authored_unit
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics.symbols import (
@@ -73,6 +76,8 @@ class LoweringContext:
         computed: Those of them that some invocation gives no plain name.
         same_actors: The actors of the scenario that are others.
         object_types: The types of which the program may have objects.
+        constants: What constraints that set a parameter to a constant say of it, and what is left
+            of its domain then.
     """
 
     model: SemanticModel
@@ -103,6 +108,7 @@ class LoweringContext:
     computed: frozenset[Symbol] = frozenset()
     same_actors: Mapping[FieldSymbol, SameActor] = field(default_factory=dict)
     object_types: tuple[TypeSymbol, ...] = ()
+    constants: dict[Constraint, tuple[Setting, Domain | None]] = field(default_factory=dict)
 
     def lower(self, node: ast.Expression) -> ir.Expression | None:
         """Return an expression as the IR has it; `None` if a part of it was refused.
@@ -205,5 +211,6 @@ def present(parts: Sequence[Part | None]) -> tuple[Part, ...]:
 
 def statement_comments(node: ast.Statement) -> tuple[str, ...]:
     """Return the comment lines that belong to a statement, its trailing one last."""
-    trailing = () if node.trailing_comment is None else (node.trailing_comment,)
-    return (*node.comments, *trailing)
+    if node.trailing_comment is None:
+        return node.comments
+    return (*node.comments, ir.TrailingComment(node.trailing_comment))

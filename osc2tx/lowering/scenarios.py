@@ -16,6 +16,7 @@ from osc2tx.lowering.behavior.composed_behaviors import (
 )
 from osc2tx.lowering.behavior.do_directives import labelled_once, lower_body, nothing_left
 from osc2tx.lowering.behavior.durations import own_duration
+from osc2tx.lowering.behavior.time_system import TimeSystem
 from osc2tx.lowering.behavior.user_actions import lower_actions
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
@@ -30,7 +31,7 @@ from osc2tx.lowering.declarations.user_fields import (
     user_fields,
     user_lineage,
 )
-from osc2tx.lowering.declarations.user_types import lower_enums, lower_types
+from osc2tx.lowering.declarations.user_types import lower_enums, lower_types, lower_units
 from osc2tx.lowering.modifiers.modifier_functions import lower_modifiers, own_modifiers
 from osc2tx.lowering.modifiers.modifiers import is_override
 from osc2tx.lowering.modifiers.override_modifiers import lower_overrides
@@ -102,7 +103,9 @@ def lower(
         )
         is_imported = scenario not in model.scenarios
         composed.append(scenario)
-        lowered[id(scenario)] = _lower_scenario(ctx, scenario, is_imported=is_imported)
+        lowered[id(scenario)] = _lower_scenario(
+            ctx, scenario, is_imported=is_imported, first_come=options.dialect == "carla"
+        )
         pending.extend(ctx.invoked)
         invoked.update(map(id, ctx.invoked))
     report_unsupported_members(program, used, actions, composed)
@@ -119,8 +122,9 @@ def lower(
         one_of=options.one_of,
         scenarios=scenarios,
         comments=_head_comments(model.root),
+        units=lower_units(model),
         types=lower_types(program, used),
-        actions=lower_actions((*actions, *_own_actions(model))),
+        actions=lower_actions(program, (*actions, *_own_actions(model))),
     )
     modifiers = dict.fromkeys((*own_modifiers(model), *applied))
     module = replace(module, modifiers=lower_modifiers(program, modifiers))
@@ -156,7 +160,7 @@ def _head_comments(file: ast.File) -> tuple[str, ...]:
 
 
 def _lower_scenario(
-    ctx: LoweringContext, scenario: Composed, *, is_imported: bool
+    ctx: LoweringContext, scenario: Composed, *, is_imported: bool, first_come: bool
 ) -> ir.Scenario | None:
     node = scenario.node
     statements = _statements(scenario)
@@ -173,7 +177,10 @@ def _lower_scenario(
     tree = lower_body(ctx, scenario, statements, constraints, standing, duration)
     if tree is None:
         return None
-    placements, body = PlacementLowering(ctx).split(labelled_once(tree, set()))
+    times = TimeSystem(ctx, declarations)
+    if not first_come:
+        tree = times.solve(tree)
+    placements, body = PlacementLowering(ctx).split(labelled_once(tree))
     if body is None:
         body = nothing_left(scenario)
     left_over = constraints.left_over()
@@ -201,7 +208,7 @@ def _lower_scenario(
         end_comments=node.end_comments if isinstance(node, ast.ScenarioDeclaration) else (),
         overrides=lower_overrides(ctx, statements),
         coverage=coverage,
-        constraints=(*shared.constraints, *left_over),
+        constraints=(*shared.constraints, *left_over, *times.constraints),
         is_imported=is_imported,
         is_action=isinstance(scenario, sym.ActionSymbol),
     )

@@ -81,7 +81,7 @@ class Scope:
     namespaces: set[str] = field(default_factory=lambda: {NULL})
     exports: dict[str, set[tuple[str, str | None]]] = field(default_factory=dict)
     named_exports: list[tuple[ast.ExportItem, Context]] = field(default_factory=list)
-    contexts: dict[ast.Statement, Context] = field(default_factory=dict)
+    contexts: dict[ast.Node, Context] = field(default_factory=dict)
     declared: list[Symbol] = field(default_factory=list)
     nodes: dict[Symbol, ast.Declaration] = field(default_factory=dict)
     enum_nodes: dict[EnumMemberSymbol, ast.EnumMember] = field(default_factory=dict)
@@ -157,7 +157,7 @@ class Scope:
         symbols = (*self.declared, *self.primitives.values(), *self.extended)
         return [s for s in symbols if isinstance(s, TypeSymbol)]
 
-    def context_of(self, node: ast.Statement) -> Context:
+    def context_of(self, node: ast.Node) -> Context:
         """Return the context of a declaration or member."""
         for layer in self.layers():
             if node in layer.contexts:
@@ -199,14 +199,16 @@ def supertypes(symbol: TypeSymbol) -> Iterator[TypeSymbol]:
     while current is not None and current not in seen:
         seen.add(current)
         yield current
-        current = base_of(current)
+        # Not by `base_of`: this is asked hundreds of times a line.
+        current = current.base if isinstance(current, _DERIVED) else None
+
+
+_DERIVED = (StructSymbol, ActorSymbol, ScenarioSymbol, ActionSymbol)
 
 
 def base_of(symbol: TypeSymbol) -> TypeSymbol | None:
     """Return the supertype of a type."""
-    if isinstance(symbol, (StructSymbol, ActorSymbol, ScenarioSymbol, ActionSymbol)):
-        return symbol.base  # a tuple: this is asked hundreds of times a line
-    return None
+    return symbol.base if isinstance(symbol, _DERIVED) else None
 
 
 def is_subtype(symbol: TypeSymbol, ancestor: TypeSymbol) -> bool:

@@ -19,6 +19,11 @@ def is_committed(name: str) -> bool:
     return not name.endswith(SOURCE_MAP)
 
 
+def is_output(name: str) -> bool:
+    """Whether a name is one that outputs have."""
+    return name.endswith((MODULE, SOURCE_MAP, COVERAGE_MODEL, XML, LOSS_REPORT))
+
+
 def module_of(source_map: str) -> str:
     """Return the name of the module that a source map lies beside."""
     return source_map.removesuffix(SOURCE_MAP) + MODULE

@@ -31,7 +31,11 @@ __all__ = ["dump_ast", "parse", "read_source"]
 
 
 def parse(
-    source: SourceFile, sink: DiagnosticSink, *, allow: Collection[str] = frozenset()
+    source: SourceFile,
+    sink: DiagnosticSink,
+    *,
+    allow: Collection[str] = frozenset(),
+    with_comments: bool = True,
 ) -> ast.File:
     """Parse a source text; what is wrong with it goes to the sink.
 
@@ -42,6 +46,7 @@ def parse(
             OSC111 (block comments), OSC112 (empty blocks), OSC113 (`do:`), OSC114 (empty
             parentheses), OSC626 (lines that begin between two blocks). `use` as a statement is
             left to the next stage to judge.
+        with_comments: Whether nodes have their comments.
 
     Returns:
         The AST of all that could be understood.
@@ -53,6 +58,8 @@ def parse(
 
     with room_for_trees():
         table = TokenSource(source, sink, allow=allow).scan()
+        if not with_comments:
+            table.comments.clear()
         try:
             tree = parse_tokens(table, sink)
             return ASTTransformer(table, sink, allow).transform(tree)

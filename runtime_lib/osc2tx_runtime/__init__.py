@@ -112,7 +112,7 @@ from osc2tx_runtime.language.actions.registry import (
     methods,
     user_action,
 )
-from osc2tx_runtime.language.declared import as_type, not_given
+from osc2tx_runtime.language.declared import as_type, not_given, undefined
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.tree import (
     Behaviour,
@@ -187,6 +187,7 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "fixed",
     "inf",
     "not_given",
+    "undefined",
     "within",
     # actors: the cast and its values
     "Animal",

@@ -6,6 +6,9 @@ import sys
 from contextlib import suppress
 
 __all__ = [
+    "NOT_MET",
+    "NO_RESULT",
+    "PARTLY_MET",
     "RUN_FAILED",
     "BeyondMapError",
     "CapabilityError",
@@ -22,10 +25,21 @@ __all__ = [
     "is_own",
     "name_of",
     "told",
+    "why_no_result",
 ]
+
+NO_RESULT = (ArithmeticError, LookupError, ValueError)
+"""What an expression of a scenario raises that has no result: a division by zero, no such element,
+a conversion to a type that has no such value (§7.4.2.6)."""
 
 RUN_FAILED = "OSC809"
 """Code of the line that says how a run failed: that is a verdict, no error."""
+
+NOT_MET = "OSC810"
+"""Code of a condition that fails its phase."""
+
+PARTLY_MET = "OSC811"
+"""Code of a condition that holds only for a part of its phase."""
 
 
 class SourcePlace(str):
@@ -83,6 +97,13 @@ class ScenarioError(Exception):
         return f"{self.source}: {self.message}" if self.source else self.message
 
 
+def why_no_result(error: Exception) -> str:
+    """Say why an expression has no result."""
+    if isinstance(error, KeyError) and error.args:
+        return f"no member of the enumeration has the value {error.args[0]!r}"
+    return str(error)
+
+
 def coded(code: str, message: str, place: str, file: str, given: str | None = None) -> str:
     """Return a message of a run as it is printed.
 
@@ -96,7 +117,8 @@ def coded(code: str, message: str, place: str, file: str, given: str | None = No
     known = given is not None and place.startswith(file)
     shown = f"{given}{place[len(file) :]}" if known else str(place)
     column = f":{place.column}" if isinstance(place, SourcePlace) else ""
-    return f"{shown}{column}{': ' if shown else ''}error[{code}]: {message}"
+    severity = "warning" if code == PARTLY_MET else "error"
+    return f"{shown}{column}{': ' if shown else ''}{severity}[{code}]: {message}"
 
 
 class PlacementError(ScenarioError):

@@ -43,7 +43,7 @@ opendrive: enums plain_numbers
 world: clock enums errors opendrive
 language: clock errors units world
 domain.points_and_poses: errors
-domain.shapes: enums errors language world
+domain.shapes: enums errors world
 domain.map: domain.points_and_poses enums errors language opendrive world
 domain.paths: domain.points_and_poses enums errors opendrive world
 domain.routes: domain.map domain.paths domain.points_and_poses enums errors language opendrive
@@ -61,22 +61,27 @@ domain.actors: domain.map domain.measuring domain.methods domain.objects domain.
 domain.capability_tables: domain.actors domain.map domain.measuring domain.objects domain.paths
     domain.points_and_poses domain.shapes domain.signals world
 domain.placing: domain.actors domain.map domain.modifiers domain.paths domain.points_and_poses
-    domain.routes domain.signals errors language opendrive world
+    domain.routes domain.signals enums errors language opendrive world
 domain.scenario: domain.actors domain.map domain.modifiers errors language
-domain.planning: domain.actors domain.map domain.modifiers domain.paths domain.placing
-    domain.points_and_poses domain.routes domain.shapes enums errors language opendrive world
+domain.planning: domain.actors domain.map domain.modifiers domain.objects domain.paths
+    domain.placing domain.points_and_poses domain.routes domain.shapes enums errors language
+    opendrive world
 domain.actions: domain.actors domain.map domain.measuring domain.modifiers domain.objects
     domain.paths domain.placing domain.planning domain.points_and_poses domain.routes
     domain.signals enums errors language opendrive world
+domain.monitoring: domain.actions domain.map domain.modifiers domain.paths domain.placing
+    domain.routes enums errors language opendrive world
 domain.capabilities: domain.actions domain.actors domain.capability_tables domain.modifiers enums
     language units
 worlds: errors opendrive world
 simulators: enums errors opendrive plain_numbers world worlds
 report: language
-running: domain.map domain.placing domain.scenario errors interrupts language opendrive
-    plain_numbers report world worlds
+running: domain.map domain.monitoring domain.objects domain.placing domain.scenario errors
+    interrupts language opendrive plain_numbers report world worlds
 kpis: errors language opendrive running world
-campaigns: domain.map domain.scenario errors kpis language opendrive plain_numbers running
+campaigns: domain.map domain.monitoring domain.scenario errors kpis language opendrive
+    plain_numbers running
+fields: domain.actors domain.measuring domain.objects domain.signals enums
 modifiers: domain.modifiers
 __init__: domain.actions domain.actors domain.map domain.measuring domain.modifiers domain.objects
     domain.paths domain.points_and_poses domain.scenario domain.shapes domain.signals errors
@@ -104,6 +109,7 @@ plant: actor_dimensions checks geometry grip measuring motion protocol state sur
 drivers: actor_dimensions checks geometry grip measuring plant protocol state surroundings
 embedded: actor_dimensions checks commands geometry grip longitudinal measuring motion plant
     protocol state surroundings
+recorded: embedded protocol state
 """)
 
 FILES = files_of(RUNTIME)

@@ -93,6 +93,22 @@ def test_a_row_that_hangs_is_given_up() -> None:
     assert late == {number for number, a in enumerate(drawn(8)) if a > 6.0} != set()
 
 
+def test_a_row_that_stops_its_process_is_given_up() -> None:
+    """Without a time-out: a stopped process tells nothing, one at a long row does."""
+    plan = lethal("os.kill(os.getpid(), signal.SIGSTOP) if self.a > 8.0 else time.sleep(0.3)")
+    plan = replace(
+        plan, files={**plan.files, "lethal.py": "import signal\n" + plan.files["lethal.py"]}
+    )
+    found = [
+        each for batch in LocalEngine(2, 3, stalled=6.0).run(plan, iter(rows(8))) for each in batch
+    ]
+    stopped = [each for each in found if each.status == "crashed"]
+    assert len(found) == 8 and 0 < len(stopped) < 8
+    assert {each.reason for each in stopped} == {
+        "the process of this row ended or stalled, each time"
+    }
+
+
 def test_a_module_that_cannot_be_imported_is_told() -> None:
     plan = replace(plan_of(TRIANGLE), files={"case.py": "import nothing_of_this_name\n"})
     with pytest.raises(CampaignError, match="nothing_of_this_name"):

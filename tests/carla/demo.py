@@ -38,6 +38,8 @@ def main() -> int:
     name = "hello_world" if (maps / TOWN).is_file() else "cut_in_and_evade"
     folders = [OWN_MAPS, *([maps] if name == "hello_world" else [])]
     with StandInProcess(folders, "highway") as server:
+        checked = [sys.executable, "-m", "osc2tx", "world", "check", "carla", "--drive"]
+        subprocess.run([*checked, "--carla", f"127.0.0.1:{server.port}"], cwd=ROOT, check=True)
         for mode in MODES:
             out = Path("out", f"{name}_carla_{mode}")
             say(f"{name} in CARLA, {mode}: {out}.html")

@@ -168,7 +168,7 @@ def test_no_server(tmp_path: Path) -> None:
 
 
 def test_another_version() -> None:
-    with StandInProcess([OWN_MAPS], "highway", version="0.9.15") as old:
+    with StandInProcess([OWN_MAPS], "highway", "--version", "0.9.15") as old:
         run = module(old.port, Path("unused"))
         _, errors = run.communicate()
     assert run.returncode == 4

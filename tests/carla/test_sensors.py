@@ -99,7 +99,7 @@ def test_the_run_prints_the_topics(
     options: dict[str, Any] = {"sensors": {"ego": stack}}
     settings = in_carla(RunSettings(max_time=0.5), stand_in.port, **options)
     run_all(GENERATED / "cut_in.py", settings)
-    assert "/carla/ego/imu_sensor  (sensor.other.imu)\n" in capsys.readouterr().out
+    assert "/carla/ego/imu_sensor  (sensor.other.imu, expected)\n" in capsys.readouterr().out
 
 
 def test_sensors_of_nobody(stand_in: StandInProcess, stack: Path) -> None:

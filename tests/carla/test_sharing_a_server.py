@@ -8,6 +8,7 @@ import subprocess
 import sys
 import textwrap
 from collections.abc import Callable, Iterator
+from itertools import count
 from pathlib import Path
 from threading import Event, Thread
 from typing import Any
@@ -183,15 +184,25 @@ FOLLOWER = """
     settings.synchronous_mode, settings.fixed_delta_seconds = True, 0.05
     world.apply_settings(settings)
     print("there", flush=True)
-    for _ in sys.stdin:
+    for line in sys.stdin:
+        if line.strip():
+            settings.fixed_delta_seconds = float(line)
+            world.apply_settings(settings)
         world.tick()
 """
 
 
 @pytest.fixture
-def patient(server: StandInProcess, beside: Any) -> Iterator[None]:
+def lengths() -> dict[int, str]:
+    """Lengths of steps that are set after so many batches."""
+    return {}
+
+
+@pytest.fixture
+def patient(server: StandInProcess, beside: Any, lengths: dict[int, str]) -> Iterator[None]:
     """Somebody who makes the next step as soon as a batch of commands has come."""
     ticker = beside(FOLLOWER)
+    batches = count()
     assert ticker.stdout.readline() == "there\n"
     over = Event()
 
@@ -199,7 +210,7 @@ def patient(server: StandInProcess, beside: Any) -> Iterator[None]:
         while not over.wait(0.005):
             for name, _ in server.calls():
                 if name == "apply_batch":
-                    ticker.stdin.write("\n")
+                    ticker.stdin.write(lengths.get(next(batches), "") + "\n")
                     ticker.stdin.flush()
 
     thread = Thread(target=follow)
@@ -214,6 +225,14 @@ def test_the_steps_of_somebody_else(server: StandInProcess, patient: None) -> No
     assert (result.status, result.steps) == ("timeout", 60)
     assert roles(server) == []
     assert server.ask("stand_in_synchronous")  # that is the other one's
+
+
+def test_steps_that_change_their_length(
+    server: StandInProcess, patient: None, lengths: dict[int, str]
+) -> None:
+    lengths[20] = "0.1"
+    with pytest.raises(SimulatorError, match=r"a step of CARLA was 0\.1 s long|by \d+ steps"):
+        run("cut_in", in_carla(RunSettings(max_time=3.0), server.port, no_tick=True))
 
 
 def test_steps_of_another_length(server: StandInProcess, beside: Any) -> None:

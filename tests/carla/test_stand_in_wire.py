@@ -155,7 +155,7 @@ def test_maps_are_loaded_and_generated(client: Any, stand_in: StandInProcess) ->
 
 
 def test_what_nobody_knows_is_an_error_and_counted(tmp_path: Path) -> None:
-    with StandInProcess([OWN_MAPS], "highway", version="0.9.15") as process:
+    with StandInProcess([OWN_MAPS], "highway", "--version", "0.9.15") as process:
         client = carla.Client("127.0.0.1", process.port)
         assert client.get_server_version() == "0.9.15"
         with contextlib.suppress(RuntimeError):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -11,6 +12,7 @@ from osc2tx_runtime.errors import SimulatorError
 from osc2tx_runtime.opendrive import LanePosition, Pose, read_map
 from osc2tx_runtime.simulators.carla.blueprints import attributes_of, blueprint_for
 from osc2tx_runtime.simulators.carla.capabilities import IN_CARLA
+from osc2tx_runtime.simulators.carla.cast import CastMember, member_of
 from osc2tx_runtime.simulators.carla.frames import measurement_from, pose_from, transform_of
 from osc2tx_runtime.simulators.carla.gains import CAR
 from osc2tx_runtime.simulators.carla.level import with_spawn_points
@@ -55,6 +57,67 @@ def test_a_turning_actor_moves_aside_ahead_of_its_origin() -> None:
     found = measurement_from(state, ahead=2.0)
     assert found.velocity == pytest.approx((10.0, 1.0, 0.0))
     assert found.turning is not None and found.turning[2] == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(("axis", "sign"), [(0, -1.0), (1, 1.0), (2, -1.0)])
+def test_rates_are_those_of_the_poses(axis: int, sign: float) -> None:
+    """A rotation by the library's own formula, in its frame, against ours in a right-handed one.
+
+    `v = w x r` holds in both by components; with y to the other side only the rate about y keeps
+    its sign.
+    """
+    w, r = [0.0, 0.0, 0.0], (1.0, 2.0, 3.0)
+    w[axis] = 0.3
+    there = cross(w, r)
+    expected = (there[0], -there[1], there[2])
+    state = [0.0] * 9 + [math.degrees(each) for each in w] + [0.0] * 3
+    turning = measurement_from(state).turning
+    assert turning is not None
+    assert cross(turning, (r[0], -r[1], r[2])) == pytest.approx(expected)
+    assert turning[axis] == pytest.approx(sign * 0.3)
+
+
+def cross(a: Any, b: Any) -> tuple[float, float, float]:
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
+
+
+def member(**given: Any) -> CastMember:
+    found = {"id": 7, "type": "vehicle.any", "box": [0.0, 2.3, 0.9, 0.7], **given}
+    return member_of(spec(), found, "driven")
+
+
+def test_a_wheelbase_is_from_the_wheels_that_steer_to_the_others() -> None:
+    truck = [[530.0, 90.0, 60.0], [530.0, -90.0, 60.0]]
+    truck += [[130.0, 90.0, 0.0], [130.0, -90.0, 0.0], [0.0, 90.0, 0.0], [0.0, -90.0, 0.0]]
+    assert member(wheels=truck, box=[0.0, 4.0, 1.3, 1.5]).steering.wheelbase == pytest.approx(
+        5.3 - 0.65
+    )
+    usual = spec().shape.wheelbase
+    for unknown in ([], [[0.0, 0.0, 70.0]] * 2 + [[0.0, 0.0, 0.0]] * 2, [[9e3, 0.0, 0.0]] * 4):
+        assert member(wheels=unknown).steering.wheelbase == usual
+
+
+def test_a_box_without_size_is_that_of_the_scenario() -> None:
+    shape = spec().shape
+    found = member(box=[0.0, 0.0, 0.0, 0.0])
+    assert found.size == pytest.approx((shape.length, shape.width, shape.height))
+    assert found.ahead == pytest.approx(shape.rear - 0.5 * shape.length)
+
+
+def test_steering_makes_up_for_the_curve_of_the_simulator() -> None:
+    """At 60 km/h half of the lock is left: the same angle takes twice the steering."""
+    curve = [[0.0, 1.0], [60.0, 0.5], [120.0, 0.5]]
+    steering = member(wheels=[[0.0, 0.0, 70.0]], steering_curve=curve).steering
+    plain = member(wheels=[[0.0, 0.0, 70.0]]).steering
+    state = [0.0] * 6 + [60.0 / 3.6, 0.0, 0.0] + [0.0] * 6
+    wanted = SimpleNamespace(v=16.7)
+    goal: Any = SimpleNamespace(state=wanted, ahead=lambda far: Pose(far, 1.0, 0.0, 0.0))
+    now = measurement_from(state)
+    assert steering.steer(goal, now) == pytest.approx(2.0 * plain.steer(goal, now))
 
 
 def test_flags_are_those_of_the_library() -> None:
@@ -106,7 +169,16 @@ def test_what_a_light_shows() -> None:
 LIBRARY = {
     "vehicle.tesla.model3": {"color": ["0,0,0"], "role_name": [], "number_of_wheels": ["4"]},
     "vehicle.carlamotors.european_hgv": {"role_name": [], "number_of_wheels": ["4"]},
-    "vehicle.diamondback.century": {"role_name": [], "number_of_wheels": ["2"]},
+    "vehicle.diamondback.century": {
+        "role_name": [],
+        "number_of_wheels": ["2"],
+        "base_type": ["bicycle"],
+    },
+    "vehicle.yamaha.yzf": {
+        "role_name": [],
+        "number_of_wheels": ["2"],
+        "base_type": ["motorcycle"],
+    },
     "walker.pedestrian.0001": {"role_name": []},
     "static.prop.box01": {},
 }
@@ -123,6 +195,7 @@ def spec(kind: str = "vehicle", category: str | None = None, **given: Any) -> Ac
         (spec(), "vehicle.tesla.model3"),
         (spec(category="heavy_truck"), "vehicle.carlamotors.european_hgv"),
         (spec(category="bicycle"), "vehicle.diamondback.century"),
+        (spec(category="motorcycle"), "vehicle.yamaha.yzf"),
         (spec("person"), "walker.pedestrian.0001"),
         (spec("stationary_object"), "static.prop.box01"),
         (spec(model="vehicle.carlamotors.european_hgv"), "vehicle.carlamotors.european_hgv"),
@@ -163,6 +236,9 @@ def test_pedals() -> None:
     assert control.pedals(0.0, 0.0, 0.2, 0.05)[:2] == (0.0, 0.6)
     throttle, brake, reverse = control.pedals(-2.0, -1.0, 0.0, 0.05)
     assert throttle > 0.0 and brake == 0.0 and reverse
+    for wanted, speed in ((-1.0, 8.0), (1.0, -8.0)):  # no gear is changed before it stands
+        throttle, brake, reverse = control.pedals(wanted, 0.0, speed, 0.05)
+        assert throttle == 0.0 and brake > 0.0 and not reverse
 
 
 def test_each_row_says_how_it_does_in_carla() -> None:

@@ -33,6 +33,7 @@ from traceback import extract_tb
 from types import MappingProxyType
 
 from osc2tx.compilation.driver import Compilation
+from osc2tx.compilation.roots import Roots
 from osc2tx.diagnostics import Diagnostic, Severity
 from osc2tx.options import CompileOptions
 
@@ -100,7 +101,9 @@ def manifest(corpus: Path) -> list[dict[str, str]]:
 def compilation_of(corpus: Path, row: Mapping[str, str]) -> Compilation:
     """Return the compilation of a file of the manifest; no stage has run yet."""
     file = row["file"]
-    return Compilation(corpus / file, file, OPTIONS[row["dialect"]], roots=roots_of(corpus, row))
+    return Compilation(
+        corpus / file, file, OPTIONS[row["dialect"]], roots=Roots(tuple(roots_of(corpus, row)))
+    )
 
 
 def roots_of(corpus: Path, row: Mapping[str, str]) -> list[Path]:

@@ -8,6 +8,7 @@ from functools import cache
 from pathlib import Path
 
 from osc2tx.compilation.driver import Compilation
+from osc2tx.compilation.roots import Roots
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Severity
 from osc2tx.options import CompileOptions
@@ -76,7 +77,7 @@ def goldens() -> Sequence[Source]:
 
 
 def _compiled(path: Path, options: CompileOptions) -> Source:
-    compilation = Compilation(path, path.name, options, roots=[SCENARIOS])
+    compilation = Compilation(path, path.name, options, roots=Roots((SCENARIOS,)))
     compilation.check()
     return Source(path, compilation)
 

@@ -53,8 +53,11 @@ def test_other_settings_make_copies(tmp_path: Path) -> None:
     assert imports_in(module_of(tmp_path / "a.osc")) != {}
 
 
-def test_what_lies_outside_of_the_outputs_is_copied(tmp_path: Path) -> None:
-    write(tmp_path, urban__a=MAIN.replace("LIBRARY", "../b.osc"), b=LIBRARY)
+def test_what_lies_outside_of_the_folders_is_copied(tmp_path: Path) -> None:
+    """A file that a third one hides has no name that a module could import it by."""
+    text = MAIN.replace("LIBRARY", "../b.osc")
+    write(tmp_path, urban__a=text, b=LIBRARY, urban__b="import osc.standard\n")
+    (tmp_path / "osc2tx.toml").write_text('sources = ["urban"]\n', encoding="utf-8")
     reason = "its module lies where this one cannot import it from"
     assert f"# A copy from ../b.osc: {reason}\n" in module_of(tmp_path / "urban/a.osc")
 

@@ -133,10 +133,11 @@ ERRORS: list[tuple[Case, type[ScenarioError]]] = [
     (
         Case(
             "ends that cannot agree",
-            "parallel(overlap: equal):\n    ego.drive(duration: 3s)\n    npc.drive(duration: 4s)",
+            "parallel(overlap: equal):\n    ego.drive(duration: 3s)\n    either: one_of:\n"
+            "        npc.drive(duration: 4s)\n        npc.drive(duration: 5s)",
             0.0,
             1,
-            "parallel(overlap: equal) cannot be scheduled: npc.drive(duration=4 * s) does not fit"
+            "parallel(overlap: equal) cannot be scheduled: either does not fit"
             " the length of ego.drive(duration=3 * s)",
         ),
         ScenarioError,

@@ -1,8 +1,10 @@
 """What the language means, in small scenarios: verdict and events, worked out from the standard.
 
 A case in `language/*.txt` begins with `=== title | version | outcome`. The outcome is the verdict
-with its time and the events `name@time` of the trace, or the codes that refuse the scenario.
-Below stands the file; lines `--- name.osc` begin others that it imports.
+with its time and the events `name@time` of the trace, the codes that refuse the scenario, or the
+code of the error that ends the run.
+Below stands the file; lines `--- name.osc` begin others that it imports. A file without imports
+gets those of `PRELUDE`.
 """
 
 import json
@@ -16,9 +18,10 @@ import pytest
 from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
-from osc2tx_runtime import RunSettings, Scenario, run_scenario
+from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
 
 FOLDER = Path(__file__).parent / "language"
+PRELUDE = "import osc.standard.all\nnamespace null use std, stdtypes\n"
 
 
 @dataclass(frozen=True)
@@ -39,6 +42,7 @@ def cases() -> list[Case]:
             title, standard, outcome = (part.strip() for part in head.split("|"))
             main, *others = re.split(r"^--- ", body, flags=re.M)
             files = {name: text for name, _, text in (o.partition("\n") for o in others)}
+            main = main if main.startswith("import") else PRELUDE + main
             found.append(
                 Case(f"{path.stem}: {title}", standard, outcome, {"case.osc": main, **files})
             )
@@ -64,7 +68,11 @@ def test_outcome(
         codes = {d.code for d in compilation.diagnostics if d.severity.name == "ERROR"}
         assert f"refused {' '.join(sorted(codes))}" == case.outcome
         return
-    result = run_scenario(load(emit(compilation.ir)), RunSettings(max_time=20.0))
+    try:
+        result = run_scenario(load(emit(compilation.ir)), RunSettings(max_time=20.0))
+    except ScenarioError as error:
+        assert f"error {error.code}" == case.outcome
+        return
     lines = (json.loads(line) for line in result.trace_lines)
     events = [f"{line['name']}@{line['t']:g}" for line in lines if line["kind"] == "event"]
     assert " ".join([result.status, f"{result.time:g}", *events]) == case.outcome

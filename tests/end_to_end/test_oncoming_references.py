@@ -29,7 +29,7 @@ scenario top:
             speed(10mps)
         serial:
             ego.drive(duration: 0.5s) with:
-                lane(4, at: start)
+                lane(2, at: start)
                 position(100m, at: start)
                 speed(15mps)
             {change}
@@ -43,6 +43,14 @@ CHANGES = {
     "ego.drive(duration: 6s) with:\n                lane(same_as: met)": 5.25,
     "ego.drive(duration: 6s) with:\n                lane(1, side_of: met, side: left)": 1.75,
 }
+
+
+def test_the_lane_it_is_in_is_none_to_change_to(load: Load, tmp_path: Path) -> None:
+    change = "ego.change_lane(num_of_lanes: 2, side: left, reference: met)"
+    text = TEXT.format(change=change).replace("lane(2, at: start)", "lane(4, at: start)")
+    trace = run(load(emit(asam(text, tmp_path))), RunSettings())
+    assert trace.status == "failure"
+    assert "in the lane to change to already, lane -1" in trace.reason
 
 
 @pytest.mark.parametrize(("change", "y"), CHANGES.items())

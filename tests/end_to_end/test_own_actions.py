@@ -71,7 +71,7 @@ def test_the_example_of_the_document_runs(
     )
     assert done.returncode == 0, done.stderr
     text = module.read_text(encoding="utf-8")
-    assert "creep(self.ego, v=1.5 * mps, duration=2 * s)," in text
+    assert "creep(self.ego, duration=2 * s)," in text
     assert "import my_actions" not in text and "my_actions import" not in text
     lines = [json.loads(line) for line in (project / "t.jsonl").read_text().splitlines()]
     ends = [(e["t"], e["source"]) for e in lines if e["kind"] == "action" and e["status"] == "end"]
@@ -151,7 +151,7 @@ def test_two_actions_on_one_slot_are_reported(
     assert done.code == 5
     assert done.err == (
         "slow.osc:17:13: error[OSC803]: ego.change_speed(target=5 * mps) (slow.osc:18) and"
-        " ego.creep(v=1.5 * mps) (slow.osc:17)"
+        " ego.creep() (slow.osc:17)"
         " control the longitudinal slot of ego at the same time; let them run one after the"
         " other (at 0.000 s)\n"
     )

@@ -16,7 +16,7 @@ from typing import Any
 
 from lxml import etree
 
-from osc2tx.building.manifest import MANIFEST_NAME, ManifestError, read_manifest
+from osc2tx.building.ownership import stated_source
 from osc2tx.building.written_digests import DIGESTS_NAME, read_digests
 from osc2tx.config import ConfigError, ConfigFiles, GivenOptions
 from osc2tx_runtime import ScenarioError
@@ -145,7 +145,7 @@ def _ask(road_map: RoadMap, place: Any) -> None:
         road_map.predecessors(after)
 
 
-# --- JSON: traces, source maps, manifests, digests ---
+# --- JSON: traces, source maps, reports, digests ---
 
 TRACE: tuple[dict[str, Any], ...] = (
     {"kind": "header", "version": 1, "scenario": "a", "source": "a.osc", "map": "m", "dt": 0.05}
@@ -163,8 +163,8 @@ TRACE: tuple[dict[str, Any], ...] = (
     {"kind": "result", "status": "success", "reason": "", "steps": 10, "time": 0.5},
 )
 SOURCE_MAP = {"fields": {"a": 1}, "constraints": [1, 2], "placements": [3], "nodes": [1, 2, 3]}
-MANIFEST = {"format": 3, "outputs": {"a.osc": ["a.py", "a.xosc"], "sub/b.osc": ["b.py"]}}
-DIGESTS = {"format": 1, "digests": {"a.py": ["0" * 64], "sub/b.py": ["1" * 64, "2" * 64]}}
+REPORT = {"format": 4, "source": "a.osc", "losses": []}
+DIGESTS = {"format": 2, "digests": {"a.py": ["a.osc", "0"], "sub/b.py": ["sub/b.osc", "1", "2"]}}
 
 
 def _changed(random: Random, document: Any) -> Any:
@@ -221,10 +221,10 @@ def read_source_map(text: str, folder: Path) -> None:
     found.of_field("a")
 
 
-def read_a_manifest(text: str, folder: Path) -> None:
-    """Read the manifest of a folder, and write it."""
-    _write(folder / MANIFEST_NAME, text)
-    read_manifest(folder).render().encode()
+def read_the_source(text: str, folder: Path) -> None:
+    """Read which source an output states."""
+    for name in ("a.xosc.report.json", "a.py", "a.xosc"):
+        stated_source(name, text.encode("utf-8", "surrogatepass"))
 
 
 def read_some_digests(text: str, folder: Path) -> None:
@@ -326,7 +326,7 @@ INPUTS = {
         Input("maps", write_map, read_map, (MapError,)),
         Input("traces", write_trace, read_trace),
         Input("source_maps", _json(SOURCE_MAP), read_source_map),
-        Input("manifests", _json(MANIFEST), read_a_manifest, (ManifestError,)),
+        Input("reports", _json(REPORT), read_the_source),
         Input("digests", _json(DIGESTS), read_some_digests),
         Input("settings", write_settings, read_settings, (ConfigError,)),
         Input("options", write_options, read_some_options, (ScenarioError,)),

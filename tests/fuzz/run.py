@@ -51,7 +51,7 @@ WHOLE = 50  # of so many texts of a quick run one gets the whole look
 
 SHARES = {
     **{"programs": 1, "grammar": 2, "mutations": 8, "tokens": 40},
-    **{"maps": 15, "traces": 5, "source_maps": 5, "manifests": 5, "digests": 4},
+    **{"maps": 15, "traces": 5, "source_maps": 5, "reports": 5, "digests": 4},
     **{"settings": 10, "options": 25},
 }
 """How many texts of each kind a round has: of those that take longer there are fewer."""

@@ -83,3 +83,9 @@ def load(name: str) -> ModuleType:
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+def test_tables_of_the_conditions_of_a_run() -> None:
+    page = REPOSITORY / "docs" / "reference" / "monitors.md"
+    text = page.read_text(encoding="utf-8")
+    assert text == load("make_monitors_doc").render(text), "run `make tables`"

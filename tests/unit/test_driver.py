@@ -7,6 +7,7 @@ import pytest
 from osc2tx.compilation.driver import Compilation
 from osc2tx.compilation.dump import dump_product
 from osc2tx.compilation.inputs import InputError, find_inputs
+from osc2tx.compilation.roots import Roots
 from osc2tx.diagnostics import SourceFile
 from osc2tx.options import PRODUCT_NAMES, CompileOptions
 from osc2tx.resources import resource_dir
@@ -32,7 +33,7 @@ def drive(path: Path, name: str = "top", head: str = "") -> Path:
 
 
 def compile_file(path: Path, *roots: Path) -> Compilation:
-    compilation = Compilation(path, path.name, CompileOptions(), roots=roots)
+    compilation = Compilation(path, path.name, CompileOptions(), roots=Roots(roots))
     compilation.check()
     return compilation
 
@@ -139,7 +140,7 @@ def test_imports_outside_are_refused_unread(tmp_path: Path, uri: str) -> None:
 def test_a_further_root_allows_more(tmp_path: Path) -> None:
     write(tmp_path / "cars.osc", "enum paint: [red, green]\n")
     source = write(tmp_path / "in/a.osc", 'import "../cars.osc"\n')
-    compilation = Compilation(source, "in/a.osc", CompileOptions(), roots=[tmp_path])
+    compilation = Compilation(source, "in/a.osc", CompileOptions(), roots=Roots((tmp_path,)))
     assert compilation.check()
     assert compilation.model is not None
     assert [f.span.source.name for f in compilation.model.files] == ["cars.osc", "in/a.osc"]
@@ -167,8 +168,8 @@ def test_folders_are_walked_in_order_and_files_count_once(tmp_path: Path) -> Non
     for name in ("b.osc", "a/c.osc", ".hidden/d.osc", ".e.osc", "f.txt"):
         write(tmp_path / name, "")
     found = find_inputs([tmp_path, tmp_path / "b.osc"])
-    assert [item.name for item in found] == ["b.osc", "a/c.osc"]
-    assert find_inputs([tmp_path / "f.txt"])[0].name == "f.txt"
+    assert [item.path.relative_to(tmp_path).as_posix() for item in found] == ["b.osc", "a/c.osc"]
+    assert find_inputs([tmp_path / "f.txt"])[0].path.name == "f.txt"
 
 
 @pytest.mark.parametrize("path", ["nothing.osc", "empty", "a\0b"])
@@ -192,5 +193,5 @@ def test_source_without_path_imports_nothing(tmp_path: Path) -> None:
 
     sink = DiagnosticSink()
     source = SourceFile("text", 'import "a.osc"\n')
-    loader = ImportLoader(tmp_path / "x.osc", "x.osc", [tmp_path], sink, frozenset())
+    loader = ImportLoader(tmp_path / "x.osc", "x.osc", Roots((tmp_path,)), sink, frozenset())
     assert loader(parse(source, sink).imports[0], source) is None

@@ -89,7 +89,7 @@ def test_a_bug_of_ours_leaves_a_document(shell: Shell, monkeypatch: pytest.Monke
     monkeypatch.setattr(Compilation, "check", broken)
     shell.drive("a.osc")
     with pytest.raises(SystemExit) as caught:
-        cli.main(["check", "--output-format", "sarif", "a.osc"])
+        cli.main(["check", "--no-cache", "--output-format", "sarif", "a.osc"])
     captured = shell.capsys.readouterr()
     assert caught.value.code == 70
     run = json.loads(captured.out)["runs"][0]

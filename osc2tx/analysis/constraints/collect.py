@@ -10,10 +10,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TypeAlias
 
-from osc2tx.analysis.constraints.operation_list import Key, OperationList, OperationListBuilder
+from osc2tx.analysis.constraints.operation_list import (
+    SIZE,
+    Key,
+    OperationList,
+    OperationListBuilder,
+)
 from osc2tx.analysis.constraints.parameter_lookup import Place
 from osc2tx.analysis.constraints.specialisation import Special
-from osc2tx.analysis.tree_walk import do_members
+from osc2tx.analysis.tree_walk import children_of, do_members
 from osc2tx.diagnostics import Span
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
@@ -37,7 +42,8 @@ class Constraint:
     Attributes:
         node: The `keep`, the default value or the argument.
         span: What to show of it.
-        origin: `"keep"`, `"default value"` or `"argument"`.
+        origin: `"keep"`, `"default value"`, `"argument"`, or `"element"`: a list is long enough for
+            an element that a constraint speaks of.
         is_default: Whether a later one may replace it.
         subject: The parameter alone on its left side, if it is an equality or a range.
         value: What the subject is set to, or the range or list that it is in.
@@ -69,25 +75,54 @@ class Removal:
 
 Entry: TypeAlias = Constraint | Removal
 
+Shared: TypeAlias = "dict[sym.TypeSymbol, tuple[list[Entry], Mapping[Key, sym.TypeSymbol]]]"
+"""What each type states itself, and the objects in that."""
+
 
 class Collector:
-    """Collects the constraints of types."""
+    """Collects the constraints of types.
+
+    Args:
+        model: The checked program.
+        special: The conditional types that objects are known to be of.
+        shared: What types state themselves, which types that derive from them state too.
+    """
 
     def __init__(
-        self, model: SemanticModel, special: Mapping[Key, tuple[Special, ...]] | None = None
+        self,
+        model: SemanticModel,
+        special: Mapping[Key, tuple[Special, ...]] | None = None,
+        shared: Shared | None = None,
     ) -> None:
-        """Take the checked program, and the conditional types that objects are known to be of."""
+        """See the class."""
         self._model = model
         self._writer = OperationListBuilder(model)
         self._special = special or {}
+        self._shared = {} if shared is None or special else shared
+        self._files = {file.span.source: number for number, file in enumerate(model.files)}
         self.objects: dict[Key, sym.TypeSymbol] = {}
 
     def collect(self, owner: sym.TypeSymbol) -> list[Entry]:
         """Return what constrains an instance of a type, in the order of the text."""
-        it = None if isinstance(owner, sym.ModifierSymbol) else ()
-        place = Place(model=self._model, owner=owner, prefix=(), it=it)
-        own = [*self._of_own_actor(owner), *self._of_type(place, owner, depth=0)]
+        own = list(self._of_own_actor(owner))
+        for ancestor in reversed(list(supertypes(owner))):
+            entries, objects = self._of_ancestor(ancestor)
+            own += entries
+            self.objects |= objects
         return [*self._of_globals(own), *own]
+
+    def _of_ancestor(
+        self, ancestor: sym.TypeSymbol
+    ) -> tuple[list[Entry], Mapping[Key, sym.TypeSymbol]]:
+        """Return what a type states itself, and the objects in that."""
+        if ancestor not in self._shared:
+            it = None if isinstance(ancestor, sym.ModifierSymbol) else ()
+            place = Place(model=self._model, owner=ancestor, prefix=(), it=it)
+            others, self.objects = self.objects, {}
+            entries = list(self._of_own(place, ancestor, depth=0))
+            self._shared[ancestor] = entries, self.objects
+            self.objects = others
+        return self._shared[ancestor]
 
     def _of_own_actor(self, owner: sym.TypeSymbol) -> Iterator[Entry]:
         """Yield what modifiers say that are members of the type of a behavior's actor."""
@@ -137,9 +172,19 @@ class Collector:
 
     def _of_type(self, place: Place, owner: sym.TypeSymbol, depth: int) -> Iterator[Entry]:
         for ancestor in reversed(list(supertypes(owner))):
-            yield from self._of_condition(place, ancestor)
-            for statement in ancestor.statements:
-                yield from self._of_statement(place, ancestor, statement, depth)
+            yield from self._of_own(place, ancestor, depth)
+
+    def _of_own(self, place: Place, ancestor: sym.TypeSymbol, depth: int) -> Iterator[Entry]:
+        yield from self._of_condition(place, ancestor)
+        for statement in self._in_order_of_text(ancestor):
+            yield from self._of_statement(place, ancestor, statement, depth)
+
+    def _in_order_of_text(self, type_: sym.TypeSymbol) -> list[ast.Statement]:
+        """Return the members of a type; an extension may precede it (§7.3.11.3.2)."""
+        return sorted(
+            type_.statements,
+            key=lambda each: (self._files.get(each.span.source, -1), each.span.start),
+        )
 
     def _of_condition(self, place: Place, type_: sym.TypeSymbol) -> Iterator[Entry]:
         """Yield what holds for all instances of a type with conditional inheritance."""
@@ -237,6 +282,28 @@ class Collector:
             operations=self._writer.write(expression, place.locate),
             place=place,
         )
+        yield from self._of_elements(place, rule)
+
+    def _of_elements(self, place: Place, rule: ast.KeepConstraint) -> Iterator[Entry]:
+        """Yield how long the lists are of which a constraint names elements (§7.3.5.2.1)."""
+        for index in certain_elements(rule.expression):
+            list_ = place.locate(index.base)
+            if list_ is None or not isinstance(index.index, ast.IntegerLiteral):
+                continue
+            operations = OperationList()
+            size = self._writer.append_variable(operations, (*list_, SIZE), types.UINT, index)
+            last = self._writer.append(operations, index.index, place.locate)
+            self._writer.append_comparison(operations, ">", size, [last], index)
+            yield Constraint(
+                node=index,
+                span=index.span,
+                origin="element",
+                is_default=rule.strength is ast.KeepStrength.DEFAULT,
+                subject=None,
+                value=None,
+                operations=operations,
+                place=place,
+            )
 
     def _setting(
         self, place: Place, key: Key, type_: types.Type, value: ast.Expression, origin: str
@@ -339,3 +406,23 @@ def _can_be_constrained(node: Instance) -> bool:
     return node.label is not None or any(
         isinstance(member, ast.KeepConstraint) for member in node.with_members
     )
+
+
+def certain_elements(condition: ast.Expression) -> Iterator[ast.Index]:
+    """Yield the elements of lists that a condition reads whenever it holds."""
+    stack: list[tuple[ast.Node, bool]] = [(condition, True)]
+    while stack:
+        node, holds = stack.pop()
+        match node:
+            case ast.Binary(operator=Op.AND) if holds:
+                stack += ((node.left, True), (node.right, True))
+            case ast.Binary(operator=Op.AND | Op.OR | Op.IMPLIES):
+                stack.append((node.left, False))
+            case ast.Conditional():
+                stack.append((node.condition, False))
+            case ast.Call():
+                continue  # of a list, it may be for each element
+            case _:
+                if isinstance(node, ast.Index):
+                    yield node
+                stack += ((child, False) for child in children_of(node))

@@ -29,6 +29,8 @@ def linear_solutions(
     kinds: dict[Key, str] = {}
     rows: list[Form] = []
     for index in active:
+        if all(_is_point(domains[key]) for key in expressions[index].keys_in_order):
+            continue
         row = _equation(expressions[index], domains, kinds)
         if row is not None and any(key is not None for key in row):
             rows.append(row)

@@ -8,13 +8,23 @@ operation that can have any value of its type.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import field
+from functools import cached_property
 from typing import TypeAlias
 
-from osc2tx.analysis.constraints.domains import ANY_BOOL, ANYTHING, Choice, Domain, Interval, point
+from osc2tx.analysis.constraints.constants import ConstantEvaluator, WithoutValueError
+from osc2tx.analysis.constraints.domains import (
+    ANY_BOOL,
+    ANYTHING,
+    Choice,
+    Domain,
+    Interval,
+    Value,
+    point,
+)
 from osc2tx.analysis.constraints.interval_arithmetic import WHOLE
 from osc2tx.semantics import SemanticModel, to_si, types
 from osc2tx.semantics import symbols as sym
+from osc2tx.semantics.builtins import builtin_field
 from osc2tx.syntax import ast
 from osc2tx_shared.classes import dataclass
 
@@ -25,6 +35,9 @@ LOGIC = (Op.AND, Op.OR, Op.IMPLIES)
 
 Key: TypeAlias = tuple[sym.Symbol | ast.Node, ...]
 """A parameter: the fields that lead to it; an invocation's begin with the invocation."""
+
+SIZE = builtin_field("size", types.UINT)
+"""What the size of a list is known by: the list, and then this."""
 
 Locate: TypeAlias = Callable[[ast.Expression], Key | None]
 """Says which parameter a name or path stands for; `None` if it is none."""
@@ -52,21 +65,35 @@ class Operation:
     node: ast.Node | None = None
 
 
-@dataclass(slots=True, eq=False)
 class OperationList:
     """Operations; the last one is the whole expression."""
 
-    items: list[Operation] = field(default_factory=list)
+    def __init__(self) -> None:
+        """Begin with none; all are added before the first question."""
+        self.items: list[Operation] = []
+        self.alone: Domain | None = None  # what a plain one leaves of its parameter, once known
 
-    @property
+    @cached_property
     def keys(self) -> frozenset[Key]:
         """The parameters in it."""
-        return frozenset(o.key for o in self.items if o.key is not None)
+        return frozenset(self.keys_in_order)
 
-    @property
+    @cached_property
     def keys_in_order(self) -> tuple[Key, ...]:
         """The parameters, as they stand in it: the order of a set is not the same in each run."""
         return tuple(dict.fromkeys(o.key for o in self.items if o.key is not None))
+
+    @cached_property
+    def is_plain(self) -> bool:
+        """Whether it compares one parameter with constants: one visit narrows all it can."""
+        *operands, _ = self.items
+        variables = sum(o.key is not None for o in operands)
+        return variables == 1 and all(o.key is not None or self._is_constant(o) for o in operands)
+
+    def _is_constant(self, operation: Operation) -> bool:
+        converts = operation.name == "convert"
+        of = self.items[operation.operands[0]] if converts else operation
+        return of.name == "const"
 
     @property
     def root(self) -> Operation:
@@ -109,6 +136,7 @@ class OperationListBuilder:
     def __init__(self, model: SemanticModel) -> None:
         """Take the types and references of the program."""
         self._model = model
+        self._constants = ConstantEvaluator(model)
 
     def write(self, expression: ast.Expression, locate: Locate) -> OperationList:
         """Return an expression as a list of operations."""
@@ -207,10 +235,36 @@ class OperationListBuilder:
                 return self._conditional(operations, node, operands)
             case ast.NameExpression() | ast.EnumLiteral() | ast.MemberAccess():
                 return self._path(operations, node, locate)
-            case ast.ItExpression() | ast.Index():
+            case ast.ItExpression():
                 return self._variable(operations, node, locate)
+            case ast.Index() if (key := locate(node)) is not None:
+                return self.append_variable(operations, key, self._model.type_of(node), node)
+            case ast.Call() if (key := self._size_of(node, locate)) is not None:
+                return self.append_variable(operations, key, types.UINT, node)
             case _:
-                return self._any(operations, node)
+                return self._computed(operations, node)
+
+    def _size_of(self, node: ast.Call, locate: Locate) -> Key | None:
+        """Return the size of a list that is a parameter, if it is that."""
+        binding = self._model.bindings.get(node)
+        if binding is None or binding.receiver is None or binding.callee.name != SIZE.name:
+            return None
+        if not isinstance(self._model.type_of(binding.receiver), types.ListType):
+            return None
+        list_ = locate(binding.receiver)
+        return None if list_ is None else (*list_, SIZE)
+
+    def _computed(self, operations: OperationList, node: ast.Expression) -> int:
+        """Append what is computed by methods, conversions or of lists: a constant, or anything."""
+        try:
+            value = self._constants.value(node)
+        except WithoutValueError:
+            value = None
+        kind = kind_of(self._model.type_of(node))
+        if value is None or isinstance(value, tuple) or kind is None:
+            return self._any(operations, node)
+        initial = point_of_choice(value) if kind == "choice" else point(value)
+        return operations.add(Operation("const", kind, initial, node=node))
 
     def _constant(
         self, operations: OperationList, node: ast.Expression, value: bool | int | float | str
@@ -302,4 +356,9 @@ class OperationListBuilder:
 
 def point_of(member: sym.EnumMemberSymbol) -> Choice:
     """Return the set of one enum member; members of equal value are one (§7.3.3)."""
-    return Choice(frozenset({member.value}))
+    return point_of_choice(member.value)
+
+
+def point_of_choice(value: Value) -> Choice:
+    """Return the set of one text, or of one enum member, which stands as its number."""
+    return Choice(frozenset({value}))

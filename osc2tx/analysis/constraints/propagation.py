@@ -20,7 +20,7 @@ from dataclasses import field
 from enum import Enum
 from functools import partial
 
-from osc2tx.analysis.constraints.collect import Collector, Constraint, Entry
+from osc2tx.analysis.constraints.collect import Collector, Constraint, Entry, Shared
 from osc2tx.analysis.constraints.domains import Choice, Domain, Interval, Value, close, is_void
 from osc2tx.analysis.constraints.operation_list import Key, domain_of_type
 from osc2tx.analysis.constraints.overrides import EffectiveConstraints, apply_overrides
@@ -196,10 +196,11 @@ class ConstraintAnalysis:
 def analyse_constraints(model: SemanticModel) -> ConstraintAnalysis:
     """Collect and propagate the constraints of every type in the user's files."""
     conditions = conditions_of(model)
+    shared: Shared = {}
     return ConstraintAnalysis(
         {
             owner: _analyse_objects(
-                model, owner, partial(Collector.collect, owner=owner), conditions
+                model, owner, partial(Collector.collect, owner=owner), conditions, shared
             )
             for owner in declared_types(model)
         }
@@ -211,11 +212,12 @@ def _analyse_objects(
     owner: sym.TypeSymbol | None,
     collect: Callable[[Collector], list[Entry]],
     conditions: tuple[Condition, ...],
+    shared: Shared | None = None,
 ) -> TypeConstraints:
     """Analyse constraints, again while more turns out about what their objects are."""
     special: dict[Key, tuple[Special, ...]] = {}
     while True:
-        collector = Collector(model, special)
+        collector = Collector(model, special, shared)
         found = _analyse(owner, collect(collector))
         more = specialised(conditions, collector.objects, found.domains, special)
         if more == special or found.conflicts:

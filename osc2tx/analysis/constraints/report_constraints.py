@@ -5,6 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from osc2tx.analysis.constraints.collect import Constraint
+from osc2tx.analysis.constraints.constants import (
+    ConstantEvaluator,
+    ImpossibleConversionError,
+    WithoutValueError,
+)
 from osc2tx.analysis.constraints.domains import Interval
 from osc2tx.analysis.constraints.forward import exact_result
 from osc2tx.analysis.constraints.operation_list import Operation
@@ -43,6 +48,7 @@ def report_constraints(
     """
     misfits = _report_integers(model, usage.settings, sink)
     misfits |= _report_divisions(model, usage.divisions, sink)
+    _report_without_value(model, usage, sink)
     reported: list[frozenset[ast.Node]] = []
     for found in [*analysis.types.values(), analyse_globals(model)]:
         for conflict in found.conflicts:
@@ -133,6 +139,8 @@ def _others(conflict: tuple[Constraint, ...], primary: Constraint) -> str:
 
 def _about(conflict: tuple[Constraint, ...]) -> str:
     """Return the parameter that they are about, if there is just one."""
+    if conflict[-1].origin == "element":
+        return f" `{conflict[-1].span.text}`"
     shared = frozenset.intersection(*(c.operations.keys for c in conflict))
     names = sorted({name_of(key) for key in shared})
     return f" on `{names[0]}`" if len(names) == 1 else ""
@@ -148,6 +156,8 @@ def _labels(conflict: tuple[Constraint, ...], primary: Constraint) -> list[Label
 
 def _says(constraint: Constraint) -> str:
     text = " ".join(constraint.span.text.split())
+    if constraint.origin == "element":
+        return f"`{text}` is one of more"
     if constraint.origin == "keep" or constraint.subject is None:
         return f"`{text}`"
     word = "in" if constraint.is_range else "=="
@@ -186,6 +196,21 @@ def _report_divisions(
         if node in found:
             sink.report("OSC425", node.right.span, "this divisor is always zero")
     return frozenset(found)
+
+
+def _report_without_value(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> None:
+    """Report what has no value, whatever the parameters are."""
+    constants = ConstantEvaluator(model)
+    reported = set()
+    for expression in (*usage.demanded, *usage.casts):
+        try:
+            constants.value(expression)
+        except WithoutValueError as error:
+            is_certain = expression in usage.evaluated
+            is_conversion = isinstance(error, ImpossibleConversionError)
+            if error.node not in reported and (is_certain or is_conversion):
+                reported.add(error.node)
+                sink.report(error.code, error.node.span, error.message, help=error.help)
 
 
 def _is_zero(model: SemanticModel, expression: ast.Expression) -> bool:

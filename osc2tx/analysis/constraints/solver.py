@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import field
 from functools import partial
 
@@ -78,16 +78,20 @@ def solve(
             changed = _revise(state, index)
         except EmptyDomainError:
             return Solution(state.domains, _positions(_blamed(state, index)))
-        if not queue and not changed:
+        done = index if expressions[index].is_plain else None  # it has nothing to add to its own
+        _enqueue(queue, waiting, (user for key in changed for user in users[key] if user != done))
+        if not queue:
             solved = dict(linear_solutions(expressions, active, state.domains))
             state.domains.update(solved)
-            changed = list(solved)
-        for key in changed:
-            for user in users[key]:
-                if user not in waiting:
-                    waiting.add(user)
-                    queue.append(user)
+            _enqueue(queue, waiting, (user for key in solved for user in users[key]))
     return Solution(state.domains, find_contradiction(expressions, active))
+
+
+def _enqueue(queue: deque[int], waiting: set[int], users: Iterable[int]) -> None:
+    for user in users:
+        if user not in waiting:
+            waiting.add(user)
+            queue.append(user)
 
 
 def smallest_conflict(
@@ -120,6 +124,32 @@ def values_on(operations: OperationList, domains: Mapping[Key, Domain]) -> list[
 def _revise(state: _State, index: int) -> list[Key]:
     """Let one constraint narrow its parameters; return those that it did narrow."""
     operations = state.expressions[index]
+    if operations.is_plain and _is_untouched(state, operations):
+        return _settle(state, index)
+    return _narrowed(state, index, operations)
+
+
+def _is_untouched(state: _State, operations: OperationList) -> bool:
+    """Whether nothing is known yet of the parameters but their types."""
+    return all(o.key is None or state.domains[o.key] is o.initial for o in operations.items)
+
+
+def _settle(state: _State, index: int) -> list[Key]:
+    """Let a plain constraint say what its parameter is; it is worked out once."""
+    operations = state.expressions[index]
+    (key,) = operations.keys_in_order
+    if operations.alone is None:
+        changed = _narrowed(state, index, operations)
+        operations.alone = state.domains[key]
+        return changed
+    if operations.alone is state.domains[key]:
+        return []
+    state.domains[key] = operations.alone
+    state.reasons[key] = 1 << index
+    return [key]
+
+
+def _narrowed(state: _State, index: int, operations: OperationList) -> list[Key]:
     values = values_on(operations, state.domains)
     values[-1] = intersect(values[-1], TRUE)
     _propagate(operations, values, range(len(values)))

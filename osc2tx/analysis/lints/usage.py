@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import field
 from typing import TypeAlias
 
@@ -46,6 +46,9 @@ class Usage:
         emits: `emit`s of the root file.
         settings: What gives values to fields and parameters: declarations, calls, invocations.
         divisions: Divisions and remainders.
+        demanded: Constraints and defaults.
+        evaluated: Those of scenarios: there is an instance whose values they give.
+        casts: Conversions outside of constraints.
         declared: Events and the types that declare them, by the type at the top of the inheritance
             and their name.
     """
@@ -58,6 +61,9 @@ class Usage:
     emits: list[ast.EmitDirective] = field(default_factory=list)
     settings: list[ast.Node] = field(default_factory=list)
     divisions: list[ast.Binary] = field(default_factory=list)
+    demanded: list[ast.Expression] = field(default_factory=list)
+    evaluated: set[ast.Expression] = field(default_factory=set)
+    casts: list[ast.Cast] = field(default_factory=list)
     declared: dict[tuple[sym.TypeSymbol, str], list[Declared]] = field(default_factory=dict)
 
 
@@ -76,6 +82,8 @@ def find_usage(model: SemanticModel, nodes: Mapping[ast.File, NodesByKind]) -> U
                     usage.declared.setdefault((_ancestor(owner), name), []).append((owner, member))
     for found in nodes.values():
         _look_at(model, usage, found)
+    for scenario in model.scenarios:
+        usage.evaluated |= {each for s in scenario.statements for each in _demanded(s)}
     usage.emits += nodes[model.root].of(ast.EmitDirective)
     usage.waits += nodes[model.root].of(ast.EventSpecification)
     return usage
@@ -97,9 +105,32 @@ def _look_at(model: SemanticModel, usage: Usage, nodes: NodesByKind) -> None:
     for kind in SETTINGS:
         usage.settings += nodes.of(kind)
     usage.divisions += (n for n in nodes.of(ast.Binary) if n.operator in DIVISIONS)
+    usage.casts += nodes.of(ast.Cast)
+    usage.demanded += (keep.expression for keep in nodes.of(ast.KeepConstraint))
+    for parameter in nodes.of(ast.ParameterDeclaration):
+        usage.demanded += () if parameter.default is None else (parameter.default,)
     rules: list[Rule] = [*nodes.of(ast.KeepConstraint), *nodes.of(ast.RemoveDefault)]
     for rule in rules:
         _look_at_rule(model, usage, rule)
+
+
+def _objects_of(model: SemanticModel, call: ast.Call) -> set[sym.Symbol]:
+    """Return the fields whose methods a call invokes: they read the rest of the object."""
+    binding = model.bindings.get(call)
+    if binding is None or binding.receiver is None or binding.callee.origin == "builtin":
+        return set()
+    symbols = (model.symbol_of(node) for node in nodes_below(binding.receiver))
+    return {symbol for symbol in symbols if isinstance(symbol, sym.FieldSymbol)}
+
+
+def _demanded(statement: ast.Statement) -> Iterator[ast.Expression]:
+    match statement:
+        case ast.KeepConstraint():
+            yield statement.expression
+        case ast.ParameterDeclaration(default=default):
+            yield from () if default is None else (default,)
+            for rule in statement.constraints:
+                yield from _demanded(rule)
 
 
 def _note(symbol: sym.Symbol | None, usage: Usage) -> None:
@@ -119,6 +150,7 @@ def _look_at_rule(model: SemanticModel, usage: Usage, rule: Rule) -> None:
                 fields.add(symbol)
         elif isinstance(node, ast.Call):
             usage.settings.append(node)
+            usage.read |= _objects_of(model, node)
     if len(fields) > 1:
         usage.read |= fields
 

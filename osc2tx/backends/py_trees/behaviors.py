@@ -6,18 +6,21 @@ stand inline, nested as they are in the source.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from typing import assert_never
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.calls import CallWriter, code, comments
+from osc2tx.backends.py_trees.calls import CallWriter, apart, code, comments
 from osc2tx.backends.py_trees.code import (
     Level,
+    PyDocLine,
     PyExpr,
     PyName,
     literal,
     name_expression,
     self_attribute,
 )
+from osc2tx.backends.py_trees.formatting import INDENT, LINE_LENGTH
 from osc2tx.backends.py_trees.naming import (
     InvocationName,
     NameTable,
@@ -26,7 +29,7 @@ from osc2tx.backends.py_trees.naming import (
     invocation_names,
     method_name,
 )
-from osc2tx.backends.py_trees.source_map import ScenarioMap, place_of
+from osc2tx.backends.py_trees.source_map import ScenarioMap
 from osc2tx.backends.py_trees.user_actions import action_key, is_function
 from osc2tx.backends.py_trees.view import (
     ArgumentView,
@@ -53,12 +56,19 @@ class BehaviorTreeBuilder:
         names: Names of the scenario's fields and methods.
         classes: Names of the module's scenario classes, by key of the scenario.
         source_map: Where the nodes' lines go, in the pre-order of the tree.
+        actions: The actions of the user's own.
     """
 
     def __init__(
-        self, calls: CallWriter, names: NameTable, classes: NameTable, source_map: ScenarioMap
+        self,
+        calls: CallWriter,
+        names: NameTable,
+        classes: NameTable,
+        source_map: ScenarioMap,
+        actions: Iterable[ir.UserAction],
     ) -> None:
         """See the class."""
+        self._actions = {action.qualified_name: action for action in actions}
         self._classes = classes
         self._calls = calls
         self._names = names
@@ -72,18 +82,23 @@ class BehaviorTreeBuilder:
         """Return `behavior` and the methods it calls, in source order."""
         self._compositions = composition_names(scenario.body)
         self._invocations = invocation_names(scenario.body)
-        self._method(PyName("behavior"), scenario.body)
+        self._method(PyName("behavior"), scenario.body, "What happens.")
         first = replace(self._written[0], statements=tuple(map(_override, scenario.overrides)))
         return (first, *self._written[1:])
 
-    def _method(self, name: PyName, node: ir.Behavior) -> None:
-        """Write a method; it is listed before those it calls."""
+    def _method(self, name: PyName, node: ir.Behavior, about: str = "") -> None:
+        """Write a method; it is listed before those it calls.
+
+        A short comment above the phase is its docstring, a longer one stays above.
+        """
         index = len(self._written)
         value = self._node(node, depth=0)
+        story = docstring_of(node.comments)
         method = MethodView(
             signature=signature(name, (), BEHAVIOUR),
-            value=replace(value, comments=()),
-            comments=value.comments,
+            value=replace(value, comments=(), trailing=None),
+            docstring=tuple(PyDocLine.of(text) for text in (story or about,) if text),
+            comments=() if story else comments(node.comments),
         )
         self._written.insert(index, method)
 
@@ -93,7 +108,7 @@ class BehaviorTreeBuilder:
             return self._node(node, depth=depth)
         if not node.is_phase and depth <= MAX_INLINE_DEPTH:
             return self._node(node, depth=depth)
-        wanted = method_name(self._compositions[node])
+        wanted = method_name(node)
         suffix = "" if wanted in self._wanted else "_"  # else it is a field that has the name
         self._wanted.add(wanted)
         name = self._names.add(f"method at {node.span.start}", wanted, suffix)
@@ -105,14 +120,15 @@ class BehaviorTreeBuilder:
             () if isinstance(node, ir.Wait | ir.Emit | ir.Finish | ir.Call | ir.On) else node.until
         )
         if until:
-            self._source_map.nodes.append(place_of(until[0].span))
-        self._source_map.nodes.append(place_of(node.span))
+            self._source_map.nodes.append(self._source_map.place_of(until[0].span))
+        self._source_map.nodes.append(self._source_map.place_of(node.span))
         call = self._call(node, depth=depth)
         if until:
             triggers = self._calls.triggers(until)
             call = self._calls.runtime_call("Until", ArgumentView(call=call), *triggers)
             call = replace(call, exploded=True)
-        return ArgumentView(call=call, comments=comments(node.comments))
+        above, behind = apart(node.comments)
+        return ArgumentView(call=call, comments=above, trailing=behind)
 
     def _call(self, node: ir.Behavior, *, depth: int) -> CallView:
         match node:
@@ -137,9 +153,9 @@ class BehaviorTreeBuilder:
                 function = code(writer.late(writer.write(expression)))
                 return self._calls.runtime_call("Call", *self._label(node.label), function)
             case ir.On(trigger=trigger, reactions=reactions):
-                written = tuple(self._node(reaction, depth=depth + 1) for reaction in reactions)
-                do = ArgumentView(call=CallView(None, written), keyword=PyName("do"))
-                call = self._calls.runtime_call("On", *self._calls.trigger(trigger), do)
+                what, *condition = self._calls.trigger(trigger)
+                do = (self._node(reaction, depth=depth + 1) for reaction in reactions)
+                call = self._calls.runtime_call("On", what, *do, *condition)
                 return replace(call, exploded=True)
             case _:
                 assert_never(node)
@@ -163,11 +179,13 @@ class BehaviorTreeBuilder:
         return arguments
 
     def _invocation(self, node: ir.Invoke) -> CallView:
+        given = node.arguments
         written = () if node.actor is None else (self._calls.expressions.write(node.actor),)
         first: tuple[ArgumentView, ...] = ()
         if is_function(node):
             action = name_expression(self._classes[action_key(node.qualified_name)])
             first = tuple(map(code, written))
+            given = self._not_by_default(node)
         else:
             path = (*(actor.within(Level.ATOM) for actor in written), identifier(node.action))
             action = PyExpr(".".join(path), Level.ATOM)
@@ -175,10 +193,21 @@ class BehaviorTreeBuilder:
             *first,
             *self._label(node.label),
             *self._calls.modifiers(node.modifiers),
-            *self._calls.keywords(node.arguments),
+            *self._calls.keywords(given),
             *self._calls.duration(node.duration),
         )
         return CallView(action, arguments)
+
+    def _not_by_default(self, node: ir.Invoke) -> tuple[ir.Argument, ...]:
+        """Return the arguments that are not the defaults of an action of the user's own."""
+        declared = self._actions[node.qualified_name].parameters
+        defaults = {p.name: p.default for p in declared if p.default is not None}
+        return tuple(
+            argument
+            for argument in node.arguments
+            if argument.parameter not in defaults
+            or not ir.means_same(argument.value, defaults[argument.parameter])
+        )
 
     def _scenario_invocation(self, node: ir.InvokeScenario) -> CallView:
         name = self._invocations[node]
@@ -193,6 +222,19 @@ class BehaviorTreeBuilder:
 
     def _label(self, label: str | None) -> tuple[ArgumentView, ...]:
         return () if label is None else (code(literal(label)),)
+
+
+def docstring_of(lines: Sequence[str]) -> str:
+    """Return a comment as a docstring, without rules and frames around it; empty if it is long."""
+    plain = [text for line in lines if (text := line.strip(RULES))]
+    if len(plain) != 1 or len(plain[0]) >= DOC_WIDTH:
+        return ""
+    return f"{plain[0]}." if plain[0][-1].isalnum() else plain[0]
+
+
+RULES = "-=*#~_ "
+"""What rules and frames in comments are made of."""
+DOC_WIDTH = LINE_LENGTH - 2 * INDENT - 2 * len('"""')
 
 
 def _override(override: ir.Override) -> StatementView:

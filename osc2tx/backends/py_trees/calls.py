@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from itertools import groupby
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.code import (
@@ -24,6 +23,13 @@ from osc2tx_shared.classes import replace
 def comments(lines: tuple[str, ...]) -> tuple[PyComment, ...]:
     """Return comment lines of the source as comment lines of the module."""
     return tuple(PyComment.of(line) for line in lines)
+
+
+def apart(lines: tuple[str, ...]) -> tuple[tuple[PyComment, ...], PyComment | None]:
+    """Return comment lines as those above a statement, and the one behind it."""
+    if lines and isinstance(lines[-1], ir.TrailingComment):
+        return comments(lines[:-1]), PyComment.of(lines[-1])
+    return comments(lines), None
 
 
 def code(expression: PyExpr, keyword: str | None = None) -> ArgumentView:
@@ -65,11 +71,10 @@ class CallWriter:
             calls: The modifiers.
             depth: In how many applications they stand that are written out.
         """
-        for application, group in groupby(calls, lambda call: call.application(depth)):
-            parts = tuple(group)
+        for application, modifier, parts in self._functions.groups(calls, depth):
             if application is None:
                 yield from map(self.modifier, parts)
-            elif (modifier := self._functions.fitting(application, parts)) is not None:
+            elif modifier is not None:
                 yield self._own_modifier(modifier, application, parts[0])
             else:
                 yield from self.modifiers(parts, depth + 1)

@@ -58,7 +58,7 @@ class CoverageWriter:
     def _slices(self, item: ir.Coverage) -> list[ArgumentView]:
         arguments = []
         if item.unit is not None:
-            arguments.append(code(unit_call(self._calls, item.unit), "unit"))
+            arguments.append(code(written_unit(self._calls, item.unit), "unit"))
         if item.within is not None:
             arguments.append(code(_tuple(tuple(map(literal, item.within))), "within"))
         if item.every is not None:
@@ -68,8 +68,13 @@ class CoverageWriter:
         return arguments
 
 
-def unit_call(calls: CallWriter, unit: ir.Unit) -> PyExpr:
-    """Write a unit as an object; a factor cannot say one with an offset, so by its numbers."""
+def written_unit(calls: CallWriter, unit: ir.Unit) -> PyExpr:
+    """Write a unit: the runtime knows those of the library by name, others are objects.
+
+    A factor cannot say one with an offset, so that is written by its numbers.
+    """
+    if unit.is_standard:
+        return literal(unit.name)
     name = calls.use_name("Unit")
     if unit.offset:
         numbers = f"{literal(unit.factor)}, {literal(unit.offset)}"

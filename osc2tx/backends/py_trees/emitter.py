@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TypeVar
 
 from osc2tx import ir
+from osc2tx.backends.py_trees.calls import comments
 from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr
 from osc2tx.backends.py_trees.coverage import render_coverage_model
 from osc2tx.backends.py_trees.environment import environment
+from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.formatting import format_module
-from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
+from osc2tx.backends.py_trees.modifier_calls import ModifierCalls, never_called
 from osc2tx.backends.py_trees.modifier_functions import write_modifiers
-from osc2tx.backends.py_trees.naming import NameTable, module_name
+from osc2tx.backends.py_trees.naming import NameTable, identifier, module_name
 from osc2tx.backends.py_trees.own_names import (
     Declared,
     add_name,
@@ -23,7 +25,7 @@ from osc2tx.backends.py_trees.own_names import (
 )
 from osc2tx.backends.py_trees.own_types import write_types
 from osc2tx.backends.py_trees.runtime_api import API_LEVEL
-from osc2tx.backends.py_trees.scenarios import ScenarioWriter
+from osc2tx.backends.py_trees.scenarios import ScenarioWriter, is_first_come
 from osc2tx.backends.py_trees.sharing import Sharing, sibling_imports
 from osc2tx.backends.py_trees.source_map import render_source_map
 from osc2tx.backends.py_trees.type_methods import TypeMethods
@@ -35,6 +37,7 @@ from osc2tx.backends.py_trees.view import (
     ModuleView,
     ScenarioView,
     TypeView,
+    UnitView,
     UserActionView,
     UserModifierView,
 )
@@ -91,8 +94,12 @@ def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
         table.annotation(ir.ValueType(ir.Kind.ENUM, enum.name, members=enum.members))
     type_methods = TypeMethods(module.types, module.scenarios)
     type_views = write_types(types, table, type_methods, uses)
-    action_views = write_actions(actions, names, table, uses)
-    modifiers = [each for each in defined if isinstance(each, ir.UserModifier)]
+    plain = ExpressionWriter(NameTable(), uses.unit, uses.name)
+    action_views = write_actions(actions, names, table, uses, plain.write)
+    unwritten = never_called(module)
+    modifiers = [
+        each for each in defined if isinstance(each, ir.UserModifier) and each.key not in unwritten
+    ]
     functions = ModifierCalls(module.modifiers, names)
     modifier_views = write_modifiers(modifiers, functions, names, table, type_methods, uses)
     main = main_scenario(module) if len(scenarios) > 1 else None
@@ -100,13 +107,14 @@ def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
         ScenarioWriter(
             scenario,
             module.one_of,
-            module.dialect == "carla",
+            is_first_come(module),
             scenario is main,
             names,
             table,
             type_methods,
             functions,
             uses,
+            module.actions,
         )
         for scenario in scenarios
     ]
@@ -122,8 +130,8 @@ def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
         siblings=siblings,
         root=_root(module) if siblings else None,
         api_level=API_LEVEL,
-        units=uses.units(),
-        enums=_explained_enums(uses.enums(), names, sharing),
+        units=_told_units(uses.units(), module),
+        enums=_explained_enums(uses.enums(), names, sharing, module),
         scenarios=_explained(scenario_views, scenarios, sharing),
         mains=tuple(names[scenario.key] for scenario in own_scenarios(module)),
         shown=None if shown is None else names[shown.key],
@@ -163,11 +171,30 @@ def _explained(
 
 
 def _explained_enums(
-    views: Sequence[EnumView], names: NameTable, sharing: Sharing
+    views: Sequence[EnumView], names: NameTable, sharing: Sharing, module: ir.Module
 ) -> tuple[EnumView, ...]:
     """Return the same of enums: a module also defines those of the library that it extends."""
     reasons = {names[key]: PyComment.of(reason) for key, reason in sharing.copies.items()}
-    return tuple(replace(view, copied=reasons.get(view.name)) for view in views)
+    declared = {names[key_of(each)]: each for each in module.enums if key_of(each) in names}
+    return tuple(
+        replace(_told_enum(view, declared.get(view.name)), copied=reasons.get(view.name))
+        for view in views
+    )
+
+
+def _told_enum(view: EnumView, declared: ir.UserEnum | None) -> EnumView:
+    """Return an enum with the comments of its declaration."""
+    if declared is None:
+        return view
+    told = dict(declared.told)
+    lines = tuple(comments(told.get(member, ())) for member in declared.members)
+    return replace(view, comments=comments(declared.comments), told=lines if told else ())
+
+
+def _told_units(views: Sequence[UnitView], module: ir.Module) -> tuple[UnitView, ...]:
+    """Return units with the comments of their declarations."""
+    told = {identifier(each.name): comments(each.comments) for each in module.units}
+    return tuple(replace(view, comments=told.get(view.name.text, ())) for view in views)
 
 
 def _root(module: ir.Module) -> PyExpr | None:
@@ -209,6 +236,15 @@ def _is_given(declaration: ir.Declaration) -> bool:
     return isinstance(declaration, ir.Actor) and declaration.is_given
 
 
+def _policies(module: ir.Module) -> Iterator[str]:
+    """Yield the settings that decide what its trees mean, where they have such members."""
+    nodes = [n for each in own_scenarios(module) for n in ir.walk_behaviors(each.body)]
+    if any(isinstance(node, ir.OneOf) for node in nodes):
+        yield ONE_OF_POLICIES[module.one_of]
+    if is_first_come(module):
+        yield "a duration only ends its member early"
+
+
 def _docstring(module: ir.Module) -> tuple[PyDocLine, ...]:
     own: Sequence[ir.Scenario | ir.UserType | ir.UserEnum | ir.UserModifier]
     own = own_scenarios(module)
@@ -222,12 +258,12 @@ def _docstring(module: ir.Module) -> tuple[PyDocLine, ...]:
         words = ("Modifier", "Modifiers")
     names = ", ".join(f"`{each.name}`" for each in own)
     about = ("", *module.comments) if module.comments else ()
+    settings = (f"OpenSCENARIO DSL {module.standard}, dialect {module.dialect}", *_policies(module))
     lines = (
         f"{words[len(own) > 1]} {names}.",
         *about,
         "",
         f"Made by osc2tx from {module.source}: edit the scenario, not this module.",
-        f"OpenSCENARIO DSL {module.standard}, dialect {module.dialect}; "
-        f"{ONE_OF_POLICIES[module.one_of]}.",
+        f"{'; '.join(settings)}.",
     )
     return tuple(PyDocLine.of(line) for line in lines)

@@ -167,9 +167,13 @@ class ExpressionWriter:
             case ir.UserShape(operand=operand, compute=compute, duration=duration):
                 object_ = self.write(operand)
                 methods = [name for name in (compute, duration) if name is not None]
+                if all(method in self._type_methods for method in methods):
+                    return object_
                 functions = (self._function(method, object_) for method in methods)
                 inner = ", ".join(map(str, (object_, *functions)))
                 return PyExpr(f"{self._use_name('OwnShape')}({inner})", Level.ATOM)
+            case ir.Undefined(method=method):
+                return PyExpr(f"{self._use_name('undefined')}({literal(method)})", Level.ATOM)
             case ir.HalfRange(bound=bound, is_lower=is_lower):
                 half = self._use_name("at_least" if is_lower else "at_most")
                 return PyExpr(f"{half}({self.write(bound)})", Level.ATOM)

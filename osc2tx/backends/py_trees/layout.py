@@ -17,8 +17,8 @@ def statement(view: StatementView, column: int) -> str:
         annotation = f": {view.annotation}" if view.annotation is not None else ""
         start = f"{indent}{view.target}{annotation} = "
     lines = [""] if view.blank_before else []
-    lines += [f"{indent}{comment}" for comment in view.comments]
-    return "\n".join((*lines, _argument(view.value, column, start, "")))
+    lines += _commented(view, indent, _argument(view.value, column, start, ""))
+    return "\n".join(lines)
 
 
 def returned(view: ArgumentView, column: int) -> str:
@@ -50,9 +50,19 @@ def _lines(call: CallView, on_one_line: str | None, column: int) -> list[str]:
     comma = "," if call.exploded or len(call.arguments) > 1 else ""
     lines = []
     for each in call.arguments:
-        lines += [f"{indent}{comment}" for comment in each.comments]
-        lines.append(_argument(each, column, indent, comma))
+        lines += _commented(each, indent, _argument(each, column, indent, comma))
     return lines + [f"{indent}{comment}" for comment in call.end_comments]
+
+
+def _commented(view: ArgumentView | StatementView, indent: str, text: str) -> list[str]:
+    """Write a text with its comments: the trailing one behind it, or above where it is too long."""
+    above = [f"{indent}{comment}" for comment in view.comments]
+    if view.trailing is None:
+        return [*above, text]
+    line = f"{text}  {view.trailing}"
+    if "\n" in text or len(line) > LINE_LENGTH or not is_plain(text):
+        return [*above, f"{indent}{view.trailing}", text]
+    return [*above, line]
 
 
 def _on_one_line(call: CallView) -> str | None:
@@ -67,7 +77,7 @@ def _on_one_line(call: CallView) -> str | None:
             if inner is None:
                 return None
             text = inner.join(_brackets(each.call))
-        if each.comments:
+        if each.comments or each.trailing:
             return None
         written.append(f"{each.keyword}={text}" if each.keyword else text)
     return ", ".join(written)

@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import groupby
+from typing import TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.code import PyName
 from osc2tx.backends.py_trees.naming import NameTable, identifier
+
+Group: TypeAlias = (
+    "tuple[ir.Application | None, ir.UserModifier | None, tuple[ir.ModifierCall, ...]]"
+)
+"""Neighbors that one application stands for, with it, and its modifier if that says just them."""
 
 
 class ModifierCalls:
@@ -39,6 +46,26 @@ class ModifierCalls:
         expected = ir.applied_with(modifier.calls, defaults | given)
         return modifier if ir.means_same(expected, tuple(calls)) else None
 
+    def groups(self, calls: Iterable[ir.ModifierCall], depth: int) -> Iterator[Group]:
+        """Yield calls together that one application stands for."""
+        for application, group in groupby(calls, lambda call: call.application(depth)):
+            parts = tuple(group)
+            fitting = None if application is None else self.fitting(application, parts)
+            yield application, fitting, parts
+
+    def note(
+        self, calls: Iterable[ir.ModifierCall], applied: set[str], called: set[str], depth: int = 0
+    ) -> None:
+        """Note the keys of the modifiers that are applied, and of those whose functions fit."""
+        for application, modifier, parts in self.groups(calls, depth):
+            if application is None:
+                continue
+            applied.add(application.key)
+            if modifier is None:
+                self.note(parts, applied, called, depth + 1)
+            else:
+                called.add(modifier.key)
+
     def name(self, modifier: ir.UserModifier) -> PyName:
         """Return the name of the function of a modifier."""
         return self._names[modifier.key]
@@ -66,6 +93,24 @@ class ModifierCalls:
         called = (call.name for call in modifier.calls)
         others = (self._modifiers[each.key].name for each in applied)
         return frozenset(map(identifier, (*units, *called, *others)))
+
+
+def never_called(module: ir.Module) -> set[str]:
+    """Return the keys of modifiers that the scenarios of a file apply without one call of them.
+
+    One that no scenario of the file applies is there for other files.
+    """
+    functions = ModifierCalls(module.modifiers, NameTable())
+    nodes = [node for each in module.scenarios for node in ir.walk_behaviors(each.body)]
+    lists = [node.modifiers for node in nodes if isinstance(node, ir.Invoke)]
+    lists += [placement.modifiers for each in module.scenarios for placement in each.placements]
+    applied, called = set[str](), set[str]()
+    for calls in lists:
+        functions.note(calls, applied, called)
+    for modifier in module.modifiers:
+        if modifier.key not in applied or modifier.key in called:
+            functions.note(modifier.calls, applied, called)
+    return applied - called
 
 
 def parameter_name(name: str, hidden: frozenset[str]) -> PyName:

@@ -3,7 +3,10 @@
 Where one is applied, the module calls its function if what that returns is just what the program
 means there. Else the modifiers of the library that it stands for are written: some of them may say
 where the actor starts, which is said in `placement`, and a function takes no values that change
-while the scenario runs.
+while the scenario runs. A function that its own file could only spell out is not written.
+
+The type of a function names the modifiers that it returns, so that a type checker knows which
+actions take them.
 """
 
 from __future__ import annotations
@@ -15,7 +18,7 @@ from osc2tx.backends.py_trees.calls import CallWriter
 from osc2tx.backends.py_trees.code import Level, PyDocLine, PyExpr
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
-from osc2tx.backends.py_trees.naming import NameTable
+from osc2tx.backends.py_trees.naming import NameTable, identifier
 from osc2tx.backends.py_trees.type_methods import TypeMethods
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.uses import Uses
@@ -56,7 +59,9 @@ def write_modifiers(
         about = ("", *modifier.comments) if modifier.comments else ()
         written = tuple(calls.modifiers(modifier.calls))
         listed = ", ".join(("*", *parameters)) if parameters else ""
-        signature = f"{names[modifier.key]}({listed}) -> list[{uses.name('Modifier')}]"
+        kinds = dict.fromkeys(uses.modifier(identifier(call.name)) for call in modifier.calls)
+        result = " | ".join(map(str, kinds))
+        signature = f"{names[modifier.key]}({listed}) -> list[{result}]"
         return UserModifierView(
             signature=PyExpr(signature, Level.ATOM),
             docstring=tuple(map(PyDocLine.of, (f"Modifier `{modifier.name}`.", *about))),

@@ -175,9 +175,60 @@ def invocation_names(body: ir.Behavior) -> dict[ir.Behavior, InvocationName]:
     return names
 
 
-def method_name(name: str) -> str:
-    """Return the name of the method for a phase."""
-    return identifier(name.replace(": ", "_").replace(" ", "_"))
+def method_name(node: ir.Composition) -> str:
+    """Return the name of the method for a phase.
+
+    A labelled one is public, so that a subclass can override it. One without label is private and
+    called by what it holds: `_hero_and_npc`, `_hero_drive_then_change_lane`.
+    """
+    if node.label is not None:
+        return identifier(node.label)
+    actor = _actor_of(node)
+    topics = list(dict.fromkeys(_topics(node, actor)))
+    kind, joint = _WORDS[type(node)]
+    words = f"_{joint}_".join(topics[:MAX_TOPICS]) if len(topics) > 1 else f"{topics[0]}_{kind}"
+    is_said = actor is None or words.startswith(f"{actor}_")
+    return f"_{identifier(words if is_said else f'{actor}_{words}')}"
+
+
+MAX_TOPICS = 2  # that the name of a method lists
+_WORDS = {
+    ir.Serial: ("serial", "then"),
+    ir.Parallel: ("parallel", "and"),
+    ir.OneOf: ("one_of", "or"),
+}
+
+
+def _actor_of(node: ir.Behavior) -> str | None:
+    """Name the one actor of all actions in a part of the tree; `None` if there are others."""
+    inside = [each for each in ir.walk_behaviors(node) if isinstance(each, ir.Invoke)]
+    actors = {e.actor.name if isinstance(e.actor, ir.FieldRef) else "" for e in inside}
+    return next(iter(actors)) or None if len(actors) == 1 else None
+
+
+def _topics(node: ir.Composition, actor: str | None) -> list[str]:
+    """Say what the members of a composition are about; events only if there is nothing else."""
+    telling = [each for each in node.members if not isinstance(each, ir.Wait | ir.Emit | ir.On)]
+    return [_topic(each, actor) for each in telling or node.members]
+
+
+def _topic(node: ir.Behavior, actor: str | None) -> str:
+    if node.label is not None:
+        return node.label
+    match node:
+        case ir.Serial() | ir.Parallel() | ir.OneOf():
+            own = _actor_of(node)
+            return own if own and own != actor else _topics(node, own)[0]
+        case ir.Invoke(actor=ir.FieldRef(name=name)) if name != actor:
+            return name
+        case ir.Invoke(action=action):
+            return action
+        case ir.InvokeScenario(scenario=scenario):
+            return scenario.rpartition(".")[2]
+        case ir.Emit(event=event):
+            return f"emit_{event.name}"
+        case _:
+            return type(node).__name__.lower()
 
 
 def _acting(node: ir.InvokeScenario) -> tuple[str, ...]:

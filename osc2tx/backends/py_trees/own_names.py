@@ -10,7 +10,12 @@ from typing import TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.naming import NameTable, class_name, identifier
-from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES, PHYSICAL_TYPES, STRUCT_CLASSES
+from osc2tx.backends.py_trees.runtime_api import (
+    ACTOR_CLASSES,
+    ACTOR_FIELDS,
+    PHYSICAL_TYPES,
+    STRUCT_CLASSES,
+)
 from osc2tx.backends.py_trees.type_table import class_key, enum_key
 from osc2tx.backends.py_trees.user_actions import action_key, has_function, protocol_key
 from osc2tx.catalogue import catalogue, object_tables
@@ -21,6 +26,7 @@ Declared: TypeAlias = ir.Scenario | ir.UserType | ir.UserEnum | ir.UserAction | 
 RUNTIME_CLASSES = frozenset(
     {
         *ACTOR_CLASSES.values(),
+        *ACTOR_FIELDS.values(),
         *STRUCT_CLASSES.values(),
         *PHYSICAL_TYPES.values(),
         "Actor",
@@ -62,6 +68,7 @@ RUNTIME_FUNCTIONS = frozenset(
         "not_given",
         "require_api",
         "rise",
+        "undefined",
         "user_action",
         "within",
     }
@@ -73,6 +80,7 @@ PYTHON_NAMES = frozenset(
         "Protocol",
         "SystemExit",
         "TypeAlias",
+        "Unpack",
         "all",
         "any",
         "bool",

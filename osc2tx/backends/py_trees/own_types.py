@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.calls import comments
-from osc2tx.backends.py_trees.code import PyDocLine, literal, name_expression
+from osc2tx.backends.py_trees.code import PyDocLine, PyName, literal, name_expression
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.naming import NameTable
 from osc2tx.backends.py_trees.type_methods import TypeMethods
@@ -55,8 +55,9 @@ class _TypeWriter:
         is_object = self._table.is_object(own)
         if not is_object:
             self._uses.standard("dataclasses", "dataclass")
-        elif own.all_fields:
-            self._uses.standard("typing", "Any")
+        others, inherited = PyName("Any"), tuple[FieldView, ...]()
+        if is_object and own.all_fields:
+            others, inherited = self._other_fields()
         word = "Actor" if own.is_actor else "Struct"
         kinds, above = self._table.kinds_of(own) if own.is_actor else ((), None)
         about = [f"{word} `{own.name}`.", *(["", *own.comments] if own.comments else [])]
@@ -69,14 +70,27 @@ class _TypeWriter:
             docstring=tuple(PyDocLine.of(line) for line in about),
             fields=tuple(map(self._field, own.all_fields)),
             methods=tuple(self._method(name, m) for name, m in self._methods.of(own.name)),
+            others=others,
+            keeps=comments(own.keeps),
+            inherited=inherited,
         )
 
-    def _field(self, field: ir.UserField) -> FieldView:
+    def _other_fields(self) -> tuple[PyName, tuple[FieldView, ...]]:
+        """Return what types the keywords of the bases: a type of the runtime, and own fields."""
+        lineage = self._table.lineage(self._own.name)
+        known = self._table.fields_type(lineage)
+        if known is None:
+            self._uses.standard("typing", "Any")
+            return PyName("Any"), ()
+        above = tuple(self._table.all_fields_above(lineage))
+        return known, tuple(self._field(field, owner) for owner, field in above)
+
+    def _field(self, field: ir.UserField, owner: str | None = None) -> FieldView:
         default = None if field.default is None else self._writer().write(field.default)
         if field.is_optional:
             default = name_expression(self._uses.name("not_given"))
         return FieldView(
-            name=self._table.member(self._own.name, field.name),
+            name=self._table.member(owner or self._own.name, field.name),
             annotation=self._table.annotation(field.type, self._later),
             default=default,
             comments=comments(field.comments),

@@ -23,6 +23,21 @@ ACTOR_CLASSES = {
     "vehicle": "Vehicle",
 }
 
+# Class of an actor -> the type of its keywords, in `osc2tx_runtime.fields`.
+ACTOR_FIELDS = {
+    "Actor": "ActorFields",
+    "Animal": "ParticipantFields",
+    "Environment": "EnvironmentFields",
+    "Map": "MapFields",
+    "MovableObject": "ObjectFields",
+    "Person": "ParticipantFields",
+    "PhysicalObject": "ObjectFields",
+    "StationaryObject": "ObjectFields",
+    "TrafficLightController": "ActorFields",
+    "Trailer": "TrailerFields",
+    "Vehicle": "VehicleFields",
+}
+
 # Type of the standard library that no object is of alone -> the next one above it with a class.
 ABSTRACT_TYPES = {"route_element": "route", "traffic_participant": "movable_object"}
 

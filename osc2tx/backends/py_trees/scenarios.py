@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from osc2tx import ir
 from osc2tx.backends.py_trees.behaviors import BehaviorTreeBuilder
-from osc2tx.backends.py_trees.calls import CallWriter, code, comments
+from osc2tx.backends.py_trees.calls import CallWriter, apart, code, comments
 from osc2tx.backends.py_trees.code import (
     Level,
     PyDocLine,
@@ -14,12 +16,12 @@ from osc2tx.backends.py_trees.code import (
     name_expression,
     self_attribute,
 )
-from osc2tx.backends.py_trees.coverage import CoverageWriter, unit_call
+from osc2tx.backends.py_trees.coverage import CoverageWriter, written_unit
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
 from osc2tx.backends.py_trees.naming import SCENARIO_ATTRIBUTES, NameTable, identifier
 from osc2tx.backends.py_trees.objects import ObjectWriter
-from osc2tx.backends.py_trees.source_map import ScenarioMap, place_of
+from osc2tx.backends.py_trees.source_map import ScenarioMap
 from osc2tx.backends.py_trees.type_methods import TypeMethods
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.uses import Uses
@@ -32,6 +34,18 @@ from osc2tx.backends.py_trees.view import (
     signature,
 )
 from osc2tx_shared.classes import replace
+
+FIRST_COME = "first_come"
+ABOUT_FIRST_COME = "A duration only ends its member early"
+
+
+def is_first_come(module: ir.Module) -> bool:
+    """Whether the first of a member and its duration ends both, and some member has one."""
+    nodes = (n for each in module.scenarios for n in ir.walk_behaviors(each.body))
+    limited = (ir.Serial, ir.Parallel, ir.OneOf, ir.Invoke, ir.InvokeScenario)
+    return module.dialect == "carla" and any(
+        isinstance(node, limited) and node.duration is not None for node in nodes
+    )
 
 
 class ScenarioWriter:
@@ -47,6 +61,7 @@ class ScenarioWriter:
         type_methods: The methods of types that stand in their classes.
         functions: The modifiers of the user's own that the module has as functions.
         uses: What the module has to import.
+        actions: The actions of the user's own.
     """
 
     def __init__(
@@ -60,8 +75,11 @@ class ScenarioWriter:
         type_methods: TypeMethods,
         functions: ModifierCalls,
         uses: Uses,
+        actions: Iterable[ir.UserAction] = (),
     ) -> None:
         """See the class."""
+        self._actions = actions
+        self._source = scenario.span.source
         self._scenario = scenario
         self._one_of = one_of
         self._first_come = first_come
@@ -85,7 +103,7 @@ class ScenarioWriter:
         self._objects = ObjectWriter(expressions, types)
         events = (each for each in scenario.declarations if isinstance(each, ir.Event))
         self._first_implicit_event = next((each for each in events if each.is_implicit), None)
-        self.source_map = ScenarioMap()
+        self.source_map = ScenarioMap(scenario.span.source.name)
 
     def write(self) -> ScenarioView:
         """Return the view model; afterwards `source_map` is complete."""
@@ -100,7 +118,7 @@ class ScenarioWriter:
         )
         placements = tuple(self._placement(placement) for placement in self._scenario.placements)
         methods = BehaviorTreeBuilder(
-            self._calls, self._names, self._classes, self.source_map
+            self._calls, self._names, self._classes, self.source_map, self._actions
         ).write(self._scenario)
         return ScenarioView(
             class_name=self._classes[self._scenario.key],
@@ -126,27 +144,43 @@ class ScenarioWriter:
         if self._one_of != "race":
             values["one_of"] = self._one_of
         if self._first_come:
-            values["first_come"] = True
+            values[FIRST_COME] = True
         if self._is_main:
             values["is_main"] = True
         return tuple(
-            StatementView(name_expression(PyName(name)), code(literal(value)))
+            StatementView(
+                name_expression(PyName(name)),
+                code(literal(value)),
+                comments=comments((ABOUT_FIRST_COME,) if name == FIRST_COME else ()),
+            )
             for name, value in values.items()
         )
 
     def _declaration(self, declaration: ir.Declaration, *, is_first: bool) -> StatementView:
         name = self._names[declaration.name]
-        self.source_map.fields[str(name)] = place_of(declaration.span)
+        self.source_map.fields[str(name)] = self.source_map.place_of(declaration.span)
         lines = declaration.comments
         if declaration is self._first_implicit_event:
             lines = ("Events that the scenario uses without declaring them",)
+        above, behind = apart(lines)
         return StatementView(
             target=self_attribute(name),
             value=self._declared_value(declaration),
-            comments=comments(lines),
-            blank_before=bool(lines) and not is_first,
+            comments=above,
+            trailing=behind,
+            blank_before=not is_first and self._stands_apart(declaration),
             annotation=self._declared_type(declaration),
         )
+
+    def _stands_apart(self, declaration: ir.Declaration) -> bool:
+        """Whether a blank line stands above a declaration in its source, or none of its source."""
+        source, number = declaration.span.source, declaration.span.line - 1
+        before, self._source = self._source, source
+        if source is not before or declaration is self._first_implicit_event:
+            return True
+        while number > 0 and source.line_text(number).lstrip().startswith("#"):
+            number -= 1
+        return number > 0 and not source.line_text(number).strip()
 
     def _declared_type(self, declaration: ir.Declaration) -> PyExpr | None:
         """Write the type of a value that alone does not show it: Python takes a member for text."""
@@ -160,14 +194,16 @@ class ScenarioWriter:
         write = self._calls.expressions.write
         statements = []
         for index, constraint in enumerate(self._scenario.constraints):
-            self.source_map.constraints.append(place_of(constraint.span))
+            self.source_map.constraints.append(self.source_map.place_of(constraint.span))
+            above, behind = apart(constraint.comments)
             statements.append(
                 StatementView(
                     target=None,
                     value=ArgumentView(
                         call=CallView(_self("keep"), (code(write(constraint.expression)),))
                     ),
-                    comments=comments(constraint.comments),
+                    comments=above,
+                    trailing=behind,
                     blank_before=index == 0 or bool(constraint.comments),
                 )
             )
@@ -283,12 +319,8 @@ class ScenarioWriter:
             arguments.append(code(self._types.annotation(parameter.type)))
         arguments += [code(write(v)) for v in (parameter.value, parameter.domain) if v is not None]
         if parameter.unit is not None:
-            arguments.append(code(self._unit(parameter.unit), "unit"))
+            arguments.append(code(written_unit(self._calls, parameter.unit), "unit"))
         return ArgumentView(call=CallView(_self(method), tuple(arguments)))
-
-    def _unit(self, unit: ir.Unit) -> PyExpr:
-        """Write a unit: the runtime knows those of the library by name."""
-        return literal(unit.name) if unit.is_standard else unit_call(self._calls, unit)
 
     def _fixed(self, type_: ir.ValueType, value: ArgumentView) -> ArgumentView:
         """Write a constant; that of an enum so that it may be compared with other members."""
@@ -304,7 +336,7 @@ class ScenarioWriter:
                 continue
             name = self._names[method.name]
             path = f"{method.external.module}.{method.external.function}"
-            self.source_map.fields[path] = place_of(method.span)
+            self.source_map.fields[path] = self.source_map.place_of(method.span)
             kind = (
                 code(self._types.annotation(method.result)) if method.result is not None else None
             )
@@ -336,7 +368,7 @@ class ScenarioWriter:
         return text if parameter.default is None else f"{text} = {writer.write(parameter.default)}"
 
     def _placement(self, placement: ir.Placement) -> StatementView:
-        self.source_map.placements.append(place_of(placement.span))
+        self.source_map.placements.append(self.source_map.place_of(placement.span))
         actor = code(self._calls.expressions.field(placement.actor))
         # A placement speaks of the start anyway.
         modifiers = (self._calls.modifier(replace(m, at="all")) for m in placement.modifiers)

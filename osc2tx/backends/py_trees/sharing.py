@@ -13,6 +13,7 @@ from dataclasses import field
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.code import Level, PyExpr
+from osc2tx.backends.py_trees.modifier_calls import never_called
 from osc2tx.backends.py_trees.naming import NameTable
 from osc2tx.backends.py_trees.own_names import Declared, declarations, is_own, key_of, own_names
 from osc2tx.backends.py_trees.type_methods import TypeMethods
@@ -135,7 +136,9 @@ class _Declarations:
     """What a module declares, its own and that of imported files, by key."""
 
     def __init__(self, module: ir.Module) -> None:
-        self.parts = {key_of(each): each for each in declarations(module)}
+        unwritten = never_called(module)
+        parts = {key_of(each): each for each in declarations(module)}
+        self.parts = {key: part for key, part in parts.items() if key not in unwritten}
         self._methods = TypeMethods(module.types, module.scenarios)
 
     def is_same(self, key: str, other: _Declarations) -> bool:

@@ -23,26 +23,35 @@ Place = tuple[int, int]
 class ScenarioMap:
     """The places of one scenario in its source.
 
+    What a scenario takes from other files has no place here: it is in the map of their modules.
+
     Attributes:
+        source: Name of the source.
         fields: Place of each declaration, by Python name.
         constraints: Place of each constraint, in order.
         placements: Place of each placement, in order.
         nodes: Place of each node of the tree, in pre-order.
     """
 
-    fields: dict[str, Place] = field(default_factory=dict)
-    constraints: list[Place] = field(default_factory=list)
-    placements: list[Place] = field(default_factory=list)
-    nodes: list[Place] = field(default_factory=list)
+    source: str
+    fields: dict[str, Place | None] = field(default_factory=dict)
+    constraints: list[Place | None] = field(default_factory=list)
+    placements: list[Place | None] = field(default_factory=list)
+    nodes: list[Place | None] = field(default_factory=list)
 
+    def place_of(self, span: Span) -> Place | None:
+        """Return where a piece of the source begins; `None` for a piece of another one."""
+        return (span.line, span.column) if span.source.name == self.source else None
 
-def place_of(span: Span) -> Place:
-    """Return where a piece of the source begins."""
-    return span.line, span.column
+    def content(self) -> dict[str, object]:
+        """Return what is written down."""
+        found = asdict(self)
+        del found["source"]
+        return found
 
 
 def render_source_map(maps: dict[str, ScenarioMap]) -> str:
     """Return the maps of a module's scenarios as one line of JSON."""
-    scenarios = {name: asdict(each) for name, each in maps.items()}
+    scenarios = {name: each.content() for name, each in maps.items()}
     content = {"version": VERSION, "scenarios": scenarios}
     return in_json(json.dumps(content, separators=(",", ":"), ensure_ascii=False)) + "\n"

@@ -10,6 +10,7 @@ from osc2tx.backends.py_trees.naming import NameTable, class_name, identifier
 from osc2tx.backends.py_trees.runtime_api import (
     ABSTRACT_TYPES,
     ACTOR_CLASSES,
+    ACTOR_FIELDS,
     ANNOTATIONS,
     PHYSICAL_TYPES,
     STRUCT_CLASSES,
@@ -173,6 +174,20 @@ class TypeTable:
         for type_ in reversed(lineage):
             if type_ in self._own:
                 yield from ((type_, field) for field in self._own[type_].fields)
+
+    def fields_type(self, lineage: Sequence[str]) -> PyName | None:
+        """Name the type of the keywords that the runtime takes for an actor; `None` if none."""
+        above = (CLASSES[name] for name in lineage if name in CLASSES and name not in self._own)
+        library = next(above, "Actor")
+        if not self._own[lineage[0]].is_actor or library not in ACTOR_FIELDS:
+            return None
+        return self._uses.fields(ACTOR_FIELDS[library])
+
+    def all_fields_above(self, lineage: Sequence[str]) -> Iterator[tuple[str, ir.UserField]]:
+        """Yield the fields of the own bases of a type, each with the type that declares it."""
+        for base in reversed(lineage[1:]):
+            if base in self._own:
+                yield from ((base, field) for field in self._own[base].all_fields)
 
     def lineage(self, type_: str) -> tuple[str, ...]:
         """Return a type and its bases, up to the first one of the library."""

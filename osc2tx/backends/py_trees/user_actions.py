@@ -6,10 +6,10 @@ error of types; the class that carries the action out is found by name when the 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.code import Level, PyDocLine, PyExpr, literal
+from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr, literal
 from osc2tx.backends.py_trees.naming import NameTable, identifier
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.uses import Uses
@@ -38,7 +38,11 @@ def has_function(action: str) -> bool:
 
 
 def write_actions(
-    actions: Iterable[ir.UserAction], names: NameTable, types: TypeTable, uses: Uses
+    actions: Iterable[ir.UserAction],
+    names: NameTable,
+    types: TypeTable,
+    uses: Uses,
+    write: Callable[[ir.Expression], PyExpr],
 ) -> tuple[UserActionView, ...]:
     """Return the view models of the functions that a module defines, in their order.
 
@@ -47,11 +51,18 @@ def write_actions(
         names: Names of the module.
         types: All types that the module knows.
         uses: What the module has to import.
+        write: Writes a default.
     """
-    return tuple(_write(action, names, types, uses) for action in actions)
+    return tuple(_write(action, names, types, uses, write) for action in actions)
 
 
-def _write(action: ir.UserAction, names: NameTable, types: TypeTable, uses: Uses) -> UserActionView:
+def _write(
+    action: ir.UserAction,
+    names: NameTable,
+    types: TypeTable,
+    uses: Uses,
+    write: Callable[[ir.Expression], PyExpr],
+) -> UserActionView:
     key = action_key(action.qualified_name)
     uses.standard("typing", "Protocol")
     uses.name("Behaviour")
@@ -64,23 +75,32 @@ def _write(action: ir.UserAction, names: NameTable, types: TypeTable, uses: Uses
         action=literal(identifier(action.name)),
         binder=uses.name("global_action" if action.owner is None else "user_action"),
         docstring=tuple(PyDocLine.of(line) for line in about),
-        parameters=tuple(_parameters(action, types, uses)),
+        parameters=tuple(_parameters(action, types, uses, write)),
     )
 
 
-def _parameters(action: ir.UserAction, types: TypeTable, uses: Uses) -> Iterable[PyExpr]:
+def _parameters(
+    action: ir.UserAction,
+    types: TypeTable,
+    uses: Uses,
+    write: Callable[[ir.Expression], PyExpr],
+) -> Iterable[tuple[tuple[PyComment, ...], PyExpr]]:
     if action.takes_modifiers:
         modifier = uses.name("Modifier")
         label = (f"label: str | {modifier} | None = None", "/", f"*modifiers: {modifier}")
     else:
         label = ("label: str | None = None", "/", "*")
     actor = () if action.owner is None else (f"actor: {types.class_or_object(action.owner)}",)
-    written = [*actor, *label]
+    written: list[tuple[tuple[PyComment, ...], str]]
+    written = [((), text) for text in (*actor, *label)]
     for parameter in action.parameters:
         annotation = str(types.annotation(parameter.type))
         if parameter.type.kind is not ir.Kind.ACTOR:
             annotation = f"{uses.name('Late')}[{annotation}]"
         default = "" if parameter.has_default else " = ..."
-        written.append(f"{identifier(parameter.name)}: {annotation}{default}")
-    written.append(f"duration: {uses.name('Duration')} | None = None")
-    return (PyExpr(text, Level.ATOM) for text in written)
+        if parameter.default is not None:
+            default = f" = {write(parameter.default)}"
+        text = f"{identifier(parameter.name)}: {annotation}{default}"
+        written.append((tuple(map(PyComment.of, parameter.comments)), text))
+    written.append(((), f"duration: {uses.name('Duration')} | None = None"))
+    return ((above, PyExpr(text, Level.ATOM)) for above, text in written)

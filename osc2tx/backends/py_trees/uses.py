@@ -24,6 +24,7 @@ class Uses:
         self._own_names = names
         self._names = {"require_api"}
         self._modifiers: set[str] = set()
+        self._fields: set[str] = set()
         self._standard: dict[str, set[str]] = {}
         self._standard_units: set[str] = set()
         self._own_units: dict[str, ir.Unit] = {}
@@ -42,6 +43,12 @@ class Uses:
     def modifier(self, name: str) -> PyName:
         """Use a modifier function."""
         self._modifiers.add(name)
+        return PyName(name)
+
+    def fields(self, name: str) -> PyName:
+        """Use the type of the keywords of an actor."""
+        self._fields.add(name)
+        self.standard("typing", "Unpack")
         return PyName(name)
 
     def physical_type(self, name: str) -> PyName:
@@ -83,6 +90,7 @@ class Uses:
         groups = (
             (RUNTIME, self._names),
             (f"{RUNTIME}.enums", self._standard_enums),
+            (f"{RUNTIME}.fields", self._fields),
             (f"{RUNTIME}.modifiers", self._modifiers),
             (f"{RUNTIME}.units", self._standard_units),
         )

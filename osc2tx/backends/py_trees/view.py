@@ -11,12 +11,13 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(frozen=True, slots=True)
 class ArgumentView:
-    """An argument of a call: plain code, or a call of its own."""
+    """An argument of a call: plain code, or a call of its own; `trailing` stands behind it."""
 
     code: PyExpr | None = None
     call: CallView | None = None
     keyword: PyName | None = None
     comments: tuple[PyComment, ...] = ()
+    trailing: PyComment | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +37,7 @@ class StatementView:
     target: PyExpr | None
     value: ArgumentView
     comments: tuple[PyComment, ...] = ()
+    trailing: PyComment | None = None
     blank_before: bool = False
     annotation: PyExpr | None = None
 
@@ -60,6 +62,7 @@ class MethodView:
 
     signature: PyExpr
     value: ArgumentView
+    docstring: tuple[PyDocLine, ...] = ()
     comments: tuple[PyComment, ...] = ()
     statements: tuple[StatementView, ...] = ()
 
@@ -82,7 +85,7 @@ class ImportView:
     def has_lines(self) -> bool:
         """Whether each name has a line, as one has where there are too many."""
         line = f"from {self.module} import {', '.join(map(str, self.names))}"
-        return self.is_long or len(line) > LINE_LENGTH
+        return (self.is_long and len(self.names) > 1) or len(line) > LINE_LENGTH
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +94,7 @@ class UnitView:
 
     name: PyName
     factor: PyExpr
+    comments: tuple[PyComment, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,11 +104,14 @@ class EnumView:
     Attributes:
         name: Its name.
         members: Its members.
+        told: The comments above each member; nothing if no member has any.
         copied: Why it is a copy, if it is one.
     """
 
     name: PyName
     members: tuple[PyExpr, ...]
+    comments: tuple[PyComment, ...] = ()
+    told: tuple[tuple[PyComment, ...], ...] = ()
     copied: PyComment | None = None
 
 
@@ -131,6 +138,9 @@ class TypeView:
         docstring: Lines of its docstring.
         fields: Its own fields.
         methods: Its own methods.
+        others: The type of the keywords that its bases take.
+        inherited: The fields that its bases of the scenario's files add to those.
+        keeps: Its constraints, as comments.
         copied: Why it is a copy, if it is one.
     """
 
@@ -142,6 +152,9 @@ class TypeView:
     docstring: tuple[PyDocLine, ...]
     fields: tuple[FieldView, ...]
     methods: tuple[FunctionView, ...]
+    others: PyName = PyName("Any")
+    inherited: tuple[FieldView, ...] = ()
+    keeps: tuple[PyComment, ...] = ()
     copied: PyComment | None = None
 
 
@@ -155,7 +168,7 @@ class UserActionView:
         action: Its name in the registry.
         binder: What makes the function.
         docstring: Lines of its docstring.
-        parameters: As they are written, the actor first.
+        parameters: As they are written, the actor first, each below its comments.
         copied: Why it is a copy, if it is one.
     """
 
@@ -164,7 +177,7 @@ class UserActionView:
     action: PyExpr
     binder: PyName
     docstring: tuple[PyDocLine, ...]
-    parameters: tuple[PyExpr, ...]
+    parameters: tuple[tuple[tuple[PyComment, ...], PyExpr], ...]
     copied: PyComment | None = None
 
 

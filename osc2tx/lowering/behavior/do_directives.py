@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 from osc2tx import ir
 from osc2tx.lowering.behavior.behaviors import BehaviorLowering
 from osc2tx.lowering.behavior.composed_behaviors import Composed
@@ -109,12 +111,24 @@ def nothing_left(scenario: Composed) -> ir.Behavior:
     return ir.Wait(span=zero.span, label=None, name="nothing further", trigger=trigger)
 
 
-def labelled_once(node: ir.Behavior, seen: set[str]) -> ir.Behavior:
-    """Return the tree without labels that stand there before: a dialect lets them."""
-    if node.label in seen:
-        node = replace(node, label=None)
-    elif node.label is not None:
-        seen.add(node.label)
-    if not isinstance(node, ir.Serial | ir.Parallel | ir.OneOf):
-        return node
-    return replace(node, members=tuple(labelled_once(member, seen) for member in node.members))
+def labelled_once(body: ir.Behavior) -> ir.Behavior:
+    """Return the tree with each label once: a dialect lets labels repeat, so later ones count on.
+
+    Members that refer to a repeated label mean the first one.
+    """
+    taken = {node.label for node in ir.walk_behaviors(body) if node.label is not None}
+    seen: set[str] = set()
+
+    def numbered(node: ir.Behavior) -> ir.Behavior:
+        if node.label in seen:
+            candidates = (f"{node.label}_{number}" for number in itertools.count(2))
+            label = next(each for each in candidates if each not in taken)
+            node = replace(node, label=label)
+            taken.add(label)
+        elif node.label is not None:
+            seen.add(node.label)
+        if not isinstance(node, ir.Serial | ir.Parallel | ir.OneOf):
+            return node
+        return replace(node, members=tuple(map(numbered, node.members)))
+
+    return numbered(body)

@@ -17,7 +17,7 @@ from osc2tx.lowering.context import LoweringContext
 from osc2tx.semantics.builtins import DURATION
 from osc2tx_shared.classes import replace
 
-__all__ = ["is_open_ended", "with_open_duration"]
+__all__ = ["is_free", "is_instant", "is_open_ended", "with_open_duration"]
 
 Member = TypeVar("Member", bound=ir.Serial | ir.OneOf | ir.Parallel | ir.Invoke)
 
@@ -47,7 +47,7 @@ def is_open_ended(node: ir.Behavior) -> bool:
         case ir.OneOf(members=members):
             return not _is_bounded(node) and all(map(is_open_ended, members))
         case ir.Parallel(members=members):
-            lasting = [member for member in members if not _is_instant(member)]
+            lasting = [member for member in members if not is_instant(member)]
             return not _is_bounded(node) and bool(lasting) and all(map(is_open_ended, lasting))
         case ir.Invoke():
             return not _is_bounded(node) and _ends(node) == "open" and not _has_goal(node)
@@ -59,7 +59,8 @@ def _is_bounded(node: ir.Serial | ir.Parallel | ir.OneOf | ir.Invoke) -> bool:
     return node.duration is not None or bool(node.until)
 
 
-def _is_instant(node: ir.Behavior) -> bool:
+def is_instant(node: ir.Behavior) -> bool:
+    """Return whether a member takes no time."""
     match node:
         case ir.Emit() | ir.Call() | ir.On():
             return True
@@ -67,6 +68,19 @@ def _is_instant(node: ir.Behavior) -> bool:
             return node.duration is None and _ends(node) == "instant"
         case _:
             return False
+
+
+def is_free(node: ir.Behavior) -> bool:
+    """Return whether a member is an action that takes as long as it is given.
+
+    It changes something, and nothing says how fast.
+    """
+    return (
+        isinstance(node, ir.Invoke)
+        and node.action.startswith("change_")
+        and not node.modifiers
+        and not any(argument.parameter.startswith("rate_") for argument in node.arguments)
+    )
 
 
 def _ends(node: ir.Invoke) -> str:

@@ -27,14 +27,16 @@ def is_user_defined(action: sym.ActionSymbol) -> bool:
     return action.origin == "user"
 
 
-def lower_actions(actions: Iterable[sym.ActionSymbol]) -> tuple[ir.UserAction, ...]:
+def lower_actions(
+    ctx: LoweringContext, actions: Iterable[sym.ActionSymbol]
+) -> tuple[ir.UserAction, ...]:
     """Return the declarations of the user's own actions among those that are invoked."""
     return tuple(
-        _lower_action(action) for action in dict.fromkeys(actions) if is_user_defined(action)
+        _lower_action(ctx, action) for action in dict.fromkeys(actions) if is_user_defined(action)
     )
 
 
-def _lower_action(action: sym.ActionSymbol) -> ir.UserAction:
+def _lower_action(ctx: LoweringContext, action: sym.ActionSymbol) -> ir.UserAction:
     bases = [action]
     while (base := bases[-1].base) is not None:
         bases.append(base)
@@ -45,13 +47,27 @@ def _lower_action(action: sym.ActionSymbol) -> ir.UserAction:
         comments=statement_comments(action.node),
         parameters=tuple(
             ir.ActionParameter(
-                name=p.name, type=lower_type(p.type), has_default=p.default is not None
+                name=p.name,
+                type=lower_type(p.type),
+                has_default=p.default is not None,
+                default=_constant_default(ctx, p),
+                comments=() if p.node is None else statement_comments(p.node),
             )
             for p in _parameters(action)
             if p.node is not None
         ),
         takes_modifiers=any(base.name == MOVEMENT for base in bases),
     )
+
+
+def _constant_default(ctx: LoweringContext, parameter: sym.FieldSymbol) -> ir.Expression | None:
+    """Return the default of a parameter if it is one value, whoever acts and what else is given."""
+    default = parameter.default
+    if default is None or isinstance(default, ast.SampleExpression):
+        return None
+    value = lower_expression(ctx.quiet(), default)
+    constant = ir.Literal | ir.Quantity | ir.EnumValue
+    return value if isinstance(value, constant) else None
 
 
 def default_arguments(

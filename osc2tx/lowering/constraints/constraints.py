@@ -14,7 +14,7 @@ from osc2tx import ir
 from osc2tx.analysis import TypeConstraints, analyse_global, single_value
 from osc2tx.analysis.constraints.collect import Constraint
 from osc2tx.analysis.constraints.domains import TRUE, Choice, Domain, join
-from osc2tx.analysis.constraints.operation_list import Key, domain_of_type
+from osc2tx.analysis.constraints.operation_list import SIZE, Key, domain_of_type
 from osc2tx.analysis.constraints.solver import values_on
 from osc2tx.lowering.behavior.composed_behaviors import Composed, is_composed
 from osc2tx.lowering.constraints.cases import (
@@ -77,6 +77,29 @@ class ConstraintLowering:
     def setting(self, key: Key, type_: types.Type) -> Setting:
         """Return what is known of a parameter; its constraints count as written from now on."""
         mentioned = tuple(c for c in self.found.by_key.get(key, ()) if is_known_here(c, key))
+        if len(mentioned) == 1 and (constant := self._constant(key, type_, mentioned[0])):
+            return constant
+        return self._setting(key, type_, mentioned)
+
+    def _constant(self, key: Key, type_: types.Type, only: Constraint) -> Setting | None:
+        """Return what the only constraint on a parameter sets it to, if that is a constant.
+
+        It is the same in all scenarios that inherit it: each constant is lowered once.
+        """
+        if only.subject != key or not only.operations.is_plain or only.is_range:
+            return None
+        if only not in self.ctx.constants:
+            setting = self._setting(key, type_, (only,))
+            self.ctx.constants[only] = setting, self._written.get(key)
+            return setting
+        setting, written = self.ctx.constants[only]
+        if written is not None:
+            self._written[key] = written
+        self._used.add(only)
+        self._with_comments.add(only.node)
+        return setting
+
+    def _setting(self, key: Key, type_: types.Type, mentioned: tuple[Constraint, ...]) -> Setting:
         own = [c for c in mentioned if c.subject == key and c.value is not None]
         if isinstance(type_, types.ListType | types.RangeType):
             own = [c for c in own if not c.is_range]  # what is in it is left to a check
@@ -106,7 +129,7 @@ class ConstraintLowering:
         """Yield what is known of the members of an object; any value of an enum is something."""
         depth = len(object_)
         for key, mentioned in self.found.by_key.items():
-            below = key[depth:] if key[:depth] == object_ else ()
+            below = key[depth:] if key[:depth] == object_ and key[-1] is not SIZE else ()
             fields = [part for part in below if isinstance(part, sym.FieldSymbol)]
             if fields and len(fields) == len(below):
                 setting = self.setting(key, fields[-1].type)
@@ -302,7 +325,7 @@ class ConstraintLowering:
         return values_on(constraint.operations, self._written)[-1] == TRUE
 
     def _is_left(self, constraint: Constraint) -> bool:
-        if constraint.origin == "argument":
+        if constraint.origin in ("argument", "element"):
             return False
         prefix = constraint.place.prefix
         if not prefix and not constraint.is_default and self._is_about_others(constraint):

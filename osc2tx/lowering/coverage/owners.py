@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from osc2tx import ir
 from osc2tx.analysis.constraints.operation_list import Key
@@ -60,17 +60,68 @@ def coverage_owners(ctx: LoweringContext, scenario: Composed) -> Iterator[Covera
     """
     lineage = tuple(supertypes(scenario))
     yield CoverageOwner(ctx, lineage, (), "")
+    special = ctx.analysis.types[scenario].special
+    sampled = _SampledTypes(each for found in special.values() for each in found)
     for field in _fields(lineage):
-        if field not in ctx.handed_in and alias_of(ctx, field) is None:
+        if field not in ctx.handed_in and alias_of(ctx, field) is None and sampled.has(field.type):
             name = field_name(ctx, field)
             value = ir.FieldRef(span=field.span, type=lower_type(field.type), name=name)
-            yield from _of_object(ctx, scenario, (field,), value, name)
+            yield from _of_object(ctx, special, sampled, (field,), value, name)
     for name, shared in ctx.globals.items():
         _report(ctx, shared, f"global actor `{name}`")
 
 
+class _SampledTypes:
+    """Says which objects have items, in themselves or in what they hold: only these are visited.
+
+    Args:
+        special: The conditional types that objects are of; they count for their bases.
+    """
+
+    def __init__(self, special: Iterable[sym.TypeSymbol]) -> None:
+        """See the class."""
+        self._below: dict[sym.TypeSymbol, list[sym.TypeSymbol]] = {}
+        for each in special:
+            for ancestor in tuple(supertypes(each))[1:]:
+                self._below.setdefault(ancestor, []).append(each)
+        self._known: dict[sym.TypeSymbol, bool] = {}
+
+    def has(self, type_: types.Type) -> bool:
+        """Whether an object of a type, or an element of such a list, has items."""
+        type_ = _element_type(type_)
+        if not isinstance(type_, types.ActorType | types.StructType):
+            return False
+        if type_.symbol not in self._known:
+            reached = self._reached(type_.symbol)
+            found = any(next(items_of(each), None) is not None for each in reached)
+            # All of what is reached has none, if this has none.
+            self._known |= {type_.symbol: True} if found else dict.fromkeys(reached, False)
+        return self._known[type_.symbol]
+
+    def _reached(self, start: sym.TypeSymbol) -> list[sym.TypeSymbol]:
+        """Return a type, its bases, and the types of the fields of them all."""
+        reached: dict[sym.TypeSymbol, None] = {}
+        pending = [start]
+        while pending:
+            current = pending.pop()
+            if current in reached:
+                continue
+            reached[current] = None
+            pending += [*self._below.get(current, ()), *supertypes(current)]
+            for member in _fields((current,)):
+                type_ = _element_type(member.type)
+                if isinstance(type_, types.ActorType | types.StructType):
+                    pending.append(type_.symbol)
+        return list(reached)
+
+
 def _of_object(
-    ctx: LoweringContext, scenario: Composed, key: Key, value: ir.Expression, name: str
+    ctx: LoweringContext,
+    special: Mapping[Key, tuple[sym.TypeSymbol, ...]],
+    sampled: _SampledTypes,
+    key: Key,
+    value: ir.Expression,
+    name: str,
 ) -> Iterator[CoverageOwner]:
     field = key[-1]
     assert isinstance(field, sym.FieldSymbol)
@@ -79,7 +130,7 @@ def _of_object(
         for element in elements:
             type_ = lower_type(element.type)
             object_ = ir.FieldRef(span=element.span, type=type_, name=element.name)
-            yield from _of_object(ctx, scenario, (element,), object_, element.name)
+            yield from _of_object(ctx, special, sampled, (element,), object_, element.name)
         if not elements and field.default is None:
             _report(ctx, field, f"list `{name}`")
         return
@@ -87,7 +138,7 @@ def _of_object(
         return
     declared = field.type.symbol
     lineages: list[tuple[sym.TypeSymbol, ...]] = [tuple(supertypes(declared))]
-    lineages += [(each,) for each in ctx.analysis.types[scenario].special.get(key, ())]
+    lineages += [(each,) for each in special.get(key, ())]
     for lineage in lineages:
         owner = lineage[0]
         assert isinstance(owner, sym.ActorSymbol | sym.StructSymbol)
@@ -96,8 +147,17 @@ def _of_object(
         for member in _fields(lineage):
             if member.owner in (part.owner for part in key if isinstance(part, sym.FieldSymbol)):
                 continue  # a type that holds itself
-            part = member_of(inside, value, member, member.span)
-            yield from _of_object(ctx, scenario, (*key, member), part, f"{name}.{member.name}")
+            if sampled.has(member.type):
+                part = member_of(inside, value, member, member.span)
+                path = f"{name}.{member.name}"
+                yield from _of_object(ctx, special, sampled, (*key, member), part, path)
+
+
+def _element_type(type_: types.Type) -> types.Type:
+    """Return what is in a list, in the lists of a list; any other type itself."""
+    while isinstance(type_, types.ListType):
+        type_ = type_.element
+    return type_
 
 
 def _fields(lineage: tuple[sym.TypeSymbol, ...]) -> Iterator[sym.FieldSymbol]:
@@ -108,9 +168,7 @@ def _fields(lineage: tuple[sym.TypeSymbol, ...]) -> Iterator[sym.FieldSymbol]:
 
 
 def _report(ctx: LoweringContext, field: sym.FieldSymbol, what: str) -> None:
-    type_ = field.type
-    while isinstance(type_, types.ListType):
-        type_ = type_.element
+    type_ = _element_type(field.type)
     if not isinstance(type_, types.ActorType | types.StructType):
         return
     for each in supertypes(type_.symbol):

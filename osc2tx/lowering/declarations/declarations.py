@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from osc2tx import ir
-from osc2tx.lowering.behavior.composed_behaviors import Composed, is_placeholder
+from osc2tx.lowering.behavior.composed_behaviors import Composed, is_placeholder, lineage_of
 from osc2tx.lowering.behavior.triggers import boundary_of, event_parameter, lower_trigger
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
@@ -42,13 +42,16 @@ class DeclarationLowering:
         self._scenario = scenario
         self._statements = statements
         self._fields = FieldLowering(ctx, constraints)
+        self._members: dict[str, sym.Member] = {}
+        for symbol in reversed(list(lineage_of(scenario))):
+            self._members |= symbol.members
 
     def lower_methods(self) -> tuple[ir.Method, ...]:
         """Return its own methods; the last declaration of a name is the one that counts."""
         declared = [s for s in self._statements if isinstance(s, ast.MethodDeclaration)]
         lowered = []
         for name, node in {node.name.text: node for node in declared}.items():
-            symbol = self._scenario_member(name)
+            symbol = self._members.get(name)
             if isinstance(symbol, sym.MethodSymbol):
                 lowered.append(lower_method(self._ctx, symbol, statement_comments(node)))
         return present(lowered)
@@ -93,7 +96,7 @@ class DeclarationLowering:
         name: ast.Name,
         comments: tuple[str, ...],
     ) -> tuple[ir.Declaration, ...]:
-        symbol = self._scenario_member(name.text)
+        symbol = self._members.get(name.text)
         if isinstance(symbol, sym.FieldSymbol) and is_path(symbol.type):
             members = path_members(self._ctx, self._statements)
             return path_declarations(self._ctx, symbol, members, comments)
@@ -109,20 +112,12 @@ class DeclarationLowering:
         name: ast.Name,
         comments: tuple[str, ...],
     ) -> ir.Declaration | None:
-        symbol = self._scenario_member(name.text)
+        symbol = self._members.get(name.text)
         if not isinstance(symbol, sym.FieldSymbol):
             return None
         if isinstance(statement, ast.VariableDeclaration) and statement.default is not None:
             return self._variable(symbol, statement, comments)
         return self._fields.lower(symbol, name.span, comments)
-
-    def _scenario_member(self, name: str) -> sym.Member | None:
-        scenario: Composed | None = self._scenario
-        while scenario is not None:
-            if name in scenario.members:
-                return scenario.members[name]
-            scenario = scenario.base
-        return None
 
     def _variable(
         self, field: sym.FieldSymbol, node: ast.VariableDeclaration, comments: tuple[str, ...]
@@ -164,7 +159,7 @@ class DeclarationLowering:
         return ir.Sample(expression=expression, trigger=trigger)
 
     def _event(self, node: ast.EventDeclaration) -> ir.Event | None:
-        symbol = self._scenario_member(node.name.text)
+        symbol = self._members.get(node.name.text)
         parameters = symbol.parameters if isinstance(symbol, sym.EventSymbol) else ()
         trigger = None
         if node.specification is not None:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from itertools import takewhile
+from typing import TypeVar
 
 from osc2tx import ir
 from osc2tx.diagnostics import Span
+from osc2tx.ir.source_text import condensed
 from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.declarations.user_fields import (
     TypeSymbol,
@@ -30,7 +32,8 @@ def lower_enums(model: SemanticModel, module: ir.Module) -> tuple[ir.UserEnum, .
         model: The checked program.
         module: Its other parts.
     """
-    lowered = tuple(map(_lower_enum, _user_enums(model)))
+    nodes = {_place(node.name.span): node for node in _of_files(model, ast.EnumDeclaration)}
+    lowered = tuple(_lower_enum(e, nodes.get(_place(e.span))) for e in _user_enums(model))
     own = {each.span for each in lowered if each.span.source is model.root.span.source}
     if len(own) == len(lowered):
         return lowered
@@ -42,9 +45,35 @@ def _user_enums(model: SemanticModel) -> Iterator[sym.EnumSymbol]:
     return (each for each in model.symbols if isinstance(each, sym.EnumSymbol))
 
 
-def _lower_enum(symbol: sym.EnumSymbol) -> ir.UserEnum:
+def _lower_enum(symbol: sym.EnumSymbol, node: ast.EnumDeclaration | None) -> ir.UserEnum:
     type_ = lower_type(types.EnumType(symbol))
-    return ir.UserEnum(name=type_.name, span=symbol.span, members=type_.members)
+    told = ((m.name.text, statement_comments(m)) for m in (node.members if node else ()))
+    return ir.UserEnum(
+        name=type_.name,
+        span=symbol.span,
+        members=type_.members,
+        comments=() if node is None else statement_comments(node),
+        told=tuple((name, lines) for name, lines in told if lines),
+    )
+
+
+def lower_units(model: SemanticModel) -> tuple[ir.UserUnit, ...]:
+    """Return the units of a program that comments tell about."""
+    nodes = _of_files(model, ast.UnitDeclaration)
+    return tuple(
+        ir.UserUnit(name=node.name.text, span=node.span, comments=statement_comments(node))
+        for node in nodes
+        if statement_comments(node)
+    )
+
+
+StatementT = TypeVar("StatementT", bound=ast.Statement)
+
+
+def _of_files(model: SemanticModel, kind: type[StatementT]) -> Iterator[StatementT]:
+    """Yield the statements of a kind of all files of a program."""
+    for file in model.files:
+        yield from (each for each in file.statements if isinstance(each, kind))
 
 
 def lower_types(ctx: LoweringContext, used: Iterable[TypeSymbol]) -> tuple[ir.UserType, ...]:
@@ -152,7 +181,16 @@ def _lower_type(
         fields=tuple(_lower_field(ctx, field) for field in user_fields(ctx, symbol)),
         unused=tuple(_lower_field(ctx, field) for field in unused_fields(ctx, symbol)),
         methods=present([_lower_method(ctx, each) for each in _methods(symbol)]),
+        keeps=tuple(_keeps(symbol)),
     )
+
+
+def _keeps(symbol: TypeSymbol) -> Iterator[str]:
+    """Yield the constraints of a type as comment lines, behind those that stand above them."""
+    for statement in symbol.statements:
+        if isinstance(statement, ast.KeepConstraint):
+            yield from map(str, statement_comments(statement))
+            yield condensed(statement.span.text)
 
 
 def _methods(symbol: TypeSymbol) -> Iterable[sym.MethodSymbol]:
@@ -181,8 +219,20 @@ def _lower_field(ctx: LoweringContext, field: sym.FieldSymbol) -> ir.UserField:
     return ir.UserField(
         name=field.name,
         span=field.span,
-        comments=statement_comments(node) if node is not None and is_first else (),
+        comments=_field_comments(field, node) if node is not None and is_first else (),
         type=lower_type(field.type),
         default=class_default(ctx, field),
         is_optional=is_optional(ctx, field),
     )
+
+
+def _field_comments(
+    field: sym.FieldSymbol, node: ast.ParameterDeclaration | ast.VariableDeclaration
+) -> tuple[str, ...]:
+    """Return the comment lines of a field, and its constraints as the source has them."""
+    if not isinstance(node, ast.ParameterDeclaration):
+        return statement_comments(node)
+    own = {id(each) for each in node.constraints}
+    keeps = [each for each in field.constraints if id(each) in own]
+    inside = (line for each in keeps for line in (*statement_comments(each), each.span.text))
+    return (*statement_comments(node), *map(condensed, inside))

@@ -92,6 +92,8 @@ class PlacementLowering:
         node = self._begin_on_path(node, actor)
         placing = [first_value(m) for m in node.modifiers if _places(m) and m.at != "end"]
         placing += open_start_speed(node.qualified_name, node.modifiers)
+        if actor not in self._found:
+            placing += [*_followed_lane(node), *_followed_line(node)]
         if not placing:
             return self._later_start(node)
         found = self._found.setdefault(actor, _Found(node.span))
@@ -253,7 +255,70 @@ def is_instant(node: ir.Behavior) -> bool:
             return False
 
 
+# Arguments of `follow_lane` -> the modifier that says the same of the start, and its parameter.
+_FOLLOWED = {
+    "target": ("along", "route"),
+    "offset": ("lateral", "distance"),
+    "offset_range": ("lateral", "distance_range"),
+}
+
+
+def _followed_lane(node: ir.Invoke) -> Iterator[ir.ModifierCall]:
+    """Yield where an actor starts that follows a lane: in it, at its offset (§8.8.3.2).
+
+    With a profile it gets to the offset later.
+    """
+    if node.qualified_name != "vehicle.follow_lane":
+        return
+    given = {argument.parameter: argument for argument in node.arguments}
+    placed = {modifier.name for modifier in node.modifiers if modifier.at != "end"}
+    shaped = "rate_profile" in given or "rate_peak" in given
+    for parameter, (name, same) in _FOLLOWED.items():
+        argument = given.get(parameter)
+        late = shaped and name == "lateral"
+        if argument is None or late or name in placed or _is_zero(argument):
+            continue
+        said = replace(argument, parameter=same, is_positional=False)
+        yield ir.ModifierCall(span=argument.span, name=name, arguments=(said,), at="start")
+
+
+# Actions along a line -> the modifier that says the same, and its parameter.
+_LINES = {
+    "follow_path": ("along", "route"),
+    "replay_path": ("along", "route"),
+    "follow_trajectory": ("along_trajectory", "trajectory"),
+    "replay_trajectory": ("along_trajectory", "trajectory"),
+}
+
+
+def _followed_line(node: ir.Invoke) -> Iterator[ir.ModifierCall]:
+    """Yield the line on which an actor starts that goes along it, if nothing says where it starts.
+
+    What is relative has its place only when the action starts.
+    """
+    if any(each.name in _PLACES and each.at != "end" for each in node.modifiers):
+        return
+    action = node.qualified_name.rpartition(".")[2]
+    if action in _LINES:
+        name, same = _LINES[action]
+        given = {argument.parameter: argument for argument in node.arguments}
+        if "absolute" in given:
+            said = [replace(given["absolute"], parameter=same, is_positional=False)]
+            said += [given["start_offset"]] if "start_offset" in given else []
+            yield ir.ModifierCall(span=node.span, name=name, arguments=tuple(said), at="start")
+    for each in node.modifiers:
+        of_path = any(argument.value.type.name == "path" for argument in each.arguments)
+        if each.name == "along_trajectory" or (each.name == "along" and of_path):
+            said = [a for a in each.arguments if a.parameter != "end_offset"]
+            yield replace(each, arguments=tuple(said), at="start", comments=())
+
+
+def _is_zero(argument: ir.Argument) -> bool:
+    return ir.constant(argument.value) == 0.0
+
+
 REFERENCES = ("ahead_of", "behind")
+_TIMES = ("start", "all", "end")
 
 
 def open_start_speed(
@@ -275,15 +340,26 @@ def open_start_speed(
         return ()  # those of a dialect
     if any(entries[each.name].paces for each in others):
         return ()
-    starts = [found for each in positions if each.at == "start" for found in _reference(each)]
-    ends = [found for each in positions if each.at == "end" for found in _reference(each)]
-    if len(starts) != 1 or len(ends) != 1 or starts[0].value.span.text != ends[0].value.span.text:
+    reference = _kept_reference(positions)
+    if reference is None:
         return ()
-    reference = starts[0]
     same = ir.Argument(
         parameter="same_as", value=reference.value, is_positional=False, span=reference.span
     )
     return (ir.ModifierCall(span=reference.span, name="speed", arguments=(same,), at="start"),)
+
+
+def _kept_reference(positions: Sequence[ir.ModifierCall]) -> ir.Argument | None:
+    """Return what an actor has a place relative to all the time, or at the start and the end."""
+    if any(argument.parameter == "shape" for each in positions for argument in each.arguments):
+        return None
+    found = {at: [r for p in positions if p.at == at for r in _reference(p)] for at in _TIMES}
+    given = [found[at] for at in _TIMES if found[at]]
+    first, *others = given or [[]]
+    if not all(len(each) == 1 for each in given) or not (found["all"] or len(given) == 2):
+        return None
+    same = all(other[0].value.span.text == first[0].value.span.text for other in others)
+    return first[0] if same else None
 
 
 def _reference(position: ir.ModifierCall) -> list[ir.Argument]:

@@ -10,8 +10,8 @@ from osc2tx.lowering.behavior.composed_behaviors import is_composed
 from osc2tx.lowering.context import LoweringContext, Receiver
 from osc2tx.lowering.value_types import SCENARIO, lower_type
 from osc2tx.lowering.values.arguments import lower_arguments
-from osc2tx.lowering.values.method_kinds import listed_arguments, overriding_methods
-from osc2tx.lowering.values.methods import default_of, is_pure, is_undefined, method_name
+from osc2tx.lowering.values.method_kinds import listed_arguments
+from osc2tx.lowering.values.methods import default_of, is_pure, method_name
 from osc2tx.lowering.values.shape_arguments import is_left_open
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
@@ -102,9 +102,6 @@ def _lower_operator(
 def _lower_own(
     ctx: LoweringContext, node: CallNode, binding: Binding, callee: sym.MethodSymbol
 ) -> ir.Expression | None:
-    if is_undefined(callee) and not overriding_methods(ctx, callee):
-        _report_undefined(ctx, node, callee)
-        return None
     arguments = lower_arguments(ctx, binding, node.arguments)
     if callee.node is not None and isinstance(callee.node.body, ast.ExternalBody):
         arguments = _in_order(ctx, callee, arguments)

@@ -28,13 +28,17 @@ def method_name(method: sym.MethodSymbol) -> str:
 def is_pure(ctx: LoweringContext, method: sym.MethodSymbol) -> bool:
     """Whether a method computes its result from its arguments and from constants alone."""
     if method not in ctx.purity:
-        ctx.purity[method] = False  # one that calls itself
+        known = set(ctx.purity)
+        ctx.purity[method] = True  # one that calls itself is what the rest of it is
         lowered = lower_method(ctx.quiet(), method)
         ctx.purity[method] = (
             lowered is not None
             and lowered.expression is not None
             and not ir.is_live(lowered.expression)
         )
+        if not ctx.purity[method]:
+            for other in ctx.purity.keys() - known - {method}:
+                del ctx.purity[other]  # found out by a wrong assumption
     return ctx.purity[method]
 
 
@@ -44,7 +48,7 @@ def lower_method(
     """Lower a method with a body; one of a type takes the object as its first parameter."""
     node = method.node
     overriding = overriding_methods(ctx, method)
-    if node is None or (is_undefined(method) and not overriding):
+    if node is None:
         return None
     parameters = tuple(_parameter(ctx, parameter) for parameter in method.parameters)
     name = method.name
@@ -64,6 +68,9 @@ def lower_method(
         external = lower_external(ctx, method, node.body)
     elif isinstance(node.body, ast.ExpressionBody):
         expression = ctx.lower(node.body.expression)
+    elif not overriding:
+        type_ = lower_type(method.result)
+        expression = ir.Undefined(span=node.span, type=type_, method=method.name)
     if expression is None and external is None and not is_undefined(method):
         return None
     if overriding and ctx.receiver is not None:

@@ -203,6 +203,7 @@ class Collector:
                 continue
             symbol.members[item.name] = item
             self.scope.enum_nodes[item] = member
+            self.scope.contexts[member] = context
 
     def _collect_behavior(
         self, node: ast.ScenarioDeclaration | ast.ActionDeclaration, context: Context

@@ -38,33 +38,41 @@ def _count(
             case ast.EnumLiteral() | ast.NameExpression():
                 if member in r.scope.enum_nodes:
                     r.needs_standard(value.span, "a reference as value of an enum member")
-                target = _target(r, symbol, value)
+                target = _target(r, symbol, value, member)
                 if target is not None:
                     pending[member] = target
 
 
 def _target(
-    r: Resolution, symbol: EnumSymbol, value: ast.EnumLiteral | ast.NameExpression
+    r: Resolution,
+    symbol: EnumSymbol,
+    value: ast.EnumLiteral | ast.NameExpression,
+    member: EnumMemberSymbol,
 ) -> EnumMemberSymbol | None:
-    enum: object = symbol
-    name = value.name if isinstance(value, ast.NameExpression) else value.member
+    """Return the member whose value another one takes: of its own enum, or of any (§7.3.3)."""
+    node = r.scope.enum_node(member)
+    context = Context() if node is None else r.scope.context_of(node)
     if isinstance(value, ast.EnumLiteral):
-        node = r.scope.nodes.get(symbol)
-        context = r.scope.contexts.get(node, Context()) if node else Context()
         enum = resolve_type_name(r, value.enum, context)
-    if not isinstance(enum, EnumSymbol):
+        if not isinstance(enum, EnumSymbol):
+            return None
+        found = [enum.members[value.member.text]] if value.member.text in enum.members else []
+        name, where, known = value.member, f"enum `{enum.name}` has", list(enum.members)
+    else:
+        name, where, known = value.name, "no enum has a member", list(symbol.members)
+        found = [symbol.members[name.text]] if name.text in symbol.members else []
+        found = found or r.scope.select(r.scope.enum_members_named(name.text), name, context)
+    if len(found) > 1:
+        choices = ", ".join(f"`{each.enum.name}!{name}`" for each in found)
+        message = f"`{name}` is a member of several enums"
+        r.report("OSC313", name.span, message, help=f"write one of {choices}")
         return None
-    target = enum.members.get(name.text)
-    if target is None:
-        r.report(
-            "OSC208",
-            name.span,
-            f"enum `{enum.name}` has no member `{name}`",
-            help=did_you_mean(name.text, enum.members),
-        )
+    if not found:
+        message = f"{where} no member `{name}`" if where.endswith("has") else f"{where} `{name}`"
+        r.report("OSC208", name.span, message, help=did_you_mean(name.text, known))
         return None
-    r.references[value] = target
-    return target
+    r.references[value] = found[0]
+    return found[0]
 
 
 def _follow(

@@ -46,9 +46,9 @@ def _constraints(
     for statement in owner.statements:
         if isinstance(statement, ast.KeepConstraint):
             yield statement, None
-        if isinstance(statement, ast.ParameterDeclaration):
-            fields = [m for m in owner.members.values() if isinstance(m, FieldSymbol)]
-            for field in (each for each in fields if each.node is statement):
+        if isinstance(statement, ast.ParameterDeclaration) and statement.constraints:
+            named = (member for name in statement.names for member in owner.named(name.text))
+            for field in (m for m in named if isinstance(m, FieldSymbol) and m.node is statement):
                 for rule in statement.constraints:
                     if isinstance(rule, ast.KeepConstraint):
                         yield rule, field

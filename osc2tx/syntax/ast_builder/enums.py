@@ -10,6 +10,7 @@ from osc2tx.syntax.ast_builder.statements import Head, StatementBuilder
 from osc2tx.syntax.tokens import Comment
 
 PRIMITIVES = frozenset({"int", "uint", "float", "bool", "string"})
+SI_ORDER = "exponents come first, then `factor`, then `offset`"
 SI_BASES = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
 
 
@@ -48,7 +49,14 @@ class EnumBuilder(StatementBuilder):
         for argument in arguments:
             name = argument.name.text if argument.name is not None else None
             value = constant(argument.value)
-            if name in ("factor", "offset") and value is not None:
+            if name in numbers:
+                self._report("OSC100", argument.span, f"`{name}` is given twice")
+            elif "offset" in numbers or ("factor" in numbers and name != "offset"):
+                message = f"`{argument.span.text}` stands too late: {SI_ORDER}"
+                self._report(
+                    "OSC100", argument.span, message, "`SI(K: 1, factor: 0.5, offset: 200.0)`"
+                )
+            elif name in ("factor", "offset") and value is not None:
                 numbers[name] = float(value)
             elif name in SI_BASES and isinstance(value, int):
                 exponents.append(ast.SiExponent(span=argument.span, base=name, exponent=value))

@@ -7,7 +7,7 @@ import math
 import time
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.domain.scenario import Scenario
@@ -23,6 +23,9 @@ from osc2tx_shared.classes import replace
 from .modules import Modules, scenario_in
 from .points import Point
 from .rows import Plan, Row, RowResult
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.monitoring.phase import Violation
 
 __all__ = ["Executor", "trace_digest"]
 
@@ -144,10 +147,16 @@ class Executor:
             time=0.0 if result is None else result.time,
             measures=measures,
             collisions=measuring.collisions,
+            violations=() if result is None else tuple(map(reported, result.violations)),
             samples=tuple((kind, to_json(values)) for kind, values in measuring.samples),
             digest=digest_of(result) if self._plan.digests and result is not None else None,
             seconds=time.perf_counter() - begin,
         )
+
+
+def reported(violation: Violation) -> str:
+    """Return a condition that did not hold, as one line."""
+    return f"{violation.code} {violation.source}: {violation}"
 
 
 def digest_of(result: RunResult) -> str:

@@ -4,17 +4,30 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import os
+import shutil
 import sys
 import tempfile
+import time
 from collections.abc import Mapping
+from contextlib import suppress
 from itertools import count
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from types import ModuleType
 
 from osc2tx_runtime.domain.scenario import Scenario
 from osc2tx_runtime.errors import OwnCode, SettingsError
 
+if sys.platform != "win32":
+    import fcntl
+
 __all__ = ["Modules", "scenarios_of"]
+
+PREFIX = "osc2tx-campaign-"
+"""How the names of the folders begin."""
+
+FRESH = 60.0
+"""Seconds: a folder that is younger may be one that its process is about to lock."""
 
 _NUMBERS = count()  # modules of one process have names of their own
 
@@ -26,10 +39,18 @@ class Modules:
 
     Args:
         files: Path of each module inside of the folder to its text.
+
+    Raises:
+        SettingsError: A path leads out of the folder: the store of a campaign may be a stranger's.
     """
 
     def __init__(self, files: Mapping[str, str]) -> None:
-        self._folder = tempfile.TemporaryDirectory(prefix="osc2tx-campaign-")
+        for name in files:
+            _require_inside(name)
+        self._files = frozenset(files)
+        remove_left_over()
+        self._folder = tempfile.TemporaryDirectory(prefix=PREFIX)
+        self._mark = _hold(self._folder.name)
         self._name = f"osc2tx_campaign_{next(_NUMBERS)}"
         self._path = list(sys.path)
         self._known = set(sys.modules)
@@ -39,7 +60,13 @@ class Modules:
             place.write_text(text, encoding="utf-8")
 
     def load(self, name: str) -> dict[str, type[Scenario]]:
-        """Import a module; return its scenarios by their names in the source."""
+        """Import a module; return its scenarios by their names in the source.
+
+        Raises:
+            SettingsError: It is none of the modules.
+        """
+        if name not in self._files or not name.endswith(".py"):
+            raise SettingsError(f"{name!r} is no module of the campaign")
         place = Path(self._folder.name, name)
         folders = [str(place.parent), *map(str, place.parent.parents)]
         root = folders.index(self._folder.name)
@@ -61,6 +88,43 @@ class Modules:
             if name == self._name or (place and place.startswith(self._folder.name)):
                 del sys.modules[name]
         self._folder.cleanup()
+        if self._mark is not None:
+            os.close(self._mark)
+
+
+def remove_left_over() -> None:
+    """Remove the folders of processes that were killed: nobody holds them any more."""
+    if sys.platform == "win32":  # no locks of folders there
+        return
+    for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
+        with suppress(OSError):  # somebody else's, or gone meanwhile
+            found = folder.lstat()
+            if found.st_uid != os.getuid() or time.time() - found.st_mtime < FRESH:
+                continue
+            mark = _hold(str(folder))
+            if mark is not None:
+                shutil.rmtree(folder, ignore_errors=True)
+                os.close(mark)
+
+
+def _hold(folder: str) -> int | None:
+    """Lock a folder until the descriptor is closed; None if somebody else has, or nobody can."""
+    if sys.platform == "win32":
+        return None
+    mark = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
+    try:
+        fcntl.flock(mark, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        os.close(mark)
+        return None
+    return mark
+
+
+def _require_inside(name: str) -> None:
+    place = PureWindowsPath(name)  # knows the separators and drives of all platforms
+    parts = name.replace("\\", "/").split("/")
+    if place.anchor or "\0" in name or any(part in ("", ".", "..") for part in parts):
+        raise SettingsError(f"{name!r} is no path of a module inside of the campaign")
 
 
 def scenarios_of(module: ModuleType) -> dict[str, type[Scenario]]:

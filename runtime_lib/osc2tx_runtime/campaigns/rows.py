@@ -123,6 +123,7 @@ class RowResult:
         time: Simulated seconds.
         measures: By name; None where there is no value.
         collisions: Time in seconds, the two actors, their difference of speed in m/s.
+        violations: Conditions that did not hold: code, place and what was found.
         samples: `cover` or `record`, and the line that the trace has of the item, as JSON.
         digest: SHA-256 of the trace, if asked for.
         seconds: Seconds that it took on this machine.
@@ -138,6 +139,7 @@ class RowResult:
     time: float = 0.0
     measures: Mapping[str, float | None] = field(default_factory=dict)
     collisions: tuple[tuple[float, str, str, float], ...] = ()
+    violations: tuple[str, ...] = ()
     samples: tuple[tuple[str, str], ...] = ()
     digest: str | None = None
     seconds: float = 0.0

@@ -1,12 +1,18 @@
-"""The process that runs rows for a driver, which it hears and tells through a pipe."""
+"""The process that runs rows for a driver, which it hears and tells through a pipe.
+
+Beside its results it tells every now and then that it is alive: a process that is stopped, or
+whose machine has no memory left, tells nothing, while one at a long row does.
+"""
 
 from __future__ import annotations
 
 import multiprocessing
 import os
 import signal
+from contextlib import suppress
 from multiprocessing.connection import Connection, wait
-from threading import Thread
+from threading import Event, Lock, Thread
+from typing import Any
 
 from osc2tx_runtime.errors import ScenarioError, told
 from osc2tx_shared.classes import dataclass
@@ -14,8 +20,9 @@ from osc2tx_shared.classes import dataclass
 from .executor import Executor
 from .rows import Plan, Row
 
-__all__ = ["READY", "Refused", "work"]
+__all__ = ["ALIVE", "READY", "Refused", "work"]
 
+ALIVE = "alive"
 READY = "ready"
 
 
@@ -30,27 +37,57 @@ class Refused:
     message: str
 
 
-def work(pipe: Connection, plan: Plan) -> None:
+class _Teller:
+    """The end of a pipe that two threads write to."""
+
+    def __init__(self, pipe: Connection) -> None:
+        self._pipe, self._lock = pipe, Lock()
+
+    def send(self, message: Any) -> None:
+        """Tell the driver.
+
+        Raises:
+            OSError: It is gone.
+        """
+        with self._lock:
+            self._pipe.send(message)
+
+    def beat(self, every: float) -> None:
+        """Tell `ALIVE` from now on, each so many seconds."""
+        never = Event()
+
+        def beat() -> None:
+            with suppress(OSError):  # the driver is gone
+                while not never.wait(every):
+                    self.send(ALIVE)
+
+        Thread(target=beat, daemon=True).start()
+
+
+def work(pipe: Connection, plan: Plan, beat: float) -> None:
     """Run the rows that come through a pipe, until it is closed.
 
-    It tells `READY`, then of each row as soon as it is done; or that it is `Refused`.
+    It tells `READY`, then of each row as soon as it is done; or that it is `Refused`. Each `beat`
+    seconds it tells that it is `ALIVE`.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the driver ends it
     _end_with_parent()
+    teller = _Teller(pipe)
+    teller.beat(beat)
     try:
         try:
             executor = Executor(plan)
         except ScenarioError as error:
-            pipe.send(Refused(error.message))
+            teller.send(Refused(error.message))
             return
         except Exception as error:  # whatever stands in the module
-            pipe.send(Refused(told(error)))
+            teller.send(Refused(told(error)))
             return
-        pipe.send(READY)
+        teller.send(READY)
         while True:
             rows: list[Row] = pipe.recv()
             for row in rows:
-                pipe.send(executor.run(row))
+                teller.send(executor.run(row))
     except (EOFError, OSError):  # the driver is gone
         return
 

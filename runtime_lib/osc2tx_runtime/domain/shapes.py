@@ -3,7 +3,7 @@
 A shape gives the course of the value that its modifier names: a speed, or how much faster than
 another one; a distance along the road, or to another actor; a place across the lane. The time
 counts from the start of the action. There are common shapes, which say how a target is reached,
-and those of a scenario, which compute every value themselves (`OwnShape`).
+and those of a scenario, whose classes compute every value themselves.
 """
 
 from __future__ import annotations
@@ -13,8 +13,7 @@ from collections.abc import Callable
 from typing import Any, ClassVar, Generic, TypeVar
 
 from osc2tx_runtime.enums import DynamicProfile
-from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
+from osc2tx_runtime.errors import NO_RESULT, ScenarioError, why_no_result
 from osc2tx_runtime.world.geometry.function_profiles import Computed
 from osc2tx_runtime.world.geometry.profiles import (
     QUINTIC_PEAK,
@@ -192,6 +191,17 @@ class OwnShape(Generic[ShapeT]):
     def _asked(self, method: Callable[..., float], *arguments: float) -> float:
         try:
             return float(method(self._shape, *arguments))
-        except EVALUATION_ERRORS as error:
+        except NO_RESULT as error:
             name = "compute" if arguments else "duration"
-            raise ScenarioError(f"`{name}` of the shape has no value: {error}") from error
+            raise ScenarioError(
+                f"`{name}` of the shape has no value: {why_no_result(error)}"
+            ) from error
+
+
+def with_methods(shape: AnyShape) -> AnyShape | OwnShape[AnyShape]:
+    """Return a shape whose class computes its values with its methods; others as they are."""
+    compute = getattr(type(shape), "compute", None)
+    if compute is None or compute is CommonShape.compute:
+        return shape
+    duration = getattr(type(shape), "duration", None)
+    return OwnShape(shape, compute, None if duration is CommonShape.duration else duration)

@@ -58,6 +58,26 @@ class AssignedVariable(Protocol):
     value: Any
 
 
+class Monitors(Protocol):
+    """What a run needs of what checks the phases of actions."""
+
+    def begins(self, action: Any) -> None:
+        """Take note of the start of an action."""
+        ...
+
+    def ends(self, action: Any) -> str | None:
+        """Take note of its end; return why it fails."""
+        ...
+
+    def leaves(self, action: Any) -> None:
+        """Take note that it is cut short."""
+        ...
+
+    def observe(self) -> None:
+        """Look at the states of a settled instant."""
+        ...
+
+
 class ExecutionContext:
     """One run.
 
@@ -76,6 +96,7 @@ class ExecutionContext:
             in a serial carries its exact end on to what follows.
         snapshot: Number of the values that nodes read: changes with every step, with every pass
             in which a sampled variable gets a new value, and when effects are carried out.
+        is_placing: The first assignments of the run are not carried out yet; conditions wait.
         settled: The instant is settled; what is unfinished now is unfinished at this instant.
         one_of: Policy of the scenario: `race`, `first` or `seeded`.
         random: Seeded generator. For draws inside nodes use `random_for`: two parallel nodes
@@ -84,6 +105,7 @@ class ExecutionContext:
         first_come: What has a duration or an `until` ends with whichever comes first.
         label_events: (label, `start` | `end` | `fail`) to the event somebody waits for.
         resting: Who in the tree has nothing to do until it is woken.
+        monitors: Checks the phases of actions; None: nobody does.
     """
 
     def __init__(
@@ -114,12 +136,14 @@ class ExecutionContext:
         self.tick = 0
         self.late = 0.0
         self.snapshot = 0
+        self.is_placing = False
         self.settled = False
         self.random = random.Random(self.settings.seed)
         self.slots = Slots()
         self.effects = Effects()
         self.collisions: list[tuple[float, str, str]] = []
         self.resting = Resting()
+        self.monitors: Monitors | None = None
         self._cast: tuple[str, ...] | None = None
         self._left: dict[str, str] = {}  # actors to behavioral models of this instant
         self._posted: dict[PostedEvent, list[Mapping[str, Any]]] = {}
@@ -238,6 +262,12 @@ class ExecutionContext:
         self.effects.apply()
         self.snapshot += 1
         self.settled = False
+        self.resting.wake_all()
+
+    def placed(self) -> None:
+        """Let conditions see the actors, which are where the first assignments put them."""
+        self.is_placing = False
+        self.snapshot += 1
         self.resting.wake_all()
 
     def settles(self) -> bool:

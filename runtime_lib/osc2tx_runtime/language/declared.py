@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar, NoReturn, TypeVar
 
 from osc2tx_runtime.errors import ScenarioError
 
-__all__ = ["BaseActor", "DeclaredObject", "as_type", "not_given"]
+__all__ = ["BaseActor", "DeclaredObject", "as_type", "not_given", "undefined"]
 
 
 class _NotGiven:
@@ -65,3 +65,15 @@ def as_type(value: object, kind: type[ObjectT]) -> ObjectT:
     if isinstance(value, BaseActor) and issubclass(kind, BaseActor):
         raise ScenarioError(f"{value.id} is no {kind.kinds[0]}", value.source)
     raise ScenarioError(f"a {type(value).__name__} is no {kind.__name__}")
+
+
+def undefined(method: str) -> NoReturn:
+    """Stand for the body of a method that has none (§7.3.7.1).
+
+    Raises:
+        ScenarioError: Always: it is invoked.
+    """
+    raise ScenarioError(
+        f"method `{method}` is undefined: override it, `is only expression …`, "
+        "in a type that extends this one"
+    )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
+from osc2tx_runtime.errors import NO_RESULT
 from osc2tx_runtime.language.actions.modifier import Modifier
 from osc2tx_runtime.language.actions.placement import Placement
 from osc2tx_runtime.language.declared import BaseActor
@@ -23,7 +24,7 @@ from osc2tx_runtime.language.tree.invocation import (
 )
 from osc2tx_runtime.language.tree.override import Mode
 from osc2tx_runtime.language.tree.variables import MISSING, Boundary, Sampled
-from osc2tx_runtime.language.values.broken_values import NO_RESULT, not_computed
+from osc2tx_runtime.language.values.broken_values import not_computed
 
 __all__ = ["BaseScenario"]
 

@@ -20,7 +20,7 @@ __all__ = ["SourceMap", "read_source_map"]
 VERSION = 3
 
 Entry = tuple[int, int]
-"""Line and column, both from 1."""
+"""Line and column, both from 1; None in place of one for what is from another file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,9 +37,9 @@ class SourceMap:
 
     file: str
     fields: Mapping[str, Entry] = field(default_factory=dict)
-    constraints: tuple[Entry, ...] = ()
-    placements: tuple[Entry, ...] = ()
-    nodes: tuple[Entry, ...] = ()
+    constraints: tuple[Entry | None, ...] = ()
+    placements: tuple[Entry | None, ...] = ()
+    nodes: tuple[Entry | None, ...] = ()
 
     def place(self, entry: Entry | None) -> str:
         """Return `file:line`, which knows its column, or the file alone."""
@@ -101,11 +101,11 @@ def _is_entry(value: Any) -> TypeGuard[Sequence[int]]:
     return is_pair and all(isinstance(number, int) for number in value)
 
 
-def _places(value: Any) -> tuple[Entry, ...]:
-    if not isinstance(value, list) or not all(map(_is_entry, value)):
+def _places(value: Any) -> tuple[Entry | None, ...]:
+    if not isinstance(value, list) or not all(each is None or _is_entry(each) for each in value):
         return ()
-    return tuple((line, column) for line, column in value)
+    return tuple(None if each is None else (each[0], each[1]) for each in value)
 
 
-def _at(places: tuple[Entry, ...], index: int) -> Entry | None:
+def _at(places: tuple[Entry | None, ...], index: int) -> Entry | None:
     return places[index] if index < len(places) else None

@@ -183,6 +183,11 @@ class TraceWriter:
         if self.enabled:
             self._listed(9, "criterion", {"name": name, "what": what})
 
+    def violation(self, values: Mapping[str, Any], source: str) -> None:
+        """Note a condition of a phase that does not hold; the phase ends at this instant."""
+        if self.enabled:
+            self._listed(10, "violation", values, source)
+
     def _listed(
         self, rank: int, kind: str, values: Mapping[str, Any], source: str | None = None
     ) -> None:

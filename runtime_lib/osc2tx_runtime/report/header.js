@@ -59,11 +59,15 @@ function criteria(run) {
   return ["the behavior tree", ...forbidden.map(verdict)].join(", ");
 }
 
-/** Collisions, with buttons that go there, and warnings, such as motions that tyres cannot do. */
+/** Conditions that do not hold and collisions, with buttons that go there, and warnings, such as motions that tyres cannot do. */
 function notices(run) {
   const collisions = run.marks.filter((mark) => mark.kind === "collision").map((mark) => [mark.name, mark.t]);
   const warnings = run.result && Array.isArray(run.result.warnings) ? run.result.warnings.map((text) => [asText(text), null]) : [];
+  const unmet = (severity) => run.violations.filter((each) => each.severity === severity).map((each) => [`${each.name}: ${each.what}`, each.worst]);
+  const failures = unmet("failure"), shortfalls = unmet("warning");
   return [
+    notice("collisions", failures.length === 1 ? "1 condition fails its phase:" : `${failures.length} conditions fail their phases:`, failures),
+    notice("warnings", shortfalls.length === 1 ? "1 condition holds only in part:" : `${shortfalls.length} conditions hold only in part:`, shortfalls),
     notice("collisions", collisions.length === 1 ? "1 collision:" : `${collisions.length} collisions:`, collisions),
     notice("warnings", warnings.length === 1 ? "1 warning:" : `${warnings.length} warnings:`, warnings),
   ].filter(Boolean);

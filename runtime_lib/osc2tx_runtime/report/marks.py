@@ -107,4 +107,5 @@ _WORDS: Mapping[str, Callable[[Json], str]] = {
     "simulator_collision": lambda line: f"{text(line.get('actor'))} and {text(line.get('other'))}",
     "simulator_size": _box,
     "criterion": lambda line: text(line.get("what")),
+    "violation": lambda line: f"{text(line.get('modifier'))}: {text(line.get('what'))}",
 }

@@ -17,7 +17,7 @@ const COMPOSITIONS = new Set(["serial", "parallel", "one_of", "action", "emit"])
 function buildTimelineRows() {
   const markRows = MARK_ROWS.map(([name, kinds]) => (
     { name, marks: MARKS.filter((mark) => kinds.includes(mark.kind)) })).filter((row) => row.marks.length);
-  const bars = RUNS.flatMap((run) => [...actionRows(run), ...waitRows(run)]);
+  const bars = RUNS.flatMap((run) => [...actionRows(run), ...waitRows(run), ...conditionRows(run)]);
   return [...markRows.filter((row) => row.name === "events"), ...bars, ...markRows.filter((row) => row.name !== "events")];
 }
 
@@ -41,6 +41,13 @@ function waitRows(run) {
       status: status === "failure" ? "fail" : status, reason: "",
     })));
   return actions.length ? [{ name: COMPARED ? `${run.letter}: waits` : "waits", actions, waits: true }] : [];
+}
+
+/** Conditions that do not hold, from the first to the last state at which they do not. */
+function conditionRows(run) {
+  const actions = run.violations.map(({ severity, name, source, start, end, what, code }) => (
+    { run, actor: "", name, source, start, end, status: severity === "failure" ? "fail" : "warn", reason: `${code}: ${what}` }));
+  return actions.length ? [{ name: COMPARED ? `${run.letter}: not met` : "not met", actions }] : [];
 }
 
 const TIMELINE_ROWS = buildTimelineRows();
@@ -122,9 +129,10 @@ function drawBar(item, y) {
   const { action, x0, x1, name, textX } = item;
   const failed = action.status === "fail";
   const actor = action.run.byId.get(action.actor);
-  const kind = failed ? " bar-fail" : action.end === null ? " bar-open" : "";
+  const warns = action.status === "warn";
+  const kind = failed ? " bar-fail" : warns ? " bar-warn" : action.end === null ? " bar-open" : "";
   const box = svg("rect", { class: "bar-box" + kind, x: x0, y: y + 3, width: x1 - x0, height: BAR_HEIGHT, rx: Math.min(4, (x1 - x0) / 2) });
-  if (!failed) box.style.fill = box.style.stroke = actor ? actor.color : "var(--soft)";
+  if (!failed && !warns) box.style.fill = box.style.stroke = actor ? actor.color : "var(--soft)";
   const text = svg("text", { class: failed ? "bar-text fail" : "bar-text", x: textX, y: y + 16 }, name);
   const group = svg("g", { class: "bar" }, svg("title", {}, barTitle(action)), box, text);
   jumpOnPress(group, action.start);

@@ -101,6 +101,20 @@ def _span(run: list[object]) -> list[object]:
     return [short(start or 0.0, 4), None if end is None else short(end, 4), text(run[2])]
 
 
+def _violation(time: float, line: Json) -> Json:
+    """A condition that does not hold, as a bar; `time` stands in where the line has none."""
+    words = {key: text(line.get(key)) for key in ("severity", "actor", "source", "code")}
+    first, last, worst = (number(line.get(key)) for key in ("first", "last", "worst"))
+    return {
+        **words,
+        "name": f"{text(line.get('actor'))} {text(line.get('modifier'))}",
+        "what": text(line.get("what")),
+        "start": short(time if first is None else first, 4),
+        "end": short(time if last is None else last, 4),
+        "worst": short(time if worst is None else worst, 4),
+    }
+
+
 _FIXED_KINDS = ("stationary", "environment", "map", "traffic_light", "trafficlight")
 _SIZES = {"length": 1.0, "width": 1.0}
 _BRACKETS = 50  # of a line whose depth is looked at
@@ -132,6 +146,7 @@ class Run:
         tracks: Movement by actor id.
         surroundings: Lights and weather.
         nodes: The behavior tree, each node with the times at which it ran.
+        violations: Conditions that do not hold, with the time from the first to the last state.
         end: Latest time in the trace (s).
         skipped: Number of lines that could not be shown.
     """
@@ -143,6 +158,7 @@ class Run:
     marks: list[Json] = field(default_factory=list)
     surroundings: Surroundings = field(default_factory=Surroundings)
     nodes: list[Json] = field(default_factory=list)
+    violations: list[Json] = field(default_factory=list)
     end: float = 0.0
     skipped: int = 0
 
@@ -168,6 +184,8 @@ class Run:
         if kind == "action":
             self.actions.add(time, line)
             return True
+        if kind == "violation":
+            self.violations.append(_violation(time, line))
         self.surroundings.add(kind, time, line)
         name = mark_name(kind, line)
         if name is None:
@@ -193,6 +211,7 @@ class Run:
             "actions": self.actions.as_json(),
             "marks": self.marks,
             "nodes": self.nodes,
+            "violations": self.violations,
         }
 
     def _cast(self) -> dict[str, Json]:

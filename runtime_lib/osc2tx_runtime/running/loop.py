@@ -25,6 +25,7 @@ from osc2tx_runtime.language.tree.failure_reasons import (
     timeout_place,
     timeout_reason,
 )
+from osc2tx_runtime.language.tree.first_instant import assigns_at_start
 from osc2tx_runtime.running.criteria import Criteria
 
 if TYPE_CHECKING:
@@ -141,7 +142,7 @@ def loop(
     pulse = pulse_of(root)
     if observer is not None:
         observer.begin(context)
-    world, settings = context.world, context.settings
+    world, settings, monitors = context.world, context.settings, context.monitors
     last_step = context.steps(settings.max_time)
     progress_steps = max(1, context.steps(1.0))
     signals = signals_by_step(context)
@@ -152,6 +153,8 @@ def loop(
         if context.slots.is_touched:
             check_claims(context)
             context.commit()
+        if monitors is not None:
+            monitors.observe()
         if status is SUCCESS:
             return Outcome("success", "", step)
         if status is FAILURE:
@@ -185,11 +188,13 @@ def settle(
     """Pulse the tree until nothing more happens at this instant; not at all while it rests.
 
     Events come to rest first. Then all assignments that are pending are carried out together, and
-    with the new snapshot it goes on, until nothing more is pending.
+    with the new snapshot it goes on, until nothing more is pending. At the very start conditions
+    are asked when that has put the actors where they are to be.
 
     Signals are visible from the first pass on, so a wait that starts just now does not see them.
     Those at the very start become visible one pass later: the first waits do see them.
     """
+    context.is_placing = context.step == 0 and assigns_at_start(root)
     if signals and context.step > 0:
         post_all(context, signals)
     context.begin_pass()
@@ -198,8 +203,11 @@ def settle(
     resting = context.resting.nodes
     status = RUNNING if root in resting else pulse()
     while status is RUNNING:
-        if not (context.has_news() or assigns(context) or context.settles()):
-            return status
+        if not (context.has_news() or assigns(context)):
+            if context.is_placing:
+                context.placed()
+            elif not context.settles():
+                return status
         context.begin_pass()
         status = RUNNING if root in resting else pulse()
     assigns(context)

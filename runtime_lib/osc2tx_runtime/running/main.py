@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from traceback import format_exc
+from traceback import extract_tb, format_exc
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from osc2tx_runtime.errors import RUN_FAILED, OwnCode, ScenarioError, SettingsError, coded
+from osc2tx_runtime.errors import NOT_MET, RUN_FAILED, OwnCode, ScenarioError, SettingsError, coded
 from osc2tx_runtime.interrupts import INTERRUPTED, as_usual
 from osc2tx_runtime.running.options import OPTIONS, read_options
 from osc2tx_runtime.running.runner import RunResult, run_scenario
@@ -35,6 +35,9 @@ EXIT_UNREADABLE = 4
 EXIT_FAILED = 5
 EXIT_BUG = 70
 
+MADE_BY = "Made by osc2tx from "
+"""What the docstring of a generated module has."""
+
 
 def main(*scenarios: type[Scenario], argv: Sequence[str] | None = None) -> int:
     """Run a scenario from the command line and print the verdict.
@@ -45,7 +48,8 @@ def main(*scenarios: type[Scenario], argv: Sequence[str] | None = None) -> int:
 
     Returns:
         0 success, 5 ran and failed or ran out of time, 4 unreadable input or no simulator,
-        2 usage, 130 when the user interrupts it, 70 a bug of ours.
+        4 also for code that somebody derived by hand and that fails, 2 usage, 130 when the user
+        interrupts it, 70 a bug of ours.
     """
     try:
         as_usual()
@@ -57,10 +61,32 @@ def main(*scenarios: type[Scenario], argv: Sequence[str] | None = None) -> int:
     except OSError as error:  # the folder that we work in is gone
         complain(f"error: {error}")
         return EXIT_UNREADABLE
-    except Exception:  # the edge of the process: whatever it is, it is ours
+    except Exception as error:  # the edge of the process
         put(format_exc(), err=True)
+        place = place_in_own_code(error, scenarios)
+        if place is not None:
+            complain(f"error: {place}: {type(error).__name__}: {error}")
+            return EXIT_UNREADABLE
         complain("this is a bug of osc2tx; please report it with the lines above")
         return EXIT_BUG
+
+
+def place_in_own_code(error: Exception, scenarios: Sequence[type[Scenario]]) -> str | None:
+    """Return where code that somebody wrote by hand fails, `FILE:LINE`; None if none of it does.
+
+    Own code are the modules of the classes and of their bases that no compiler made.
+    """
+    bases = {base.__module__ for scenario in scenarios for base in scenario.__mro__}
+    modules = [sys.modules[name] for name in bases if name in sys.modules]
+    files = {
+        module.__file__: MADE_BY not in (module.__doc__ or "")
+        for module in modules
+        if module.__name__.partition(".")[0] not in ("builtins", "osc2tx_runtime")
+    }
+    frames = [frame for frame in extract_tb(error.__traceback__) if frame.filename in files]
+    if not frames or not files[frames[-1].filename]:
+        return None
+    return f"{frames[-1].filename}:{frames[-1].lineno}"
 
 
 def run(scenarios: Sequence[type[Scenario]], argv: Sequence[str]) -> int:
@@ -203,7 +229,11 @@ def verdict(
     else:
         place = result.place
         reason = result.reason.replace(f" ({place})", "", 1) if place else result.reason
-        yield coded(RUN_FAILED, f"{head}: {reason}", place or file, file, given)
+        code = NOT_MET if any(each.fails(place) for each in result.violations) else RUN_FAILED
+        yield coded(code, f"{head}: {reason}", place or file, file, given)
+    for violation in result.violations:
+        if violation.severity == "warning":
+            yield "  " + coded(violation.code, str(violation), violation.source, file, given)
     for warning in result.warnings:
         yield f"  warning: {warning}"
     for time, one, other in result.collisions:

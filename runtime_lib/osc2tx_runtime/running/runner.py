@@ -8,11 +8,10 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from osc2tx_runtime.domain.map.search import find_map
-from osc2tx_runtime.errors import BeyondMapError, OwnCode, SettingsError, SimulatorError
+from osc2tx_runtime.errors import BeyondMapError
 from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.context import ExecutionContext
-from osc2tx_runtime.language.settings import RunSettings, check_known
+from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.trace import TraceWriter
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.running.checked_world import checked_world
@@ -20,10 +19,12 @@ from osc2tx_runtime.running.loop import Observer, OnProgress, overloads, run_tre
 from osc2tx_runtime.running.map_warnings import map_warnings
 from osc2tx_runtime.running.output_files import check_outputs, write_output
 from osc2tx_runtime.running.requirements import check_requirements
-from osc2tx_runtime.worlds import WorldRequest, find_world
+from osc2tx_runtime.running.world_choice import make_world
 from osc2tx_shared.classes import dataclass, replace
 
 if TYPE_CHECKING:
+    from osc2tx_runtime.domain.monitoring.phase import Violation
+    from osc2tx_runtime.domain.monitoring.run import Monitors
     from osc2tx_runtime.domain.scenario import Scenario
     from osc2tx_runtime.language.tree.base import Behaviour
     from osc2tx_runtime.world.protocol import World
@@ -46,6 +47,7 @@ class RunResult:
         collisions: Time in seconds and the two actors of each new contact.
         warnings: What is wrong with a run that goes on all the same.
         place: Place in the scenario of what failed; empty where it has none.
+        violations: Conditions that did not hold in their phases.
     """
 
     status: str
@@ -56,6 +58,7 @@ class RunResult:
     collisions: tuple[tuple[float, str, str], ...] = field(default=())
     warnings: tuple[str, ...] = ()
     place: str = ""
+    violations: tuple[Violation, ...] = ()
 
 
 def run_scenario(
@@ -120,6 +123,7 @@ def _run(
         place_actors(scenario, context)
         setup_tree(root, context)
         check_requirements(root, context)
+        context.monitors = monitors = make_monitors(context)
         if not is_last:
             look_ahead(root)
         try:
@@ -139,7 +143,15 @@ def _run(
         tuple(context.collisions),
         (*map_warnings(world.map), *world.warnings(), *overloads(context)),
         outcome.place,
+        tuple(monitors.violations),
     )
+
+
+def make_monitors(context: ExecutionContext) -> Monitors:
+    """Return the monitors of a run."""
+    from osc2tx_runtime.domain.monitoring.run import Monitors
+
+    return Monitors(context)
 
 
 def look_ahead(root: Behaviour) -> None:
@@ -147,35 +159,6 @@ def look_ahead(root: Behaviour) -> None:
     for node in root.iterate():
         if isinstance(node, BaseAction):
             node.look_ahead()
-
-
-def make_world(scenario: Scenario, read: Callable[[Path], RoadMap] = read_map) -> object:
-    """Make the world that the settings choose, for the scenario's map.
-
-    Raises:
-        SimulatorError: It cannot be made, whatever keeps it from that.
-    """
-    settings = scenario.settings
-    map_file = scenario.map_file()
-    request = WorldRequest(
-        map_file,
-        lambda: find_map(map_file, settings.map_path),
-        settings.dt,
-        settings.seed,
-        settings.control,
-        settings.world_options,
-        read,
-    )
-    found = find_world(settings.world)
-    for actor, control in settings.control.items():
-        if control not in found.controls:
-            raise SettingsError(
-                f"--control {control}: the world {found.name} has {' and '.join(found.controls)}"
-            )
-        if actor:
-            check_known("--control", "actor", [actor], scenario.actors)
-    with OwnCode(f"the world {settings.world} raised", error=SimulatorError):
-        return found.make(request)
 
 
 def make_context(

@@ -7,9 +7,20 @@ packages name in the entry point group `osc2tx.worlds`. See docs/extending.md.
 
 from __future__ import annotations
 
+from .check import CheckRequest, CheckResult
 from .embedded import EMBEDDED
 from .option import Option
 from .registry import ENTRY_POINTS, find_world
-from .world_type import WorldRequest, WorldType
+from .request import WorldRequest
+from .world_type import WorldType
 
-__all__ = ["EMBEDDED", "ENTRY_POINTS", "Option", "WorldRequest", "WorldType", "find_world"]
+__all__ = [
+    "EMBEDDED",
+    "ENTRY_POINTS",
+    "CheckRequest",
+    "CheckResult",
+    "Option",
+    "WorldRequest",
+    "WorldType",
+    "find_world",
+]

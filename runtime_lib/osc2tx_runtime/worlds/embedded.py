@@ -11,7 +11,8 @@ from osc2tx_runtime.world.drivers.driving import Driver
 from osc2tx_runtime.world.embedded import EmbeddedWorld
 
 from .option import Option, parse_pair
-from .world_type import WorldRequest, WorldType
+from .request import WorldRequest
+from .world_type import WorldType
 
 __all__ = ["EMBEDDED"]
 

@@ -2,54 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import field
-from pathlib import Path
-from typing import Any
+from collections.abc import Callable, Iterable
 
-from osc2tx_runtime.errors import InputError
-from osc2tx_runtime.opendrive import MapError, RoadMap, read_map
 from osc2tx_runtime.world.protocol import ControlMode, World
 from osc2tx_shared.classes import dataclass
 
+from .check import CheckRequest, CheckResult
 from .option import Option
+from .request import WorldRequest
 
-__all__ = ["WorldRequest", "WorldType"]
-
-
-@dataclass(frozen=True, slots=True)
-class WorldRequest:
-    """What a run wants of its world.
-
-    Attributes:
-        map_file: The map as the scenario names it; None if it leaves the map open.
-        find_map: Returns the path of that map on this machine; InputError if it is not there.
-        dt: Length of a step (s).
-        seed: Of all that is sampled.
-        control: Who moves an actor, by its id; `""` stands for all others.
-        options: Values of the world's own options that were given, by `Option.field`.
-        read: Reads the map; who makes many runs need not read it each time.
-    """
-
-    map_file: str | None
-    find_map: Callable[[], Path]
-    dt: float = 0.05
-    seed: int = 0
-    control: Mapping[str, ControlMode] = field(default_factory=dict)
-    options: Mapping[str, Any] = field(default_factory=dict)
-    read: Callable[[Path], RoadMap] = read_map
-
-    def road_map(self) -> RoadMap:
-        """Read the map of the scenario.
-
-        Raises:
-            InputError: It is not there, or no usable map.
-        """
-        path = self.find_map()
-        try:
-            return self.read(path)
-        except (MapError, OSError) as error:
-            raise InputError(f"the map cannot be read: {error}") from error
+__all__ = ["WorldType"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,9 +23,11 @@ class WorldType:
         make: Makes it for a run. What it raises beside ScenarioError is a bug of its own.
         controls: Who can move its actors; the first one does where nobody says otherwise.
         options: Its own options, beside those of every run.
+        check: Compares its simulator with what runs rely on, line by line; None if it has none.
     """
 
     name: str
     make: Callable[[WorldRequest], World]
     controls: tuple[ControlMode, ...] = ("exact",)
     options: tuple[Option, ...] = ()
+    check: Callable[[CheckRequest], Iterable[CheckResult]] | None = None

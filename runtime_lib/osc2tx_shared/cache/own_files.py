@@ -19,13 +19,18 @@ for _flag in ("O_NOFOLLOW", "O_NONBLOCK", "O_BINARY"):
     _READ_FLAGS |= getattr(os, _flag, 0)
 
 
-def cache_folder() -> Path | None:
+def cache_folder(wanted: Path | None = None) -> Path | None:
     """Return the folder of osc2tx in the user's cache, as the platform has it.
 
     `platformdirs` would say the same, and takes longer to import than a snapshot to load.
+
+    Args:
+        wanted: Another folder that is to be used instead.
     """
     if os.environ.get("OSC2TX_NO_CACHE"):
         return None
+    if wanted is not None:
+        return wanted
     home = os.path.expanduser("~")
     if sys.platform == "win32":
         base = os.environ.get("LOCALAPPDATA", "")

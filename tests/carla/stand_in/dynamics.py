@@ -22,7 +22,11 @@ GRAVITY = 9.81
 DRAG = 0.0008  # 1/m
 BRAKING = 8.0  # m/s^2 of a full brake
 STEERING_RATE = 8.0  # 1/s: how fast the wheels follow the wanted angle
+RIGHTING = 60.0  # degrees/s
 MAX_STEER = math.radians(70.0)
+STEERING_CURVE = [[0.0, 1.0], [120.0, 0.5]]
+"""Share of the full lock that a pedal gives, by speed (km/h)."""
+
 THROTTLE = {"car": 5.0, "van": 4.0, "truck": 3.0, "bus": 3.0, "motorcycle": 6.0, "bicycle": 2.0}
 """Acceleration (m/s^2) of full throttle."""
 
@@ -40,6 +44,7 @@ def move(actor: Actor, dt: float) -> None:
         actor.velocity, actor.turning = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
     elif actor.kind == "vehicle":
         _drive(actor, dt)
+        _fall_on_wheels(actor, dt)
     elif actor.kind == "walker":
         _walk(actor, dt)
     actor.acceleration = [(new - old) / dt for new, old in zip(actor.velocity, before, strict=True)]
@@ -78,6 +83,19 @@ def _drive(actor: Actor, dt: float) -> None:
     actor.turning = [0.0, 0.0, math.degrees(rate)]
 
 
+def _fall_on_wheels(actor: Actor, dt: float) -> None:
+    """Right a body that is tilted to a side.
+
+    Rates are about the axes of the world, `v = w x r` by components as the engine has it: what
+    turns about x to the positive lifts the right side, which is a negative roll.
+    """
+    roll = actor.rotation[2]
+    actor.rotation[2] = math.copysign(max(abs(roll) - RIGHTING * dt, 0.0), roll)
+    rate = (roll - actor.rotation[2]) / dt
+    actor.turning[0] += rate * math.cos(actor.yaw)
+    actor.turning[1] += rate * math.sin(actor.yaw)
+
+
 def _accelerates(actor: Actor) -> bool:
     return actor.control[0] > 0.0 if actor.ackermann is None else actor.ackermann[2] != 0.0
 
@@ -89,7 +107,8 @@ def _inputs(actor: Actor, state: list[float]) -> list[float]:
     wheelbase = parameters.a + parameters.b
     grip = GRAVITY * min(actor.friction / TYRE_FRICTION, 1.0)
     if actor.ackermann is None:
-        wanted, acceleration = actor.control[1] * MAX_STEER, _pedals(actor, speed)
+        share = 1.0 - 0.5 * min(abs(speed) / STEERING_CURVE[1][0] * 3.6, 1.0)
+        wanted, acceleration = actor.control[1] * share * MAX_STEER, _pedals(actor, speed)
     else:
         wanted, acceleration = actor.ackermann[0], _towards(actor, speed)
     if actor.constant is not None:

@@ -24,15 +24,15 @@ class StandInProcess:
     Args:
         folders: Where its maps are.
         town: The map it starts with.
-        version: What it says it is.
+        *traits: Options that say how it differs from others; see `__main__`.
 
     Attributes:
         port: Where it answers.
         pid: Of its process.
     """
 
-    def __init__(self, folders: Sequence[Path], town: str, version: str = "0.9.16") -> None:
-        given = [*(str(each.resolve()) for each in folders), "--town", town, "--version", version]
+    def __init__(self, folders: Sequence[Path], town: str, *traits: str) -> None:
+        given = [*(str(each.resolve()) for each in folders), "--town", town, *traits]
         self._process = subprocess.Popen(
             [sys.executable, "-m", "tests.carla.stand_in", *given],
             cwd=ROOT,

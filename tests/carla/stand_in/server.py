@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from .actor_calls import ActorCalls
 from .batches import BatchCalls
+from .faults import FAULTS
 from .rpc import CallLog, RpcServer
 from .server_calls import ServerCalls
 from .signal_calls import SignalCalls
@@ -16,6 +18,26 @@ from .simulation import DEFAULT_STEP, Simulation
 from .vehicle_calls import VehicleCalls
 
 VERSION = "0.9.16"
+
+
+@dataclass(frozen=True)
+class Traits:
+    """How a server may differ from others.
+
+    Attributes:
+        version: What it says it is; builds from source have a suffix (`Util/BuildTools`,
+            `git describe --dirty`).
+        loading: Seconds until a level is there: large maps take a minute and more. The client asks
+            for the new episode for as long as one call may take (`Simulator::LoadEpisode`).
+        fault: How it differs from what runs rely on; see `faults`.
+        has_streams: Whether its second port is open; without it calls are answered, and no
+            snapshot ever arrives (carla issues on docker and firewalls).
+    """
+
+    version: str = VERSION
+    loading: float = 0.0
+    has_streams: bool = True
+    fault: str = ""
 
 
 class TestCalls:
@@ -45,6 +67,16 @@ class TestCalls:
         """Return whether time waits for a client."""
         return self._simulation.synchronous
 
+    def stand_in_spectator(self) -> list[list[float]]:
+        """Return where the camera is."""
+        camera = self._simulation.spectator
+        return [camera.location, camera.rotation]
+
+    def stand_in_surroundings(self) -> list[Any]:
+        """Return the weather, and of each traffic light its state and whether it is frozen."""
+        lights = [[light.state, light.frozen] for _, light in self._simulation.lights()]
+        return [self._simulation.weather, lights]
+
     def stand_in_actors(self) -> dict[str, list[str]]:
         """Return the role names of what clients spawned, by blueprint."""
         found: dict[str, list[str]] = {}
@@ -60,19 +92,22 @@ class StandIn:
     Args:
         folders: Where its maps are.
         town: The map it starts with.
-        version: What it says it is.
+        traits: How it differs from others.
+        port: Where it answers; 0 takes a free one.
     """
 
     def __init__(
-        self, folders: Sequence[Path], town: str, version: str = VERSION, port: int = 0
+        self, folders: Sequence[Path], town: str, traits: Traits = Traits(), port: int = 0
     ) -> None:
-        self._simulation = simulation = Simulation(folders, town)
+        self._simulation = simulation = Simulation(folders, town, traits.loading)
+        if not traits.has_streams:
+            simulation.streams.close()
         log = CallLog()
         actors, vehicles = ActorCalls(simulation), VehicleCalls(simulation)
         signals = SignalCalls(simulation)
         tests = TestCalls(simulation, log)
         groups = (
-            ServerCalls(simulation, version),
+            ServerCalls(simulation, traits.version),
             actors,
             vehicles,
             signals,
@@ -80,6 +115,8 @@ class StandIn:
             tests,
         )
         calls = {name: call for each in groups for name, call in calls_of(each)}
+        if traits.fault:
+            FAULTS[traits.fault](simulation, calls)
         self._rpc = RpcServer(port, calls, log, {name for name, _ in calls_of(tests)})
         self.port = self._rpc.port
         self._closed = threading.Event()

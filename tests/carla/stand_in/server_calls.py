@@ -63,6 +63,14 @@ class ServerCalls:
     def copy_opendrive_to_file(self, text: str, parameters: list[Any]) -> None:
         self._sent_map = text
 
+    def project_point(
+        self, location: list[float], direction: list[float], reach: float
+    ) -> list[Any]:
+        ground = self._simulation.level.ground(location, 0.0)
+        if ground is None:
+            return [False, [[0.0, 0.0, 0.0], 0]]
+        return [True, [[location[0], location[1], ground[0]], 1]]
+
     # --- time ---------------------------------------------------------------------------------
 
     def get_episode_settings(self) -> list[Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
@@ -27,18 +28,20 @@ class Simulation:
     Args:
         folders: Where the maps are; the name of a map is that of its file.
         town: The first map.
+        loading: Seconds until another map is there.
 
     Attributes:
         settings: In the order in which they travel.
         weather: So, too.
     """
 
-    def __init__(self, folders: Iterable[Path], town: str) -> None:
+    def __init__(self, folders: Iterable[Path], town: str, loading: float = 0.0) -> None:
         self.streams = StreamServer()
         self.maps = {file.stem: file for each in folders for file in sorted(each.glob("*.xodr"))}
         self.settings: list[Any] = list(SETTINGS)
         self.episode, self.frame, self.time = 0, 1, 0.0
-        self._next_level: tuple[str, str, Sequence[Any]] | None = None
+        self._loading = loading
+        self._next_level: tuple[str, str, Sequence[Any], float] | None = None
         self.load(town, self.maps[town].read_text(encoding="utf-8"))
 
     def load(self, name: str, text: str) -> None:
@@ -54,13 +57,13 @@ class Simulation:
             self._add(Blueprint("traffic.traffic_light"), [], pose).light = Light(sign)
 
     def load_soon(self, name: str, text: str, settings: Sequence[Any]) -> None:
-        """Load a map at the next turn of the clock: the client has its answer by then."""
-        self._next_level = (name, text, settings)
+        """Load a map at a later turn of the clock: the client has its answer by then."""
+        self._next_level = (name, text, settings, time.monotonic() + self._loading)
 
     def load_now(self) -> None:
-        """Load the map that was asked for, if any."""
-        if self._next_level is not None:
-            name, text, settings = self._next_level
+        """Load the map that was asked for, if its time has come."""
+        if self._next_level is not None and time.monotonic() >= self._next_level[-1]:
+            name, text, settings, _ = self._next_level
             self._next_level = None
             self.load(name, text)
             self.settings = list(settings)

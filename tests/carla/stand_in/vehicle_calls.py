@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from .actors import Actor
-from .dynamics import MAX_STEER
+from .dynamics import MAX_STEER, STEERING_CURVE
 from .rpc import CallError
 from .simulation import Simulation
 
@@ -46,7 +46,7 @@ class VehicleCalls:
             raise CallError("servers crash here: ask before physics is switched off")
         engine = [[[0.0, 500.0], [6000.0, 500.0]], 6000.0, 1.0, 0.15, 2.0, 0.35]
         gears = [True, 0.0, 10.0, 4.0, [[1.0, 0.5, 0.65]]]
-        body = [1500.0, 0.3, [0.0, 0.0, 0.0], [[0.0, 1.0], [120.0, 0.5]]]
+        body = [1500.0, 0.3, [0.0, 0.0, 0.0], STEERING_CURVE]
         return [*engine, *gears, *body, self._wheels(vehicle), False]
 
     def _wheels(self, vehicle: Actor) -> list[Any]:

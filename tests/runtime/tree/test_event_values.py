@@ -88,9 +88,9 @@ def test_on_reacts_to_each_event_of_an_instant_with_its_values(order: Any) -> No
     told.name = "told"
     heard: list[float] = []
     members = [
-        On(e, do=[Call(lambda: heard.append(e["gap"])), Emit(told, gap=lambda: e["gap"])]),
+        On(e, Call(lambda: heard.append(e["gap"])), Emit(told, gap=lambda: e["gap"])),
         Parallel("emits", Emit(e, gap=2.0), Emit(e, gap=1.0), Emit(e, gap=2.0)),
-        On(e, condition=lambda: e["gap"] > 1.5, do=[Emit(event("big"))]),
+        On(e, Emit(event("big")), condition=lambda: e["gap"] > 1.5),
         Wait(e, condition=lambda: e["gap"] > 5.0),  # looks at the same occurrences meanwhile
     ]
     run = Run(Parallel("p", *(members[i] for i in order)), max_time=0.2).go()

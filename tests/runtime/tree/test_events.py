@@ -234,9 +234,9 @@ def all_events(run: Run) -> list[tuple[float, str]]:
 def test_on_reacts_to_every_occurrence_and_ends_with_its_surroundings(on_first: bool) -> None:
     a, b, c = event("a"), event("b"), event("c")
     calls: list[str] = []
-    on = On(a, do=[Call(lambda: calls.append("x")), Emit(b)])
+    on = On(a, Call(lambda: calls.append("x")), Emit(b))
     emits = Serial("e", Emit(a), Wait(elapsed(0.1)), Emit(a), Emit(a), Wait(elapsed(0.1)))
-    chain = On(b, do=[Emit(c)])
+    chain = On(b, Emit(c))
     run = Run(Parallel("p", *((on, chain, emits) if on_first else (emits, chain, on)))).go()
     assert (run.outcome.status, run.outcome.steps) == ("success", 4)
     assert all_events(run) == [(t, name) for t in (0.0, 0.1) for name in "abc"]
@@ -245,7 +245,7 @@ def test_on_reacts_to_every_occurrence_and_ends_with_its_surroundings(on_first: 
 
 def test_on_its_own_event_does_not_react_for_ever() -> None:
     a = event("a")
-    run = Run(Parallel("p", On(a, do=[Emit(a)]), Serial("e", Emit(a), Wait(elapsed(0.3))))).go()
+    run = Run(Parallel("p", On(a, Emit(a)), Serial("e", Emit(a), Wait(elapsed(0.3))))).go()
     assert all_events(run) == [(0.0, "a")]
 
 
@@ -256,8 +256,8 @@ def test_on_conditions() -> None:
     world.v["hero"] = 10.0
     run.root = Parallel(
         "p",
-        On(every(0.1), do=[Emit(tick)]),
-        On(rise(lambda: world.x["hero"] > 1.2), do=[Emit(far)]),
+        On(every(0.1), Emit(tick)),
+        On(rise(lambda: world.x["hero"] > 1.2), Emit(far)),
         Wait(elapsed(0.25)),
     )
     run.go()

@@ -110,7 +110,7 @@ def guarded() -> Behaviour:
             "hero task (x.osc:2) failed at 0.100 s: gave up",
         ),
         (
-            lambda: Parallel("p", On(elapsed(0.1), do=[Quiet("reaction")]), Wait(elapsed(1.0))),
+            lambda: Parallel("p", On(elapsed(0.1), Quiet("reaction")), Wait(elapsed(1.0))),
             "reaction (x.osc:3) failed at 0.100 s: it gives no reason",
         ),
         (guarded, "hero task (x.osc:4) failed at 0.100 s: gave up"),
@@ -150,7 +150,13 @@ def sampled() -> Behaviour:
             "x.osc:1: the condition has no value: division by zero",
         ),
         (
-            lambda: Parallel("p", Wait(elapsed(1.0)), On(broken, do=[])),
+            lambda: Parallel(
+                "p",
+                Wait(elapsed(1.0)),
+                On(
+                    broken,
+                ),
+            ),
             "x.osc:3: the condition has no value: division by zero",
         ),
         (

@@ -272,7 +272,7 @@ def test_duration_override_and_reading_values() -> None:
                     Wait(elapsed(0.3)),
                     Wait("stop", elapsed(0.1)),
                 ),
-                On(self.event("p1.near"), do=[Emit(self.seen)]),
+                On(self.event("p1.near"), Emit(self.seen)),
             )
 
     result = run_scenario(Limited)

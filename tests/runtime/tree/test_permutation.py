@@ -136,7 +136,7 @@ class Builder:
             return Emit(self.events[value])  # type: ignore[index]
         if spec.kind == "on":
             heard, told = value  # type: ignore[misc]
-            return On(self.events[heard], do=[Emit(self.events[told])])
+            return On(self.events[heard], Emit(self.events[told]))
         if spec.kind == "elapsed":
             return Wait(elapsed(value))  # type: ignore[arg-type]
         if spec.kind == "level":
@@ -153,7 +153,7 @@ class Builder:
         if spec.kind == "hear":
             return Wait(told, condition=lambda: told["x"] > value)
         if spec.kind == "pass on":
-            return On(told, do=[Emit(self.events["c"], x=lambda: told["x"] % 2)])
+            return On(told, Emit(self.events["c"], x=lambda: told["x"] % 2))
         if spec.kind == "read":
             return Wait(lambda: x[0].value > value or x[2].value > 4)
         if spec.kind == "task":

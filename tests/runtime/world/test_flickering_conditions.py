@@ -31,7 +31,7 @@ from tests.runtime.world.following_plant import FollowingPlant
 def test_turns(samples: str, exact: list[int], measured: list[int], target: bool) -> None:
     """`samples` has a digit a step: whether the function has the value that it turns to."""
     for noisy, expected in ((False, exact), (True, measured)):
-        now: Any = SimpleNamespace(step=0, snapshot=0, is_measured=noisy)
+        now: Any = SimpleNamespace(step=0, snapshot=0, is_placing=False, is_measured=noisy)
         edge = Edge(
             lambda now=now: (samples[now.step] == "1") is target,
             target,

@@ -157,12 +157,15 @@ def test_a_lane_change_may_jump(run: Run) -> None:
 
 @pytest.mark.parametrize("number", [-4, -3, -1])
 def test_a_lane_of_the_map(run: Run, number: int) -> None:
+    """It changes to another lane than its own, -3, and follows that alone (§8.8.3.2, .3)."""
     target = Lane()
     target.choose(MapSegment("lane", "1", 0, number))
-    done = run(scenario(lambda s: s.a.change_lane(target=target)))
-    assert done.states("a")[-1]["lane"] == number
-    done = run(scenario(lambda s: s.a.follow_lane(target=target, offset=0.1, duration=8.0)))
-    assert (done.states("a")[-1]["lane"], done.states("a")[-1]["offset"]) == (number, 0.1)
+    changes = run(scenario(lambda s: s.a.change_lane(target=target)))
+    follows = run(scenario(lambda s: s.a.follow_lane(target=target, offset=0.1, duration=8.0)))
+    done, refused = (follows, changes) if number == -3 else (changes, follows)
+    assert (done.result.status, done.states("a")[-1]["lane"]) == ("success", number)
+    assert (refused.result.status, refused.result.time) == ("failure", 0.0)
+    assert number != -3 or done.states("a")[-1]["offset"] == 0.1
 
 
 # --- shapes ------------------------------------------------------------------------------------

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.building.manifest import MANIFEST_NAME
 from osc2tx.building.write import RECORDS
+from osc2tx.building.written_digests import DIGESTS_NAME
 from tests.unit.building.test_interrupted_builds import prepared
 
 
@@ -35,7 +35,7 @@ def test_texts_are_on_the_disk_before_they_are_in_place(
     assert project.build(prune=True).remaining() == ()
     folders = {os.stat((project.out / each).parent).st_ino for each in placed}
     assert folders <= {inode for inode, _ in synced}
-    assert {"a.py", "sub/new.py", MANIFEST_NAME} <= set(placed)
+    assert {"a.py", "sub/new.py", DIGESTS_NAME} <= set(placed)
     # Announced before the first output changes, and said to be done after the last one.
-    assert placed.index(MANIFEST_NAME) < placed.index("sub/new.py")
+    assert placed.index(DIGESTS_NAME) < placed.index("sub/new.py")
     assert placed[-1] in RECORDS

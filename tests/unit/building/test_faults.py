@@ -18,7 +18,6 @@ from osc2tx import cli
 from osc2tx.building import workers
 from osc2tx.building import write as writing
 from osc2tx.building.jobs import Job
-from osc2tx.building.manifest import MANIFEST_NAME
 from osc2tx.building.results import FileResult, compile_job
 from osc2tx.building.written_digests import DIGESTS_NAME
 from tests.processes import Ended, forked
@@ -183,7 +182,7 @@ def test_damaged_records_and_caches(
 ) -> None:
     project, before, after = changed
     random = Random(seed)
-    files = [project.out / MANIFEST_NAME, project.out / DIGESTS_NAME]
+    files = [project.out / DIGESTS_NAME]
     files += sorted(path for path in cache.rglob("*") if path.is_file())
     path = files[seed % len(files)]
     kept = path.read_bytes()
@@ -199,7 +198,7 @@ def test_damaged_records_and_caches(
         case 3:
             data[random.randrange(len(data)) : 0] = b"\xff\x00\x1b[2J"
         case 4:
-            data = bytearray(b'{"format": 3, "outputs": {"../x": ["y"]}}')
+            data = bytearray(b'{"format": 2, "digests": {"../x": ["y", "0"]}}')
     path.write_bytes(data)
     ended = command(project)
     assert ended.code in (0, 1, 2), ended.err

@@ -13,7 +13,6 @@ from pathlib import Path
 import pytest
 
 from osc2tx.building import write as writing
-from osc2tx.building.manifest import read_manifest
 from osc2tx.building.written_digests import read_digests
 from tests.processes import HANGING
 from tests.unit.building.projects import Project, contents
@@ -70,7 +69,6 @@ def assert_old_or_new(project: Project, before: dict[str, bytes], after: dict[st
     for name, data in contents(project.out).items():
         if name not in writing.RECORDS and not name.endswith(writing.TEMPORARY):
             assert data in (before.get(name), after.get(name)), name
-    read_manifest(project.out)
 
 
 def assert_heals(project: Project, after: dict[str, bytes]) -> None:
@@ -112,9 +110,11 @@ def test_a_partial_build_keeps_what_an_unfinished_one_wrote(tmp_path: Path) -> N
             Axe(patch, number)
             project.build()
         now = contents(project.out)
-        if len(read_digests(project.out)["a.py"]) == 2 and now["a.py"] != before["a.py"]:
+        if len(read_digests(project.out)["a.py"].digests) == 2 and now["a.py"] != before["a.py"]:
             break
-    assert len(read_digests(project.out)["a.py"]) == 2  # the new one and that of the old text
+    assert (
+        len(read_digests(project.out)["a.py"].digests) == 2
+    )  # the new one and that of the old text
     project.build(project.sources / "b.osc")
     project.drive("a.osc", speed=50)
     assert [change.state.name for change in project.build().remaining()] == ["ORPHANED"] * 2
@@ -190,3 +190,62 @@ def is_running(pid: int) -> bool:
     except (FileNotFoundError, ProcessLookupError):
         return False
     return state != "Z"
+
+
+def processes_of(parent: int) -> list[int]:
+    """Return the processes that a process started."""
+    found = Path(f"/proc/{parent}/task/{parent}/children").read_text().split()
+    return [int(each) for each in found]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="processes are listed elsewhere")
+def test_an_interrupted_build_keeps_what_is_done(tmp_path: Path) -> None:
+    """Ctrl-C ends it with its workers, says what is kept, and the next build compiles the rest."""
+    project = Project(tmp_path / "project")
+    for number in range(60):
+        project.drive(f"s{number:02}.osc")
+    environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path / "cache")}
+    environment.pop("OSC2TX_NO_CACHE", None)
+    started = subprocess.Popen(
+        command(project), env=environment, stderr=subprocess.PIPE, text=True, cwd=ROOT
+    )
+    results = tmp_path / "cache/osc2tx/results"
+    while started.poll() is None and len(list(results.rglob("?" * 30))) < 10:
+        time.sleep(0.01)
+    workers = processes_of(started.pid)
+    started.send_signal(signal.SIGINT)
+    _, told = started.communicate(timeout=HANGING)
+    assert started.returncode == 130
+    kept = int(told.split("interrupted: ")[1].split()[0])
+    assert 10 <= kept < 60 and "are done and kept" in told
+    assert not any(Path(f"/proc/{each}").exists() for each in workers)
+    ended = subprocess.run(
+        command(project), env=environment, capture_output=True, text=True, check=True, cwd=ROOT
+    )
+    assert "60 modules" in ended.stdout
+
+
+@pytest.mark.slow
+def test_a_second_build_waits_for_the_first(tmp_path: Path) -> None:
+    project = Project(tmp_path / "project")
+    for number in range(20):
+        project.drive(f"s{number:02}.osc")
+    environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path / "cache")}
+    environment.pop("OSC2TX_NO_CACHE", None)
+    started = [
+        subprocess.Popen(
+            command(project),
+            env=environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=ROOT,
+        )
+        for _ in range(3)
+    ]
+    ended = [(each.communicate(timeout=HANGING), each.returncode) for each in started]
+    assert [code for _, code in ended] == [0, 0, 0]
+    waited = [told for (_, told), _ in ended if "waiting for the build of process" in told]
+    assert len(waited) >= 1
+    assert sum("40 files written" in out for (out, _), _ in ended) == 1

@@ -1,4 +1,4 @@
-"""Whose a file of the output folder is: edited, foreign, orphaned; the manifest that says it."""
+"""Whose a file of the output folder is: edited, foreign, orphaned; each output names its source."""
 
 import subprocess
 from pathlib import Path
@@ -6,9 +6,10 @@ from pathlib import Path
 import pytest
 
 from osc2tx.building.fingerprint import digest
-from osc2tx.building.manifest import MANIFEST_NAME, ManifestError, read_manifest
+from osc2tx.building.ownership import stated_source
 from osc2tx.building.version_control import committed_objects
-from osc2tx.building.written_digests import DIGESTS_NAME, render_digests
+from osc2tx.building.written_digests import DIGESTS_NAME, Written, read_digests, render_digests
+from osc2tx.config import GivenOptions
 from tests.unit.building.projects import Project, contents, listing, write
 
 # --- edited, foreign, orphaned ---
@@ -68,7 +69,7 @@ def test_orphans_are_reported_and_removed_on_request(project: Project) -> None:
     project.build(prune=True)
     assert listing(project.out) == ["a.map.json", "a.py"]
     assert not (project.out / "deep").exists()
-    assert set(read_manifest(project.out).outputs) == {"a.py"}
+    assert set(read_digests(project.out)) == {"a.py"}
 
 
 def test_an_edited_orphan_is_only_removed_by_force(project: Project) -> None:
@@ -105,83 +106,101 @@ def test_building_a_single_file_says_nothing_of_the_others(project: Project) -> 
     project.build()
     assert project.build(single, prune=True).changes == ()
     assert listing(project.out) == ["a.map.json", "a.py", "b.map.json", "b.py"]
-    assert set(read_manifest(project.out).outputs) == {"a.py", "b.py"}
+    assert set(read_digests(project.out)) == {"a.py", "b.py"}
 
 
-# --- the manifest ---
+# --- outputs that nothing but themselves tells of, as after a clone or a merge ---
 
 
-def test_without_manifest_what_is_current_is_entered_again(project: Project) -> None:
+def forget(project: Project) -> None:
+    (project.out / DIGESTS_NAME).unlink(missing_ok=True)
+
+
+def test_an_output_of_a_merge_is_ours(project: Project) -> None:
     project.drive("a.osc")
+    project.drive("gone.osc")
     project.build()
-    manifest = project.out / MANIFEST_NAME
-    text = manifest.read_text()
-    manifest.unlink()
-    assert project.check() == [f"{MANIFEST_NAME} is stale"]
-    assert project.build().written == ()
-    assert manifest.read_text() == text
-    assert project.check() == []
+    forget(project)
+    (project.sources / "gone.osc").unlink()
+    assert project.check() == ["gone.py is orphaned"]
+    result = project.build(prune=True)
+    assert [each.is_untouched for each in result.remaining()] == [False, False]  # nobody can tell
+    project.build(prune=True, force=True)
+    assert listing(project.out) == ["a.map.json", "a.py"]
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "",
-        "[]",
-        "<<<<<<< HEAD\n",
-        '{"format": 2, "outputs": {}}',
-        '{"format": 3}',
-        '{"format": 3, "outputs": []}',
-        '{"format": 3, "outputs": {"a.osc": 3}}',
-        '{"format": 3, "outputs": {"a.osc": {"a.py": "0"}}}',
-        '{"format": 3, "outputs": {"a.osc": [3]}}',
-    ],
-)
-def test_a_damaged_manifest_stops_the_build(project: Project, text: str) -> None:
+@pytest.mark.parametrize("text", ["mine", '"""Made by me from gone.osc."""\n'])
+def test_what_names_no_source_is_foreign(project: Project, text: str) -> None:
     project.drive("a.osc")
-    write(project.out / MANIFEST_NAME, text)
-    with pytest.raises(ManifestError, match="is damaged"):
-        project.build()
+    write(project.out / "gone.py", text)
+    project.build(prune=True, force=True)
+    assert (project.out / "gone.py").read_text() == text
 
 
-@pytest.mark.parametrize(
-    "path",
-    ["../x", "/x", "a/../../x", "./x", "a//x", "", "..", "c:/x", "\\x", "a\\..\\..\\x", "x\0"],
-)
-def test_a_manifest_cannot_name_what_lies_elsewhere(project: Project, path: str) -> None:
-    import json
-
+@pytest.mark.parametrize("source", ["../x.osc", "/x.osc", "a/../../x.osc", "c:/x.osc"])
+def test_a_source_elsewhere_is_no_reason_to_remove(project: Project, source: str) -> None:
     project.drive("a.osc")
-    outputs = {"gone.osc": [path]}
-    write(project.out / MANIFEST_NAME, json.dumps({"format": 3, "outputs": outputs}))
-    with pytest.raises(ManifestError):
-        project.build(prune=True, force=True)
+    text = f'"""Made by osc2tx from {source}: edit the scenario, not this module."""\n'
+    write(project.out / "x.py", text.replace('"""', '"""\n'))
+    assert project.build(prune=True, force=True).remaining() == ()
+    assert (project.out / "x.py").exists()
 
 
-def test_a_manifest_cannot_reach_through_a_link(project: Project) -> None:
-    import json
-
+def test_no_output_is_looked_for_through_a_link(project: Project) -> None:
     project.drive("a.osc")
-    outside = write(project.folder / "elsewhere/file", "precious")
+    outside = write(project.folder / "elsewhere/file.py", "precious")
     project.out.mkdir()
     (project.out / "link").symlink_to(outside.parent)
-    outputs = {"gone.osc": ["link/file"]}
-    write(project.out / MANIFEST_NAME, json.dumps({"format": 3, "outputs": outputs}))
-    digests = {"link/file": (digest(b"precious"),)}
+    digests = {"link/file.py": Written("link/file.osc", (digest(b"precious"),))}
     write(project.out / DIGESTS_NAME, render_digests(digests))
     project.build(prune=True, force=True)
     assert outside.read_text() == "precious"
 
 
-def test_the_manifest_says_which_files_there_are_and_not_what_is_in_them(project: Project) -> None:
-    project.drive("sub/a.osc")
+@pytest.mark.parametrize("version", ["1.0", "1.3"])
+def test_every_kind_of_output_states_its_source(project: Project, version: str) -> None:
+    source = project.drive("sub/a & b.osc")
+    text = source.read_text(encoding="utf-8")
+    logical = text.replace("ego.drive(duration: 5s)", "ego.drive(duration: d)").replace(
+        "  ego: vehicle",
+        "  ego: vehicle\n  d: time with:\n    keep(it in [4s..6s])\n    cover(it, unit: s)",
+    )
+    source.write_text(logical, encoding="utf-8")
+    given = GivenOptions(target="all", xml_version=version)
+    project.build(given=given)
+    made = [name for name in listing(project.out) if not name.endswith(".map.json")]
+    assert len(made) >= 3, made
+    for name in made:
+        assert stated_source(name, (project.out / name).read_bytes()) == "sub/a & b.osc", name
+
+
+def test_line_ends_of_windows_do_not_count(project: Project) -> None:
+    project.drive("a.osc")
     project.build()
-    text = (project.out / MANIFEST_NAME).read_text()
-    assert '    "sub/a.osc": ["a.py"]\n' in text
-    assert str(project.folder) not in text
-    project.drive("sub/a.osc", speed=31)
+    for path in (project.out / "a.py", project.sources / "a.osc"):
+        path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
+    assert project.check() == []
+    before = (project.out / "a.py").read_bytes()
     project.build()
-    assert (project.out / MANIFEST_NAME).read_text() == text
+    assert (project.out / "a.py").read_bytes() == before
+    forget(project)
+    commit(project)
+    project.drive("a.osc", speed=31)
+    assert project.check() == ["a.py is stale"]
+
+
+def test_conflict_markers_are_called_so_and_replaced(project: Project) -> None:
+    project.drive("a.osc")
+    project.build()
+    text = (project.out / "a.py").read_text()
+    marked = text.replace(
+        "\nclass", "\n<<<<<<< ours\nx = 1\n=======\nx = 2\n>>>>>>> theirs\nclass", 1
+    )
+    assert marked != text
+    (project.out / "a.py").write_text(marked)
+    assert project.check() == ["a.py has conflict markers of a merge"]
+    assert project.build().remaining() == ()
+    assert (project.out / "a.py").read_text() == text
 
 
 # --- what nobody has edited: known from the last build, or from version control ---
@@ -204,7 +223,7 @@ def test_git_ignores_the_digests(project: Project) -> None:
     project.build()
     assert (project.out / DIGESTS_NAME).exists()
     commit(project)
-    assert committed_objects(project.out).keys() == {MANIFEST_NAME, "a.map.json", "a.py"}
+    assert committed_objects(project.out).keys() == {"a.map.json", "a.py"}
 
 
 def test_what_is_as_committed_may_be_replaced(project: Project) -> None:
@@ -226,10 +245,11 @@ def test_what_differs_from_the_commit_was_edited_by_hand(project: Project) -> No
     project.build()
     commit(project)
     (project.out / DIGESTS_NAME).unlink()
-    (project.out / "a.py").write_text("edited")
+    edited = (project.out / "a.py").read_text() + "# edited\n"
+    (project.out / "a.py").write_text(edited)
     assert project.check() == ["a.py was edited by hand"]
     project.build()
-    assert (project.out / "a.py").read_text() == "edited"
+    assert (project.out / "a.py").read_text() == edited
 
 
 def test_an_edit_that_was_committed_is_stale_like_any_other_text(project: Project) -> None:

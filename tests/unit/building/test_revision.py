@@ -26,7 +26,7 @@ def project(tmp_path: Path) -> Project:
     project.drive("sub/b c.osc", head='import "../lib.osc"\n')
     project.drive("old.osc")
     write(project.sources / "lib.osc", "global shade: int = 1\n")
-    write(project.folder / "osc2tx.toml", '[scenarios.a]\none_of = "first"\n')
+    write(project.folder / "osc2tx.toml", '[scenarios.a]\nstd = "2.2"\n')
     git(project.folder, "init", "-q")
     git(project.folder, "add", ".")
     git(project.folder, "commit", "-qm", "one")
@@ -62,8 +62,8 @@ def test_what_changed(project: Project) -> None:
 def test_settings_of_the_revision_count_for_it(project: Project) -> None:
     write(project.folder / "osc2tx.toml", "")
     (difference,) = compared(project).differences
-    assert difference.old is not None and "takes its first member" in difference.old
-    assert difference.new is not None and "is a race" in difference.new
+    assert difference.old is not None and "DSL 2.2" in difference.old
+    assert difference.new is not None and "DSL 2.1" in difference.new
 
 
 def test_imports_of_the_revision_count_for_it(project: Project) -> None:
@@ -96,10 +96,24 @@ def test_a_single_file_and_a_relative_path(
 
 def test_links_are_as_in_the_repository(project: Project) -> None:
     (project.sources / "linked.osc").symlink_to("a.osc")
-    (project.sources / "out.osc").symlink_to("/etc/hostname")
     git(project.folder, "add", ".")
     git(project.folder, "commit", "-qm", "links")
     assert compared(project).differences == ()
+    assert compared(project).problems == ()
+
+
+def test_links_out_of_the_repository_are_not_read(project: Project) -> None:
+    outside = project.folder.parent / "outside.osc"
+    project.drive("a.osc")
+    outside.write_text("scenario of_nobody:\n    do wait elapsed(1s)\n")
+    (project.sources / "far.osc").symlink_to(outside)
+    (project.sources / "farther.osc").symlink_to("far.osc")
+    git(project.folder, "add", ".")
+    git(project.folder, "commit", "-qm", "links")
+    found = compared(project)
+    assert [problem for problem in found.problems if "link" in problem] == [
+        "HEAD: in/far.osc is a link out of the repository, which is not read",
+    ]
 
 
 @pytest.mark.parametrize("revision", ["nothing", "--help", "HEAD:in", "", "-q"])

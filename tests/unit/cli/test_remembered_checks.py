@@ -37,7 +37,7 @@ def shell(
     monkeypatch.delenv("OSC2TX_NO_CACHE", raising=False)
     for name in ("XDG_CACHE_HOME", "HOME", "LOCALAPPDATA"):
         monkeypatch.setenv(name, str(tmp_path / ".cache"))
-    monkeypatch.setattr(result_cache, "tool_stamp", lambda: "this osc2tx")
+    monkeypatch.setattr(result_cache, "tool_stamp", lambda cache: "this osc2tx")
     return Shell(capsys, tmp_path)
 
 
@@ -46,12 +46,19 @@ def checked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The files that are really checked."""
     names: list[str] = []
 
-    def check(job: Job) -> FileResult:
+    def check(job: Job, memory: object = None) -> FileResult:
         names.append(job.name)
         return check_job(job)
 
     monkeypatch.setattr(checks, "check_job", check)
     return names
+
+
+def results_in(shell: Shell) -> Path:
+    """Return the only file of results."""
+    found = (shell.folder / ".cache/osc2tx/results").rglob("*")
+    (kept,) = (path for path in found if path.is_file())
+    return kept
 
 
 def write_all(shell: Shell) -> None:
@@ -131,7 +138,7 @@ def test_without_cache_all_is_checked_and_nothing_kept(
     shell.drive("a.osc")
     assert shell(*arguments) == shell(*arguments)
     assert checked == ["a.osc", "a.osc"]
-    assert not (shell.folder / ".cache/osc2tx/checks").exists()
+    assert not (shell.folder / ".cache/osc2tx/results").exists()
 
 
 def test_a_bug_is_not_remembered(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -149,23 +156,23 @@ def test_a_bug_is_not_remembered(shell: Shell, monkeypatch: pytest.MonkeyPatch) 
 def test_a_damaged_memory_is_none(shell: Shell, checked: list[str], damaged: object) -> None:
     shell.drive("a.osc")
     first = shell("check", "a.osc")
-    (kept,) = (shell.folder / ".cache/osc2tx/checks").iterdir()
+    kept = results_in(shell)
     document = json.loads(kept.read_text())
-    (name,) = document["results"]
-    for change in ({"results": {name: damaged}}, {"results": damaged}, {"library": damaged}):
+    (record,) = document["records"]
+    for change in ({"records": [damaged]}, {"records": damaged}, {"format": damaged}):
         kept.write_text(json.dumps(document | change))
         assert shell("check", "a.osc") == first
-    half = document["results"][name] | {"scenarios": [damaged]}
-    kept.write_text(json.dumps(document | {"results": {name: half}}))
-    assert shell("check", "a.osc") == first
+    for key in ("scenarios", "dependencies", "outputs", "reports"):
+        half = {"records": [record | {key: [damaged]}]}
+        kept.write_text(json.dumps(document | half))
+        assert shell("check", "a.osc") == first
     assert len(checked) >= 4
 
 
 def test_the_memory_of_somebody_else_is_not_read(shell: Shell, checked: list[str]) -> None:
     shell.drive("a.osc")
     shell("check", "a.osc")
-    (kept,) = (shell.folder / ".cache/osc2tx/checks").iterdir()
-    kept.chmod(0o666)
+    results_in(shell).chmod(0o666)
     shell("check", "a.osc")
     assert checked == ["a.osc", "a.osc"]
 
@@ -189,15 +196,14 @@ def test_the_stamp_tells_one_osc2tx_from_another(
     module = tmp_path / "semantics" / "model.py"
     module.write_text("a = 1\n")
     os.utime(module, ns=(0, 0))
-    before = fingerprint.tool_stamp()
-    assert before == fingerprint.tool_stamp() is not None
+    cache = tmp_path / "cache"
+    before = fingerprint.tool_stamp(cache)
+    assert before == fingerprint.tool_stamp(cache) is not None
     os.utime(module, ns=(0, 1))
-    assert fingerprint.tool_stamp() not in (before, None)
-    os.utime(module, ns=(0, 0))
-    assert fingerprint.tool_stamp() == before
+    assert fingerprint.tool_stamp(cache) == before  # as in another installation
     module.write_text("a = 10\n")
     os.utime(module, ns=(0, 0))
-    assert fingerprint.tool_stamp() not in (before, None)
+    assert fingerprint.tool_stamp(cache) not in (before, None)
 
 
 def test_what_is_recalled_needs_no_stage(tmp_path: Path) -> None:

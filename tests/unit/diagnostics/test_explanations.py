@@ -12,7 +12,7 @@ from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import CODES, Severity
 from osc2tx.diagnostics.codes import Explanation
 from osc2tx.options import CompileOptions
-from osc2tx_runtime.errors import RUN_FAILED, ScenarioError
+from osc2tx_runtime.errors import NOT_MET, PARTLY_MET, RUN_FAILED, ScenarioError
 
 PRELUDE = "import osc.standard.all\n\nnamespace null use std, stdtypes\n\n"
 WITHOUT_TEXT = {
@@ -45,19 +45,22 @@ def codes_of(explanation: Explanation, text: str, folder: Path) -> dict[str, Sev
 
 
 def codes_of_run(explanation: Explanation, text: str, folder: Path) -> dict[str, Severity]:
-    """Return the code of the error that ends a run of an example, if one does."""
+    """Return the codes of a run of an example: of the error that ends it, and of warnings."""
     path = folder / "example.osc"
     path.write_text(PRELUDE + text, encoding="utf-8")
     said = CliRunner().invoke(cli, ["run", str(path)], standalone_mode=False, obj=Session())
-    places = re.findall(rf"^{re.escape(str(path))}:\d+:\d+: error\[(OSC\d+)\]", said.output, re.M)
-    assert (said.return_value == 0) == (not places), said.output
-    return dict.fromkeys(places, Severity.ERROR)
+    line = rf"^ *{re.escape(str(path))}:\d+:\d+: (error|warning)\[(OSC\d+)\]"
+    found = {code: Severity(severity) for severity, code in re.findall(line, said.output, re.M)}
+    assert (said.return_value == 0) == (Severity.ERROR not in found.values()), said.output
+    return found
 
 
 def test_errors_of_runs_have_codes() -> None:
     kinds = [ScenarioError, *ScenarioError.__subclasses__()]
     own = {kind.code for kind in kinds if kind.__module__ == ScenarioError.__module__}
-    assert sorted(own | {RUN_FAILED}) == [code for code in CODES if code.startswith("OSC8")]
+    assert sorted(own | {RUN_FAILED, NOT_MET, PARTLY_MET}) == [
+        code for code in CODES if code.startswith("OSC8")
+    ]
 
 
 def test_a_code_has_an_example_and_a_remedy() -> None:

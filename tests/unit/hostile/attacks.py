@@ -51,7 +51,7 @@ POSITIONS = {
     **dict.fromkeys(NAMES, 60),
     **{"string": 90, "comment": 90, "undefined": 60, "member": 60, "unit": 30, "raw": 60},
     **{"file": 70, "folder": 50, "setting": 50, "option": 90, "map": 70, "trace": 60},
-    **{"manifest": 50, "own_action": 60, "allow": 30},
+    **{"output": 50, "own_action": 60, "allow": 30},
 }
 """How many attacks each position gets."""
 

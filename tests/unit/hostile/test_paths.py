@@ -196,18 +196,6 @@ def test_an_output_that_is_a_link(tmp_path: Path, force: bool) -> None:
     assert bool(result.remaining()) is not force
 
 
-def test_a_manifest_that_is_a_link(tmp_path: Path) -> None:
-    from osc2tx.building.manifest import MANIFEST_NAME, ManifestError
-
-    drive(tmp_path / "in/a.osc")
-    target = write(tmp_path / "elsewhere/target", '{"format": 1, "outputs": {}}')
-    (tmp_path / "out").mkdir()
-    (tmp_path / "out" / MANIFEST_NAME).symlink_to(target)
-    with pytest.raises(ManifestError):
-        made(tmp_path)
-    assert target.read_text() == '{"format": 1, "outputs": {}}'
-
-
 def test_a_source_that_is_a_link_out_of_the_folder_is_not_read(tmp_path: Path) -> None:
     secret = write(tmp_path / "elsewhere/secret", "password = hunter2\n")
     drive(tmp_path / "in/a.osc")

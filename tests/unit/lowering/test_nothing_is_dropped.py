@@ -64,7 +64,7 @@ CASES = {
             code="OSC506",
             do="serial:\n        a: it_.thing(duration: 1s)\n        wait @a.seen",
         ),
-        ast.ParameterDeclaration: Case("y: int = 41", text="y=41"),
+        ast.ParameterDeclaration: Case("y: int = 41", text="y: Late[int] = 41"),
         ast.VariableDeclaration: Case("var y: int = 42", reason=NEVER_READ),
         ast.KeepConstraint: Case(
             "keep(x < 43)", text="self.keep(self.n < 43)", use=f"n: {ANY}", do="it_.thing(x: n)"

@@ -21,7 +21,7 @@ from osc2tx_shared.classes import replace
 
 from .movable_objects import ParticipantFields, TrafficParticipant
 
-__all__ = ["Trailer", "Vehicle", "VehicleFields"]
+__all__ = ["Trailer", "TrailerFields", "Vehicle", "VehicleFields"]
 
 
 class VehicleFields(ParticipantFields, total=False):
@@ -31,6 +31,13 @@ class VehicleFields(ParticipantFields, total=False):
     axles: Sequence[Axle] | Mapping[int, Axle] | None
     rear_overhang: float | None
     trailer_receiver: HitchReceiver | None
+
+
+class TrailerFields(VehicleFields, total=False):
+    """Keywords of `Trailer`."""
+
+    trailer_category: TrailerCategory | None
+    coupler: HitchCoupler | None
 
 
 class Vehicle(TrafficParticipant, VehicleMethods):

@@ -243,7 +243,9 @@ class MovableObjectMethods:
         *modifiers: TurnModifier | StartModifier | PhysicalMovement,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Stand; an actor that moves brakes as hard as it can first (§8.8.2.10).
+        """Stand; an actor that moves brakes as hard as it can first, unless physics must hold.
+
+        Section §8.8.2.10.
 
         Where it has to stand it has to be at the start: what holds then goes on to hold.
         """

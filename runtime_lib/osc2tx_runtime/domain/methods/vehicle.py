@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from osc2tx_runtime.domain.map.roads_and_lanes import Lane
     from osc2tx_runtime.domain.modifiers import Value
+    from osc2tx_runtime.domain.modifiers.base import Late
     from osc2tx_runtime.domain.modifiers.groups import (
         PathModifier,
         SideModifier,
@@ -48,7 +49,7 @@ class VehicleMethods:
         /,
         *modifiers: SpeedModifier | StartModifier,
         num_of_lanes: int | Callable[[], int] = 1,
-        side: LaneChangeSide | None = None,
+        side: Late[LaneChangeSide] | None = None,
         reference: PhysicalObject | None = None,
         offset: Value = 0.0,
         rate_profile: DynamicProfile = "none",
@@ -174,7 +175,7 @@ class VehicleMethods:
             offset_range: Instead of it: what it may be at any time.
             rate_profile: Course of the lateral speed on the way there.
             rate_peak: Its peak (m/s).
-            target: A lane of the map beside the present one; None: the present one.
+            target: The lane of the map in which it is; None: whichever that is.
         """
 
     def keep_space_gap(

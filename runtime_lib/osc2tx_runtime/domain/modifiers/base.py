@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, ClassVar, TypeAlias, TypeVar
 
-from osc2tx_runtime.domain.shapes import AnyShape, CommonShape, OwnShape
+from osc2tx_runtime.domain.shapes import AnyShape, CommonShape, OwnShape, with_methods
 from osc2tx_runtime.enums import At, DynamicProfile, MovementMode, Track
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.errors import NO_RESULT, ScenarioError, why_no_result
 from osc2tx_runtime.language.actions.modifier import Modifier
-from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS
-from osc2tx_shared.classes import dataclass
+from osc2tx_shared.classes import dataclass, replace
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.values.parameters import Range
@@ -27,6 +26,7 @@ __all__ = [
     "course_of",
     "now",
     "own_course",
+    "settled",
     "target_of",
     "value_of",
     "wanted",
@@ -37,7 +37,7 @@ Late: TypeAlias = ValueT | Callable[[], ValueT]
 """A value, or a function that is called for it when the action starts."""
 
 Value: TypeAlias = Late[float]
-Shape = CommonShape | OwnShape[AnyShape]
+Shape = AnyShape | OwnShape[AnyShape]
 
 _SAME = 1e-3  # between what a shape reaches and what is asked for
 
@@ -52,8 +52,22 @@ def now(value: ValueT | Callable[[], ValueT]) -> ValueT:
         return value
     try:
         return value()
-    except EVALUATION_ERRORS as error:
-        raise ScenarioError(f"an argument has no value: {error}") from error
+    except NO_RESULT as error:
+        raise ScenarioError(f"an argument has no value: {why_no_result(error)}") from error
+
+
+def settled(modifiers: Sequence[Modifier]) -> tuple[Modifier, ...]:
+    """The modifiers with the present values of arguments that are read late.
+
+    Raises:
+        ScenarioError: An argument has no value, or one that the modifier does not take.
+    """
+    return tuple(map(_settled, modifiers))
+
+
+def _settled(modifier: Modifier) -> Modifier:
+    late = {name: now(value) for name, value in modifier.given().items() if callable(value)}
+    return replace(modifier, **late) if late else modifier
 
 
 def value_of(value: Value) -> float:
@@ -147,8 +161,11 @@ class MovementModifier(Modifier):
         return self.movement_mode == "monotonous"
 
     def check(self) -> None:
-        """Checks that the shape is one of the value."""
-        shape: Shape | None = getattr(self, "shape", None)
+        """Checks that the shape is one of the value; one that computes keeps its methods by it."""
+        shape: AnyShape | OwnShape[AnyShape] | None = getattr(self, "shape", None)
+        if isinstance(shape, AnyShape):
+            shape = with_methods(shape)
+            object.__setattr__(self, "shape", shape)
         wanted = self.shaped_by
         if shape and wanted and wanted.kind not in (shape.kind, AnyShape.kind):
             raise ScenarioError(f"{self.name}: a shape of it is an {wanted.kind}")

@@ -44,11 +44,11 @@ class StartPlaces:
                 f" s = {spawn.s:g} m"
             )
         if lane is not None:
-            number = number_of_lane(self._map, spawn, lane.from_)
+            number = number_of_lane(self._map, spawn, lane.edge)
             if number != lane.number:
                 raise PlacementError(
                     f"--spawn {actor}: lane {spawn.lane} of road {spawn.road} is number"
-                    f" {number} from the {lane.from_}, the scenario asks for {lane.number}"
+                    f" {number} from the {lane.edge}, the scenario asks for {lane.number}"
                     if number
                     else f"--spawn {actor}: lane {spawn.lane} of road {spawn.road} is no"
                     " driving lane"
@@ -80,7 +80,7 @@ class StartPlaces:
         for candidate in self._candidates(lane, distance):
             place: LanePosition | None = candidate
             if lane is not None:
-                place = lane_with_number(self._map, candidate, lane.number, lane.from_)
+                place = lane_with_number(self._map, candidate, lane.number, lane.edge)
                 if distance is None and place is not None and place.lane != candidate.lane:
                     continue
             if place is None or not belongs(place):
@@ -89,7 +89,7 @@ class StartPlaces:
                 return place
             if distance is not None:
                 return self._beside(actor, lane, distance, place, is_free)
-        wish = "" if lane is None else f" with a lane {lane.number} from the {lane.from_}"
+        wish = "" if lane is None else f" with a lane {lane.number} from the {lane.edge}"
         far = "" if distance is None else f", {distance:g} m from its start"
         raise PlacementError(
             f"{actor}: map {self._map.name} has no free place on a road{wish}{far}"
@@ -165,5 +165,5 @@ class StartPlaces:
             step = self._map.advance(road_entry(self._map, point), distance)
             if abs(step.travelled - distance) < 1e-6:
                 yield step.position
-            elif lane is None or lane_with_number(self._map, point, lane.number, lane.from_):
+            elif lane is None or lane_with_number(self._map, point, lane.number, lane.edge):
                 short.add(point.road)

@@ -11,6 +11,7 @@ from osc2tx_runtime import opendrive
 from osc2tx_runtime.domain.map.road_graph import graph_of
 from osc2tx_runtime.domain.modifiers import (
     Along,
+    AlongTrajectory,
     Lane,
     Lateral,
     Location,
@@ -19,6 +20,7 @@ from osc2tx_runtime.domain.modifiers import (
     Position,
     value_of,
 )
+from osc2tx_runtime.domain.modifiers.base import now, settled
 from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.domain.placing.default_starts import StartPlaces
 from osc2tx_runtime.domain.placing.initial_state import (
@@ -31,6 +33,8 @@ from osc2tx_runtime.domain.placing.point_placement import PointPlaces
 from osc2tx_runtime.domain.placing.pose_resolution import heading_of, one_of_kind
 from osc2tx_runtime.domain.points_and_poses import RoutePoint
 from osc2tx_runtime.domain.routes.lane_coordinates import place_at_distance, road_entry
+from osc2tx_runtime.domain.routes.network_paths import trajectory_in_world
+from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.world.geometry.lane_neighbours import offset_from
@@ -77,7 +81,11 @@ class Placer:
             PlacementError: There is no such place.
         """
         self._draws = draws
+        modifiers = settled(modifiers)
         speed = speed_at(self._world, modifiers, self._of)
+        timed = one_of_kind(modifiers, AlongTrajectory)
+        if speed is None and timed is not None:
+            speed = self._begin(timed)[1]
         own_speed = speed if speed is not None else (0.0 if now is None else now.v)
         at = self._place(actor, modifiers, own_speed, now, spawn, is_free)
         if speed and not actor.movable:
@@ -127,6 +135,9 @@ class Placer:
         along = one_of_kind(modifiers, Along)
         if along is not None:
             return self._on_route(actor, along, lane, position, is_free)
+        timed = one_of_kind(modifiers, AlongTrajectory)
+        if timed is not None:
+            return self._points.at_pose(actor, self._begin(timed)[0])
         if now is not None and now.lane_position is not None:
             return self._from_here(actor, now.lane_position, lane, position)
         distance = None if position is None else self._of(position.size())
@@ -167,10 +178,11 @@ class Placer:
         in_lane_of = None if lane is None else lane.reference
         start = self._centre(in_lane_of or reference, actor)
         if lane is not None and lane.side_of is not None and lane.side is not None:
-            beside = self._map.neighbour(start, lane.side, lane.number) if lane.number else start
+            side: SideLeftRight = now(lane.side)
+            beside = self._map.neighbour(start, side, lane.number) if lane.number else start
             if beside is None:
                 raise PlacementError(
-                    f"{actor.id}: there is no lane to the {lane.side} of {lane.side_of.id},"
+                    f"{actor.id}: there is no lane to the {side} of {lane.side_of.id},"
                     f" which is in lane {start.lane} of road {start.road}"
                 )
             start = beside
@@ -227,6 +239,16 @@ class Placer:
             if is_free(step.position):
                 return step.position
         raise PlacementError(f"{actor.id}: {route.found} has no free lane {distance:g} m along it")
+
+    def _begin(self, timed: AlongTrajectory) -> tuple[opendrive.Pose, float]:
+        """Pose at the begin of a trajectory, and the speed (m/s) there; zero before its time."""
+        trajectory = trajectory_in_world(self._map, now(timed.trajectory))
+        curve = trajectory.curve
+        begin = curve.at_length(value_of(timed.start_offset))
+        (x, y, z), way = curve.point(begin), curve.heading(begin) or 0.0
+        heading = curve.yaw(begin)
+        pace = math.hypot(*curve.rate(begin)[:2]) if trajectory.time_stamps[0] <= 0.0 else 0.0
+        return opendrive.Pose(x, y, z, way if heading is None else heading), pace
 
     def _from_here(
         self,

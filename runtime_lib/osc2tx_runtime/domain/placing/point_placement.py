@@ -42,9 +42,9 @@ class PointPlaces:
             if isinstance(at, LanePosition)
             else self._map.locate(at.x, at.y, at.z, max_distance=1e-3)
         )
-        if on is None or number_of_lane(self._map, on, lane.from_) != lane.number:
+        if on is None or number_of_lane(self._map, on, lane.edge) != lane.number:
             raise PlacementError(
-                f"{actor.id}: its point is not on lane {lane.number} from the {lane.from_}"
+                f"{actor.id}: its point is not on lane {lane.number} from the {lane.edge}"
             )
 
     def projected(self, actor: PhysicalObject, point: Point, lane: Lane | None) -> LanePosition:
@@ -90,6 +90,10 @@ class PointPlaces:
         """A point of a path or crossing, looking along it; vehicles in the lane that is there."""
         pose = place_of_route(self._map, point)
         assert isinstance(pose, opendrive.Pose)
+        return self.at_pose(actor, pose)
+
+    def at_pose(self, actor: PhysicalObject, pose: opendrive.Pose) -> LanePosition | opendrive.Pose:
+        """A pose of a way; of vehicles in the lane that is there."""
         on = self._map.locate(pose.x, pose.y, heading=pose.h, max_distance=1e-3)
         if on is None or not actor.lane_bound or math.cos(self._map.pose(on).h - pose.h) <= 0.0:
             return pose
@@ -112,10 +116,10 @@ class PointPlaces:
 
     def numbered(self, actor: PhysicalObject, place: LanePosition, lane: Lane) -> LanePosition:
         """The lane with a number at the height of a place."""
-        found = lane_with_number(self._map, place, lane.number, lane.from_)
+        found = lane_with_number(self._map, place, lane.number, lane.edge)
         if found is None:
             raise PlacementError(
-                f"{actor.id}: road {place.road} has no lane {lane.number} from the {lane.from_}"
+                f"{actor.id}: road {place.road} has no lane {lane.number} from the {lane.edge}"
                 f" at s = {place.s:.1f} m"
             )
         return found

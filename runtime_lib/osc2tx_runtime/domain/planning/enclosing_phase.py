@@ -1,7 +1,7 @@
 """The duration with which an open-ended action ends: that of the composition around it.
 
-In `parallel(duration: 8s)` the members that never end by themselves end after 8 s; what holds
-`at: end` for one of them has to hold then.
+In `parallel(duration: 8s)` the members that never end by themselves end after 8 s, whenever the
+others do; what holds `at: end` for one of them has to hold then.
 """
 
 from __future__ import annotations
@@ -18,8 +18,13 @@ if TYPE_CHECKING:
 __all__ = ["phase_of"]
 
 
-def phase_of(action: BaseAction) -> DurationLimits | None:
-    """The duration with which an open-ended action ends; None if nobody can tell before."""
+def phase_of(action: BaseAction, *, strict: bool) -> DurationLimits | None:
+    """The duration with which an open-ended action ends; None if nobody can tell before.
+
+    Args:
+        action: The action.
+        strict: Durations are met exactly, not at the latest.
+    """
     if action.registered.ends != "open" or action.duration is not None:
         return None
     node: Behaviour = action
@@ -27,19 +32,25 @@ def phase_of(action: BaseAction) -> DurationLimits | None:
         parent = node.parent
         if isinstance(parent, Serial) and parent.children[-1] is not node:
             return None
-        if isinstance(parent, Parallel) and not _all_open(parent):
-            return None
         limits = parent.limits
+        fixed = limits is not None and limits.fixed is not None and strict
+        if isinstance(parent, Parallel) and not (_is_plain(parent) if fixed else _all_open(parent)):
+            return None
         if limits is not None:
             return limits if limits.fixed is not None else None
         node = parent
     return None
 
 
+def _is_plain(parallel: Parallel) -> bool:
+    """Whether all members start and end with it."""
+    simple = parallel.overlap == "start" and parallel.end_to_end is None
+    return simple and not parallel.start_to_start
+
+
 def _all_open(parallel: Parallel) -> bool:
     """Whether no member ends the others."""
-    simple = parallel.overlap == "start" and parallel.end_to_end is None
-    return simple and not parallel.start_to_start and all(map(_is_open, parallel.children))
+    return _is_plain(parallel) and all(map(_is_open, parallel.children))
 
 
 def _is_open(node: Behaviour) -> bool:

@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING, Unpack
 
 from osc2tx_runtime.domain.actors import MovableObject
 from osc2tx_runtime.domain.modifiers import Modifier, MovementModifier, Orient, PhysicalMovement
+from osc2tx_runtime.domain.modifiers.base import settled
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.errors import PlacementError, ScenarioError
 from osc2tx_runtime.language.actions.action import Action, ActionOptions
+from osc2tx_runtime.language.actions.base_action import with_blame
 from osc2tx_runtime.language.actions.registry import LONGITUDINAL
 from osc2tx_runtime.language.tree.base import Status
 from osc2tx_runtime.language.tree.duration_limits import DurationLimits
@@ -225,6 +227,7 @@ class ModifiedMotion(MotionAction):
 
     Attributes:
         movable: The actor.
+        planned: Seconds after its start at which it reaches its goal, where that ends it.
     """
 
     def __init__(
@@ -233,6 +236,16 @@ class ModifiedMotion(MotionAction):
         self.movable = actor  # what the action becomes may depend on it
         super().__init__(actor, *modifiers, **options)
         self._phase: DurationLimits | None = None
+        self._given = self.modifiers
+        self.planned: float | None = None
+
+    def initialise(self) -> None:
+        """Read the arguments of the modifiers that are read late, and start."""
+        if any(callable(value) for each in self._given for value in each.given().values()):
+            self.modifiers = with_blame(self, partial(settled, self._given))
+            for depending in ("lasting", "orient"):
+                self.__dict__.pop(depending, None)
+        super().initialise()
 
     @cached_property
     def lasting(self) -> tuple[Modifier, ...]:
@@ -250,7 +263,8 @@ class ModifiedMotion(MotionAction):
         return self.fixed_duration() is not None or self._phase is not None
 
     def time_left(self) -> float | None:
-        """Seconds until the end, where it is known."""
+        """Seconds until the end, where it is known or planned."""
         if self._phase is not None:
             return self._phase.left * self.context.dt
-        return super().time_left()
+        known = super().time_left()
+        return self.planned - self.elapsed if known is None and self.planned else known

@@ -47,7 +47,7 @@ def hold_or_jump(action: ModifiedMotion) -> bool:
         Refused: It does not hold.
         PlacementError: There is no such place.
     """
-    at_start = [m for m in action.modifiers if getattr(m, "at", "all") == "start"]
+    at_start = [m for m in action.modifiers if getattr(m, "at", "all") == "start" or _stands(m)]
     places = [modifier for modifier in at_start if isinstance(modifier, PLACES)]
     if not action.may_jump:
         for modifier in at_start:
@@ -58,6 +58,10 @@ def hold_or_jump(action: ModifiedMotion) -> bool:
         speeds = [m for m in at_start if isinstance(m, Speed) and m.direction == "longitudinal"]
         _jump(action, [*places, *speeds])
     return bool(places)
+
+
+def _stands(modifier: Modifier) -> bool:
+    return isinstance(modifier, Position) and modifier.stands
 
 
 def _jump(action: ModifiedMotion, modifiers: Sequence[Modifier]) -> None:

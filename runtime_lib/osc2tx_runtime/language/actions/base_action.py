@@ -128,6 +128,8 @@ class BaseAction(Leaf):
         if self._limits is not None:
             self._limits.begin()
         self.context.trace.action("start", self)
+        if self.context.monitors is not None:
+            self.context.monitors.begins(self)
         self._claim()
         with_blame(self, self.on_start)
 
@@ -157,6 +159,17 @@ class BaseAction(Leaf):
         """Return that of the duration, if it ends the action."""
         late = None if self._limits is None else self._limits.late
         return super().lateness() if late is None else late
+
+    def judge_end(self, status: Status) -> Status:
+        """Fail if what has to hold in its phase does not; what is cut short is not judged."""
+        monitors = self.context.monitors
+        if monitors is None:
+            return status
+        if status is not SUCCESS:
+            monitors.leaves(self)
+            return status
+        reason = monitors.ends(self)
+        return status if reason is None else self.fail(reason)
 
     def terminate(self, new_status: Status) -> None:
         """Clean up, release the slots and write the trace."""

@@ -276,14 +276,17 @@ def carried_out(declared: type[ClassT]) -> type[ClassT]:
     return declared
 
 
-def user_action(name: str) -> Any:
+def user_action(name: str, declared: type | None = None) -> Any:
     """Return the function `name(actor, ...)` of an action that a package of the user registers.
 
-    A generated module gives it the type that the scenario declares.
+    Args:
+        name: Its name in the registry.
+        declared: Its type, as the scenario declares it: the defaults are those of its `__call__`.
     """
+    defaults = _defaults(declared)
 
     def call(actor: BaseActor, *args: Any, **kwargs: Any) -> BaseAction:
-        node = methods.bind(actor, name)(*args, **kwargs)
+        node = methods.bind(actor, name)(*args, **{**defaults, **kwargs})
         written = re.sub(r"^\([^,)]*(, )?", "(", call_arguments())  # the actor stands before it
         node.name = node.label or called(actor.id, name, written)
         return node
@@ -291,16 +294,29 @@ def user_action(name: str) -> Any:
     return call
 
 
-def global_action(name: str) -> Any:
+def global_action(name: str, declared: type | None = None) -> Any:
     """Return the function `name(...)` of an action without an actor, which a package registers.
 
-    A generated module gives it the type that the scenario declares.
+    Args:
+        name: Its name in the registry.
+        declared: See `user_action`.
     """
+    defaults = _defaults(declared)
 
     def call(*args: Any, **kwargs: Any) -> BaseAction:
-        return methods.bind(None, name)(*args, **kwargs)
+        return methods.bind(None, name)(*args, **{**defaults, **kwargs})
 
     return call
+
+
+def _defaults(declared: type | None) -> dict[str, Any]:
+    """Return the defaults that the type of an action states; `...` only says that there is one."""
+    if declared is None:
+        return {}
+    parameters = inspect.signature(declared.__call__).parameters.values()
+    defaults = {each.name: each.default for each in parameters}
+    left_out = (inspect.Parameter.empty, ..., None)
+    return {name: value for name, value in defaults.items() if value not in left_out}
 
 
 def _caller(name: str) -> Callable[..., BaseAction]:

@@ -71,6 +71,12 @@ class Activity:
         self._active = active
 
 
+NEEDS_RUN = (
+    "the tree of a scenario needs the world of a run: call `run_scenario(TheScenario)` of"
+    " osc2tx_runtime instead of ticking it"
+)
+
+
 class Node(Behaviour):
     """What leaves and compositions share.
 
@@ -113,8 +119,20 @@ class Node(Behaviour):
     _ended: PostedEvent | None = None
     _failed: PostedEvent | None = None
 
+    def __getattr__(self, name: str) -> Any:
+        """Say what a tree needs that is ticked before it is set up for a run."""
+        if name == "context":
+            raise ScenarioError(NEEDS_RUN)
+        raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
+
     def setup(self, **kwargs: Any) -> None:
-        """Take the `context` of the run."""
+        """Take the `context` of the run.
+
+        Raises:
+            ScenarioError: Somebody else than a run sets it up.
+        """
+        if "context" not in kwargs:
+            raise ScenarioError(NEEDS_RUN)
         self.context = kwargs["context"]
         if self.label is not None:
             events = self.context.label_events if self.listeners is None else self.listeners
@@ -179,13 +197,17 @@ class Node(Behaviour):
                 yield node
 
     def stop(self, new_status: Status = INVALID) -> None:
-        """Leave the node; what runs inside is left first."""
+        """Leave the node; what runs inside is left first.
+
+        An end with success becomes a failure if what is ended with it fails; `status` says so.
+        """
         if self.status is RUNNING:
+            late = self.lateness() if new_status is SUCCESS else 0.0
+            new_status = self.judge_end(self._stop_children(new_status))
             if new_status is FAILURE:
                 self.failed_at = self.context.time
             elif new_status is SUCCESS:
-                self.ended_late = self.lateness()
-            self._stop_children(new_status)
+                self.ended_late = late
             self.context.resting.forget(self)
             self.terminate(new_status)
             self._post_life_event(new_status)
@@ -196,13 +218,25 @@ class Node(Behaviour):
             self._stop_children(new_status)
         self.status = new_status
 
-    def _stop_children(self, new_status: Status) -> None:
-        """Running children end with an ended parent and are cut short otherwise."""
+    def judge_end(self, status: Status) -> Status:
+        """Return the status with which the node is left, given the one with which it would be."""
+        return status
+
+    def _stop_children(self, new_status: Status) -> Status:
+        """Running children end with an ended parent and are cut short otherwise.
+
+        Returns:
+            The status; a failure if it was success and one of them fails by its end.
+        """
+        result = new_status
         for child in self.children:
             if child.status is RUNNING:
                 child.stop(SUCCESS if new_status is SUCCESS else INVALID)
+                if new_status is SUCCESS and child.status is FAILURE:
+                    result = FAILURE
             elif new_status is INVALID and child.status is not INVALID:
                 child.stop(INVALID)
+        return result
 
     def _begin(self) -> None:
         """Enter the node. RUNNING from here on, so that a clean-up finds a half-started node."""
@@ -248,7 +282,7 @@ class Leaf(Node):
             status = self.update()
             if status is not RUNNING:
                 self.stop(checked(self, status))
-            return status
+            return self.status
         except ScenarioError as error:
             error.source = error.source or self.source or None
             raise

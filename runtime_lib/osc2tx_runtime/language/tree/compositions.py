@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from py_trees.common import ParallelPolicy
 from py_trees.composites import Parallel as ParallelComposite
@@ -23,6 +23,10 @@ from osc2tx_runtime.language.tree.base import (
     pulse_of,
 )
 from osc2tx_runtime.language.tree.duration_limits import Duration, DurationLimits
+from osc2tx_runtime.language.tree.parallel_schedule import Span
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.context import ExecutionContext
 
 __all__ = ["Composition", "OneOf", "Serial"]
 
@@ -54,7 +58,7 @@ class Composition(Node):
         status = self._advance() if self._is_plain else self._judged()
         if status is not RUNNING:
             self.stop(status)
-        return status
+        return self.status
 
     def _judged(self) -> Status:
         """Advance the members; return the status of the whole."""
@@ -82,6 +86,22 @@ class Composition(Node):
     def _content_lateness(self) -> float:
         """Return how late the end of the members shows."""
         return super().lateness()
+
+    def frame(self, context: ExecutionContext) -> Span:
+        """Return the steps that it may take, by its duration and by those around it (§7.6.2.1).
+
+        Args:
+            context: The run; the nodes around are set up later.
+        """
+        if context.first_come:
+            return Span(0)
+        own = Span(0) if self._limits is None else self._limits.frame(context)
+        around = self.parent
+        return own.meet(around._frame_of(self, context)) if isinstance(around, Composition) else own
+
+    def _frame_of(self, member: Behaviour, context: ExecutionContext) -> Span:
+        """Return the steps that a member may take."""
+        return self.frame(context)
 
     def _limit(self, duration: Duration | None) -> None:
         self.label = self.name
@@ -167,6 +187,15 @@ class Serial(Composition, SequenceComposite):
         known = [length for length in lengths if length is not None]
         return sum(known) if len(known) == len(lengths) else None
 
+    def _frame_of(self, member: Behaviour, context: ExecutionContext) -> Span:
+        frame = self.frame(context)
+        if frame == Span(0):
+            return frame
+        lengths = [None if is_open(c) else length_of(c) for c in self.children if c is not member]
+        known = [length for length in lengths if length is not None]
+        low = frame.low - sum(known) if len(known) == len(lengths) else 0
+        return Span(max(low, 0), frame.high - sum(known))
+
     def _advance(self) -> Status:
         members, context, resting = self._members, self.context, self.context.resting.nodes
         late = context.late
@@ -202,6 +231,7 @@ class OneOf(Composition, ParallelComposite):
     def __init__(self, name: str, *members: Behaviour, duration: Duration | None = None) -> None:
         super().__init__(name, policy=ParallelPolicy.SuccessOnOne(), children=members)
         self._limit(duration)
+        self._asked = False
 
     def setup(self, **kwargs: Any) -> None:
         """Choose a member if the scenario does not race, one that fills the duration."""
@@ -229,11 +259,14 @@ class OneOf(Composition, ParallelComposite):
 
     def _fitting(self) -> list[Member]:
         """Return the members that may take as long as is asked for."""
-        limits = self._limits
-        if limits is None or self.context.first_come:
+        if self._asked:  # by a sibling whose length depends on this one's
             return list(self._members)
+        self._asked = True
+        frame = self.frame(self.context)
+        self._asked = False
         lengths = [(m, None if is_open(m[0]) else length_of(m[0])) for m in self._members]
-        return [m for m, length in lengths if length is None or limits.admits(length)]
+        fitting = [m for m, n in lengths if n is None or frame.low <= n <= frame.high]
+        return fitting if fitting or self._limits is not None else list(self._members)
 
     def _goes_on(self) -> bool:
         return any(is_open(child) for child, _ in self._active)
@@ -255,7 +288,7 @@ class OneOf(Composition, ParallelComposite):
         self.context.trace.choice(self.name, policy, chosen.name, self.source)
 
     def _content_length(self) -> int | None:
-        lengths = [length_of(child) for child, _ in self._members if not is_open(child)]
+        lengths = [length_of(child) for child, _ in self._fitting() if not is_open(child)]
         known = [length for length in lengths if length is not None]
         return min(known, default=None) if len(known) == len(lengths) else None
 

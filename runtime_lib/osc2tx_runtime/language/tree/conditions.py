@@ -1,7 +1,8 @@
 """Conditions: rise, fall, elapsed, every, and functions of the scenario.
 
 A condition is sampled once per snapshot: the state of the world is that of the step, and sampled
-variables may change between two passes of an instant (`context.snapshot` counts). It starts with
+variables may change between two passes of an instant (`context.snapshot` counts). At the start of
+the run none is true before the actors are where their first assignments put them. It starts with
 its use: `rise` and `fall` take their first sample there, which is no edge; `elapsed` and `every`
 count steps from there.
 """
@@ -12,14 +13,13 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.errors import NO_RESULT, ScenarioError, why_no_result
 from osc2tx_runtime.language.tree.module_text import function_text
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
 __all__ = [
-    "EVALUATION_ERRORS",
     "Condition",
     "Deadline",
     "Edge",
@@ -34,9 +34,6 @@ __all__ = [
 
 SETTLED_STEPS = 2
 """Steps for which a condition has had its value before a turn of measured states is no noise."""
-
-EVALUATION_ERRORS = (ArithmeticError, LookupError)
-"""What an expression of a scenario raises when it has no value."""
 
 Watch = Callable[[], bool]
 """Says whether something happened by the present pass."""
@@ -134,9 +131,11 @@ class Level:
         """Return whether the function is true in the present snapshot."""
         snapshot = self._context.snapshot
         if snapshot != self._sampled:
+            if self._context.is_placing:
+                return False
             try:  # as in `evaluate`
                 self._value = bool(self._function())
-            except EVALUATION_ERRORS as error:
+            except NO_RESULT as error:
                 raise without_value(error) from error
             self._sampled = snapshot
         return self._value
@@ -200,7 +199,7 @@ class Edge:
         self._context = context
         self._sampled = context.snapshot
         self._settled = context.step  # from which step on the value counts as settled
-        self._value = evaluate(function)
+        self._value = None if context.is_placing else evaluate(function)
         self._edge = False
         self.is_vain = self._value is target
 
@@ -208,10 +207,16 @@ class Edge:
         """Return whether the function turns in the present snapshot."""
         context = self._context
         if context.snapshot != self._sampled:
+            if context.is_placing:
+                return False
+            if self._value is None:  # its first sample is that of the actors in their places
+                self._value, self._sampled = evaluate(self._function), context.snapshot
+                self.is_vain = self._value is self._target
+                return False
             before = self._value
             try:  # as in `evaluate`; each step of each condition comes by here
                 self._value = bool(self._function())
-            except EVALUATION_ERRORS as error:
+            except NO_RESULT as error:
                 raise without_value(error) from error
             self._sampled = context.snapshot
             turned = self._value is not before
@@ -230,8 +235,8 @@ def number(function: Callable[[], float]) -> float:
     """
     try:
         seconds = float(function())
-    except EVALUATION_ERRORS as error:
-        raise ScenarioError(f"the time has no value: {error}") from error
+    except NO_RESULT as error:
+        raise ScenarioError(f"the time has no value: {why_no_result(error)}") from error
     if not math.isfinite(seconds):
         raise ScenarioError(f"a time of {seconds} s never comes")
     return seconds
@@ -245,10 +250,10 @@ def evaluate(function: Callable[[], bool]) -> bool:
     """
     try:
         return bool(function())
-    except EVALUATION_ERRORS as error:
+    except NO_RESULT as error:
         raise without_value(error) from error
 
 
 def without_value(error: Exception) -> ScenarioError:
     """Return the error of a condition that has no value."""
-    return ScenarioError(f"the condition has no value: {error}")
+    return ScenarioError(f"the condition has no value: {why_no_result(error)}")

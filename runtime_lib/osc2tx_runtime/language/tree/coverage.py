@@ -8,11 +8,11 @@ from contextlib import suppress
 from itertools import pairwise
 from typing import Any, Literal, TypedDict
 
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.errors import NO_RESULT, ScenarioError, why_no_result
 from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Leaf, Status
-from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS, Watch
+from osc2tx_runtime.language.tree.conditions import Watch
 from osc2tx_runtime.language.tree.events import Event, Occurrences, watch
-from osc2tx_runtime.language.values.written_units import Unit
+from osc2tx_runtime.language.values.written_units import AnyUnit, unit_named
 from osc2tx_shared.classes import dataclass
 
 __all__ = ["CoverageItem", "ItemOptions", "Moment", "Recording"]
@@ -25,7 +25,7 @@ class ItemOptions(TypedDict, total=False):
     """The options of `cover` and `record`; see `CoverageItem`."""
 
     items: tuple[str, ...]
-    unit: Unit
+    unit: AnyUnit
     within: tuple[float, float]
     every: float
     buckets: tuple[float, ...]
@@ -63,7 +63,7 @@ class CoverageItem:
     kind: str
     value: Callable[[], Any] | None = None
     items: tuple[str, ...] = ()
-    unit: Unit | None = None
+    unit: AnyUnit = ""
     within: tuple[float, float] | None = None
     every: float | None = None
     buckets: tuple[float, ...] = ()
@@ -72,6 +72,12 @@ class CoverageItem:
     illegal: Callable[[Any], bool] | None = None
     target: int | None = None
     text: str = ""
+
+    def shown(self, value: Any) -> Any:
+        """Return a value in the item's unit."""
+        if not self.unit or isinstance(value, bool | str):
+            return value
+        return unit_named(self.unit).of(value)
 
     def bucket_of(self, value: Any) -> tuple[float, float] | None:
         """Return the slice that a number in the item's unit lies in; None outside of all."""
@@ -167,17 +173,14 @@ class Recording(Leaf):
         values = [self._value(part) for part in parts]
         if any(part.ignore and part.ignore(v) for part, v in zip(parts, values, strict=True)):
             return
-        shown = [
-            value if part.unit is None or isinstance(value, bool | str) else part.unit.of(value)
-            for part, value in zip(parts, values, strict=True)
-        ]
+        shown = [part.shown(value) for part, value in zip(parts, values, strict=True)]
         slices = [part.bucket_of(value) for part, value in zip(parts, shown, strict=True)]
         is_cross = bool(item.items)
         name = f"{self.scope}.{item.name}" if self.scope else item.name
         line: dict[str, Any] = {"name": name}
         line["value"] = dict(zip(item.items, shown, strict=True)) if is_cross else shown[0]
-        if item.unit is not None:
-            line["unit"] = item.unit.name
+        if item.unit:
+            line["unit"] = unit_named(item.unit).name
         if any(part.buckets or part.every or part.within for part in parts):
             line["bucket"] = slices if is_cross else slices[0]
         if any(part.illegal and part.illegal(v) for part, v in zip(parts, values, strict=True)):
@@ -194,5 +197,7 @@ class Recording(Leaf):
         assert item.value is not None, item.name
         try:
             return item.value()
-        except EVALUATION_ERRORS as error:
-            raise ScenarioError(f"{item.name} has no value: {error}", self.source) from error
+        except NO_RESULT as error:
+            raise ScenarioError(
+                f"{item.name} has no value: {why_no_result(error)}", self.source
+            ) from error

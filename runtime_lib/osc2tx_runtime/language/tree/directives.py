@@ -7,7 +7,7 @@ from typing import Any, overload
 
 from py_trees.decorators import Decorator
 
-from osc2tx_runtime.errors import OwnCode, ScenarioError
+from osc2tx_runtime.errors import NO_RESULT, OwnCode, ScenarioError, why_no_result
 from osc2tx_runtime.language.tree.base import (
     RUNNING,
     SUCCESS,
@@ -20,7 +20,6 @@ from osc2tx_runtime.language.tree.base import (
     split_label,
 )
 from osc2tx_runtime.language.tree.conditions import (
-    EVALUATION_ERRORS,
     Condition,
     Deadline,
     Edge,
@@ -114,8 +113,10 @@ class Emit(Leaf):
         """
         try:
             values = self.event.complete(self.arguments)
-        except EVALUATION_ERRORS as error:
-            raise ScenarioError(f"an argument of {self.name} has no value: {error}") from error
+        except NO_RESULT as error:
+            raise ScenarioError(
+                f"an argument of {self.name} has no value: {why_no_result(error)}"
+            ) from error
         self.context.post(self.event, values)
         self._posted = self.context.tick
 
@@ -227,7 +228,7 @@ class Until(Node, Decorator):
             status = self._run_behavior()
         if status is not RUNNING:
             self.stop(status)
-        return status
+        return self.status
 
     def _run_behavior(self) -> Status:
         """Run it for one pass, unless it rests."""

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.tree.base import FAILURE, RUNNING, SUCCESS, Status, place_key
 from osc2tx_runtime.language.tree.failure_reasons import with_situation
+from osc2tx_runtime.language.tree.parallel_schedule import INF, Span
 
 if TYPE_CHECKING:
+    from osc2tx_runtime.language.context import ExecutionContext
     from osc2tx_runtime.language.tree.base import Node
 
 __all__ = ["Duration", "DurationLimits"]
@@ -111,15 +113,10 @@ class DurationLimits:
         now = self._node.context.step
         return now < step or (now == step and late > low_late)
 
-    def admits(self, steps: int) -> bool:
-        """Return whether content of so many steps can fill it."""
-        low, high = self._steps()
-        return low <= steps <= high
-
-    @property
-    def least(self) -> int:
-        """The least duration in steps."""
-        return self._node.context.steps(self._seconds[0])
+    def frame(self, context: ExecutionContext) -> Span:
+        """Return the steps that its content may take."""
+        low, high = self._seconds
+        return Span(context.steps(low), INF if math.isinf(high) else context.steps(high))
 
     def rest(self) -> bool:
         """Have its node woken when the next of its ends comes; return whether it may rest now."""

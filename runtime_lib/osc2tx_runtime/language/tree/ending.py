@@ -98,4 +98,4 @@ class Ending(Node, Decorator):
             status = SUCCESS
         if status is not RUNNING:
             self.stop(status)
-        return status
+        return self.status

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from py_trees.composites import Sequence as SequenceComposite
@@ -33,8 +33,8 @@ class On(Node, SequenceComposite):
 
     Args:
         trigger: An event, a condition or a boolean function (once per step while it is true).
+        *do: The reactions, `Emit` and `Call`, in order.
         condition: With an event: only an occurrence at which this is true counts.
-        do: The reactions, `Emit` and `Call`, in order.
     """
 
     open_ended = True
@@ -43,9 +43,8 @@ class On(Node, SequenceComposite):
     def __init__(
         self,
         trigger: Trigger,
-        *,
+        *do: Behaviour,
         condition: Guard | None = None,
-        do: Sequence[Behaviour],
     ) -> None:
         super().__init__(f"on {describe(trigger, condition)}", memory=True, children=do)
         self.trigger = trigger
@@ -79,7 +78,7 @@ class On(Node, SequenceComposite):
             raise
         if status is not RUNNING:
             self.stop(status)
-        return status
+        return self.status
 
     def _hear(self) -> None:
         """Queue what happened; what is true for an instant counts once."""

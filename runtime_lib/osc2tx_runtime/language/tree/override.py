@@ -80,12 +80,14 @@ class Overridden(Node, Decorator):
             for node in self.decorated.children:  # cut short; the behavior itself has ended
                 if node.status is RUNNING:
                     node.stop(INVALID)
+            if self.context.monitors is not None:
+                self.context.monitors.leaves(self.decorated)
             self.stop(SUCCESS)
-            return SUCCESS
+            return self.status
         status = self._pulse_child()
         if status is not RUNNING:
             self.stop(status)
-        return status
+        return self.status
 
     def _note(self, what: str, by: list[str]) -> None:
         child = self.decorated

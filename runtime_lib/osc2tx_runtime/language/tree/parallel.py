@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from py_trees.common import ParallelPolicy
 from py_trees.composites import Parallel as ParallelComposite
@@ -36,6 +36,9 @@ from osc2tx_runtime.language.tree.parallel_schedule import (
     make_schedule,
     spans_of,
 )
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.context import ExecutionContext
 
 __all__ = ["Parallel"]
 
@@ -138,12 +141,14 @@ class Parallel(Composition, ParallelComposite):
         others = sorted(lasting[1:], key=place_key)
         nodes = [lasting[0], *others]
         parts = [Part(node.name, length_of(node), is_open(node)) for node in nodes]
-        least = 0 if self._limits is None else self._limits.least
         try:
             sts, ete = spans_of(
                 self.overlap, self._span(self.start_to_start), self._span(self.end_to_end)
             )
-            plan = make_schedule(parts, sts, ete, least)
+            frame = self.frame(self.context)
+            if frame.low > frame.high:
+                raise Unplannable("the durations around it leave it no time")
+            plan = make_schedule(parts, sts, ete, frame)
         except Unplannable as problem:
             raise UnsupportedError(
                 f"parallel({self._arguments()}) cannot be scheduled: {problem}",
@@ -152,6 +157,18 @@ class Parallel(Composition, ParallelComposite):
         start_of = dict(zip(nodes, plan.starts, strict=True))
         starts = tuple(start_of[node] for node in lasting)
         return Schedule(starts, plan.primary_length, plan.end_to_end, plan.length)
+
+    def _frame_of(self, member: Behaviour, context: ExecutionContext) -> Span:
+        frame = self.frame(context)
+        lasting = self._lasting()
+        if member not in lasting or len(lasting) == 1:
+            return frame
+        if self.overlap != "equal":
+            return Span(0, frame.high)
+        for other in lasting:
+            length = None if other is member or is_open(other) else length_of(other)
+            frame = frame if length is None else frame.meet(Span(length, length))
+        return frame
 
     def _span(self, offset: Duration | None) -> Span | None:
         if offset is None:

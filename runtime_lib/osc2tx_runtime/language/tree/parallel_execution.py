@@ -96,6 +96,7 @@ class Course:
     def _finish(self, runner: _Runner) -> None:
         """End an open-ended member."""
         runner.node.stop(SUCCESS)
+        self._failed = self._failed or runner.node.status is FAILURE
         runner.running = False
         runner.end = self._context.step
 

@@ -19,6 +19,7 @@ from collections.abc import Sequence
 from typing import Literal
 
 from osc2tx_shared.classes import dataclass
+from osc2tx_shared.overlaps import OFFSETS
 
 __all__ = ["Overlap", "Part", "Schedule", "Span", "Unplannable", "make_schedule", "spans_of"]
 
@@ -48,17 +49,9 @@ class Span:
         return int(max(self.low, min(self.high, steps)))
 
 
-FREE, ZERO = Span(), Span(0, 0)
-UP, DOWN = Span(0, INF), Span(-INF, 0)
-SPANS: dict[Overlap, tuple[Span, Span]] = {
-    "equal": (ZERO, ZERO),
-    "start": (ZERO, FREE),
-    "end": (FREE, ZERO),
-    "initial": (DOWN, FREE),
-    "final": (FREE, UP),
-    "inside": (UP, DOWN),
-    "full": (DOWN, UP),
-    "any": (FREE, FREE),
+FREE, ENDLESS = Span(), Span(0)
+SPANS: dict[str, tuple[Span, Span]] = {
+    kind: (Span(*starts), Span(*ends)) for kind, (starts, ends) in OFFSETS.items()
 }
 
 
@@ -93,7 +86,7 @@ class Schedule:
     length: int | None
 
 
-def spans_of(overlap: Overlap, start_to_start: Span | None, end_to_end: Span | None) -> list[Span]:
+def spans_of(overlap: str, start_to_start: Span | None, end_to_end: Span | None) -> list[Span]:
     """Return the bounds of start to start and end to end.
 
     Raises:
@@ -110,18 +103,19 @@ def spans_of(overlap: Overlap, start_to_start: Span | None, end_to_end: Span | N
     return found
 
 
-def make_schedule(parts: Sequence[Part], sts: Span, ete: Span, least: int = 0) -> Schedule:
+def make_schedule(parts: Sequence[Part], sts: Span, ete: Span, frame: Span = ENDLESS) -> Schedule:
     """Plan a parallel composition.
 
     Args:
         parts: The members that take time, the primary first; there may be none.
         sts: Bounds of start to start.
         ete: Bounds of end to end.
-        least: Steps that the whole must take at least.
+        frame: Steps that the whole may take.
 
     Raises:
         Unplannable: If there is no schedule.
     """
+    least = int(frame.low)
     if not parts:
         return Schedule((), least, ete, least)
     primary, secondaries = parts[0], parts[1:]
@@ -129,9 +123,56 @@ def make_schedule(parts: Sequence[Part], sts: Span, ete: Span, least: int = 0) -
     if primary.open_ended:
         length = open_primary_length(secondaries, sts, ete, least)
     offsets = [offset_of(part, primary, length, sts, ete, secondaries) for part in secondaries]
+    known = [offset for offset in offsets if offset is not None]
+    if length is not None and len(known) == len(offsets):
+        offsets = [*framed(parts, length, known, sts, ete, frame)]
     shift = -min([0, *(offset for offset in offsets if offset is not None)])
     starts = (shift, *(None if offset is None else offset + shift for offset in offsets))
     return Schedule(starts, length, ete, whole_length(parts, starts, length, ete))
+
+
+def framed(
+    parts: Sequence[Part], length: int, offsets: list[int], sts: Span, ete: Span, frame: Span
+) -> list[int]:
+    """Return offsets with which the whole takes as long as it may; they are moved if need be.
+
+    One member after the other starts later, then earlier, as far as the bounds allow and all of
+    them have an instant in common.
+
+    Raises:
+        Unplannable: If the whole is too short or too long in any case.
+    """
+    lengths = [part.length for part in parts[1:] if part.length is not None]
+    if len(lengths) < len(offsets):
+        return offsets
+    for is_later in (True, False):
+        for index, own in enumerate(lengths):
+            missing = frame.low - _whole(length, offsets, lengths)
+            if missing <= 0:
+                break
+            others = [(0, length), *zip(offsets, lengths, strict=True)]
+            del others[index + 1]
+            start, end = max(o for o, _ in others), min(o + n for o, n in others)
+            allowed = _fitting(length, own, sts, ete).meet(Span(start - own, end))
+            first, last = min(o for o, _ in others), max(o + n for o, n in others)
+            wanted = first + frame.low - own if is_later else last - frame.low
+            if allowed.low <= allowed.high:
+                offsets[index] = allowed.nearest(wanted)
+    whole = _whole(length, offsets, lengths)
+    if not frame.low <= whole <= frame.high:
+        raise Unplannable(f"the whole takes {'less' if whole < frame.low else 'more'} than it may")
+    return offsets
+
+
+def _whole(length: int, offsets: Sequence[int], lengths: Sequence[int]) -> int:
+    ends = [length, *(o + n for o, n in zip(offsets, lengths, strict=True))]
+    return max(ends) - min([0, *offsets])
+
+
+def _fitting(primary: int, length: int, sts: Span, ete: Span) -> Span:
+    """Return the offsets of a member of known length, that of the primary being known too."""
+    fitting = sts.meet(Span(ete.low + primary - length, ete.high + primary - length))
+    return fitting.meet(Span(-length, primary))
 
 
 def open_primary_length(
@@ -185,8 +226,7 @@ def offset_of(
             raise Unplannable(f"the length of {primary.name} cannot be determined")
         return with_primary(part, length, sts)
     if length is not None and part.length is not None:
-        fitting = sts.meet(Span(ete.low + length - part.length, ete.high + length - part.length))
-        fitting = fitting.meet(Span(-part.length, length))
+        fitting = _fitting(length, part.length, sts, ete)
         if fitting.low > fitting.high:
             raise Unplannable(f"{part.name} does not fit the length of {primary.name}")
         return fitting.nearest(0)

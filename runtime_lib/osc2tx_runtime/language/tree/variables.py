@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.errors import NO_RESULT, ScenarioError, why_no_result
 from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Behaviour, Leaf, Status
-from osc2tx_runtime.language.tree.conditions import EVALUATION_ERRORS, Watch
+from osc2tx_runtime.language.tree.conditions import Watch
 from osc2tx_runtime.language.tree.events import Event, Guard, Occurrences, Trigger, watch
 
 if TYPE_CHECKING:
@@ -150,6 +150,6 @@ def sample(variable: Sampled, context: ExecutionContext) -> None:
     """
     try:
         value = variable.expression()
-    except EVALUATION_ERRORS as error:
-        raise ScenarioError(f"{variable.name} has no value: {error}") from error
+    except NO_RESULT as error:
+        raise ScenarioError(f"{variable.name} has no value: {why_no_result(error)}") from error
     context.assign(variable, value)

@@ -6,17 +6,12 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.errors import ScenarioError, why_no_result
 from osc2tx_runtime.language.source_map import SourceMap
 from osc2tx_runtime.language.tree.module_text import failing_part
 from osc2tx_runtime.language.values.written_units import Unit, shown_value
 
-__all__ = ["NO_RESULT", "NoResult", "NotKeptError", "not_computed", "not_kept"]
-
-NoResult = ArithmeticError | IndexError
-"""What an expression raises that has no result: a division by zero, no such element."""
-
-NO_RESULT = (ArithmeticError, IndexError)
+__all__ = ["NotKeptError", "not_computed", "not_kept", "place_of"]
 
 
 class NotKeptError(Exception):
@@ -65,7 +60,7 @@ def _relation(broken: NotKeptError) -> str:
 
 
 def not_computed(
-    error: NoResult, source_map: SourceMap, kept: int, tried: str = ""
+    error: Exception, source_map: SourceMap, kept: int, tried: str = ""
 ) -> ScenarioError:
     """Return what to say of a value that has no result.
 
@@ -75,11 +70,22 @@ def not_computed(
         kept: How many demands hold before it.
         tried: See `not_kept`.
     """
-    text, member = failing_part(error)
-    if member == "keep":
-        place = source_map.of_constraint(kept)
-    else:
-        known = member in source_map.fields
-        place = source_map.of_field(member if known else member.removesuffix("_"))
+    text, _ = failing_part(error)
     what = f"`{text}`" if text else "a value"
-    return ScenarioError(f"{what} cannot be computed{tried}: {error}", place)
+    why = f"{what} cannot be computed{tried}: {why_no_result(error)}"
+    return ScenarioError(why, place_of(error, source_map, kept))
+
+
+def place_of(error: Exception, source_map: SourceMap, kept: int) -> str | None:
+    """Return where the value or demand stands in the scenario that raised an error.
+
+    Args:
+        error: What was raised.
+        source_map: Where things stand in the scenario.
+        kept: How many demands hold before it.
+    """
+    _, member = failing_part(error)
+    if member == "keep":
+        return source_map.of_constraint(kept)
+    known = member in source_map.fields
+    return source_map.of_field(member if known else member.removesuffix("_"))

@@ -6,14 +6,13 @@ import random
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.errors import NO_RESULT, ScenarioError
 from osc2tx_runtime.language.source_map import SourceMap
 from osc2tx_runtime.language.values.broken_values import (
-    NO_RESULT,
-    NoResult,
     NotKeptError,
     not_computed,
     not_kept,
+    place_of,
 )
 from osc2tx_runtime.language.values.walks import Draws, Walk
 from osc2tx_runtime.language.values.written_units import Unit
@@ -54,7 +53,7 @@ class Drawing:
         self._held = 0  # demands that hold, in their order
         self._waived: int | None = None  # the number of one that need not hold
         self._refused: int | None = None  # that of one that counts as broken, to speak of it
-        self._broken: NoResult | NotKeptError | None = None  # by the last draw
+        self._broken: Exception | None = None  # by the last draw
         self.has_drawn = False
 
     def draws_for(self, what: str) -> Draws:
@@ -88,6 +87,9 @@ class Drawing:
             except (*NO_RESULT, NotKeptError) as error:
                 self._broken = error
                 return self._held
+            except ScenarioError as error:
+                error.source = error.source or place_of(error, self._source_map, self._held)
+                raise
             return None
 
         for attempt in range(self._most):
@@ -102,9 +104,7 @@ class Drawing:
             height()
             raise self._error(f" in {ATTEMPTS} draws", rivals)
 
-    def _rivals(
-        self, walk: Walk, height: Callable[[], int | None]
-    ) -> list[NoResult | NotKeptError | None]:
+    def _rivals(self, walk: Walk, height: Callable[[], int | None]) -> list[Exception | None]:
         """Return the demands each of which, were it not there, would let more of them hold."""
         reached = height() or 0
         found = []
@@ -119,9 +119,7 @@ class Drawing:
         self._refused = None
         return told
 
-    def _error(
-        self, tried: str, rivals: list[NoResult | NotKeptError | None] | None = None
-    ) -> ScenarioError:
+    def _error(self, tried: str, rivals: list[Exception | None] | None = None) -> ScenarioError:
         """Return what to say of the demand or value that does not hold."""
         if isinstance(self._broken, NotKeptError):
             others = [each for each in rivals or () if isinstance(each, NotKeptError)]

@@ -249,8 +249,17 @@ class ScenarioValues:
                 kept.clear()
                 kept.update(before)
             declare()
+            self._take_assigned(members)
 
         self._drawing.settle(declare_anew)
+
+    def _take_assigned(self, inherited: set[str]) -> None:
+        """Take values that a subclass assigns to parameters after `declare` of its base."""
+        for name in self.parameters.keys() - inherited:
+            value = vars(self).get(name, self.parameters[name])
+            if value is not self.parameters[name]:
+                path = f"{self._path}.{name}" if self._path else name
+                self.parameters[name] = self._shared[path] = value
 
     def _own(self, name: str, default: Any, domain: Domain | None, unit: AnyUnit) -> Any:
         path = f"{self._path}.{name}" if self._path else name

@@ -14,6 +14,7 @@ __all__ = ["Library", "attributes_of", "blueprint_for"]
 Library = Mapping[str, Mapping[str, Sequence[str]]]
 """Blueprints of a server: recommended values of their attributes."""
 
+SLOW_STARTER = 2.0  # m/s^2: trucks, buses and bicycles accelerate less
 WALKER, CHILD = "walker.pedestrian.0001", "walker.pedestrian.0010"
 PROP = "static.prop.box01"
 COLORS: Mapping[str, tuple[int, int, int]] = {
@@ -65,10 +66,11 @@ def _vehicle_like(spec: ActorSpec, library: Library) -> str:
         if name in library and name.startswith("vehicle.")
     }
     if two_wheels:
-        wheels = (n for n, values in library.items() if values.get("number_of_wheels") == ["2"])
-        bikes = sorted(wheels)
-        if bikes:
-            return bikes[0]
+        bikes = sorted(n for n, has in library.items() if has.get("number_of_wheels") == ["2"])
+        kind = ["bicycle" if spec.limits.acceleration < SLOW_STARTER else "motorcycle"]
+        alike = [each for each in bikes if library[each].get("base_type") == kind]
+        if alike or bikes:
+            return (alike or bikes)[0]
     if known:
         return min(known, key=lambda name: (known[name], name))
     return _there("vehicle.tesla.model3", "vehicle", library)

@@ -7,13 +7,14 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from osc2tx_runtime.opendrive import Pose
-from osc2tx_runtime.world.actor_dimensions import MODELS
+from osc2tx_runtime.world.actor_dimensions import MODELS, Shape
 from osc2tx_runtime.world.measuring.measurement import Measurement
 from osc2tx_runtime.world.plant.scene import Setpoint
 from osc2tx_runtime.world.protocol import ActorSpec, ControlMode
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_shared.classes import dataclass
 
+from .blueprints import SLOW_STARTER
 from .frames import measurement_from, transform_of, vector_of
 from .gains import CAR, GAINS
 from .tracking import SpeedControl, Steering, walking
@@ -28,7 +29,8 @@ ABOVE = 0.3
 
 SIZE_NOTED = 0.1  # m between the sizes of scenario and simulator that are worth a line
 STILL = 0.05  # m/s
-SLOW_STARTER = 2.0  # m/s^2: trucks, buses and bicycles accelerate less
+LEAST_SIZE = 0.3  # m of a vehicle or walker
+KPH = 3.6  # km/h in a m/s
 
 
 @dataclass
@@ -72,6 +74,12 @@ class CastMember:
         shape = self.spec.shape
         sizes = zip(self.size, (shape.length, shape.width, shape.height), strict=True)
         return any(abs(theirs - ours) > SIZE_NOTED for theirs, ours in sizes)
+
+    def pose(self, state: ActorState) -> Pose:
+        """Where it is: as measured, else where it is wished."""
+        if self.now is not None:
+            return self.now.pose
+        return Pose(state.x, state.y, state.z, state.h, state.pitch, state.roll)
 
     def transform(self, state: ActorState) -> list[float]:
         """Where CARLA has it in a state."""
@@ -154,12 +162,17 @@ class CastMember:
 
 def member_of(spec: ActorSpec, found: Mapping[str, Any], control: ControlMode) -> CastMember:
     """Return the member for an actor as the session describes it."""
-    middle, half_length, half_width, half_height = found["box"]
     shape = spec.shape
+    middle, half_length, half_width, half_height = found["box"]
+    if half_length < 0.5 * LEAST_SIZE:  # some blueprints have boxes without size
+        middle, half_length = 0.0, 0.5 * shape.length
+        half_width, half_height = 0.5 * shape.width, 0.5 * shape.height
     # The boxes of both worlds lie one upon the other, from the rear end on.
     ahead = middle - half_length + shape.rear if shape.wheelbase > 0.0 else 0.0
     gains = GAINS.get(_category(spec), CAR)
-    largest = math.radians(found["steering"]) if "steering" in found else shape.steering
+    wheels = found.get("wheels", ())
+    largest = math.radians(max((angle for *_, angle in wheels), default=0.0)) or shape.steering
+    curve = [(speed / KPH, share) for speed, share in found.get("steering_curve", ())]
     return CastMember(
         spec,
         found["id"],
@@ -168,7 +181,7 @@ def member_of(spec: ActorSpec, found: Mapping[str, Any], control: ControlMode) -
         ahead,
         half_height if found["type"].startswith("walker.") else 0.0,
         (2.0 * half_length, 2.0 * half_width, 2.0 * half_height),
-        Steering(_wheelbase(found, shape.wheelbase), largest, gains),
+        Steering(_wheelbase(wheels, shape, 2.0 * half_length), largest, gains, curve),
         SpeedControl(gains),
     )
 
@@ -183,15 +196,20 @@ def _category(spec: ActorSpec) -> str:
     return "heavy_truck" if slow else "car"
 
 
-def _wheelbase(found: Mapping[str, Any], otherwise: float) -> float:
-    """Metres between the axles, from the places of the wheels (cm), front ones first."""
-    wheels = found.get("wheels", ())
-    if len(wheels) < 2:
-        return otherwise
-    half = len(wheels) // 2
-    return 0.01 * math.dist(_middle(wheels[:half]), _middle(wheels[half:]))
+def _wheelbase(wheels: Sequence[Sequence[float]], shape: Shape, length: float) -> float:
+    """Return the distance (m) between the axles that steer and the others.
+
+    Places of wheels are in cm. A server that does not tell them, or which wheels steer, leaves the
+    wheelbase of the scenario.
+    """
+    front = [(x, y) for x, y, angle in wheels if angle > 0.0]
+    rear = [(x, y) for x, y, angle in wheels if angle <= 0.0]
+    if not front or not rear:
+        return shape.wheelbase
+    found = 0.01 * math.dist(_middle(front), _middle(rear))
+    return found if LEAST_SIZE < found < length else shape.wheelbase
 
 
-def _middle(points: Sequence[Sequence[float]]) -> tuple[float, float]:
+def _middle(points: Sequence[tuple[float, float]]) -> tuple[float, float]:
     count = len(points)
     return sum(x for x, _ in points) / count, sum(y for _, y in points) / count

@@ -6,6 +6,7 @@ import contextlib
 import json
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 from select import select
 from typing import Any
@@ -17,8 +18,20 @@ from .client import MISSING
 __all__ = ["ClientProcess"]
 
 HERE = Path(__file__).parent
-SERVE = "import sys; sys.path.append(sys.argv[1]); from client.serve import main; sys.exit(main())"
-"""What the process does: the package on its own, since importing all of the runtime takes time."""
+SERVE = """
+import sys
+sys.path.insert(0, sys.argv[1])
+from client.serve import main
+del sys.path[0]
+sys.exit(main())
+"""
+"""What the process does: the package on its own, since importing all of the runtime takes time.
+
+Its folder stands first, and `-P` leaves out the working folder: a `client.py` there is not ours.
+"""
+
+LAST_WORDS = 3
+"""Number of lines of the library's standard error that a message quotes."""
 
 MARGIN = 3.0
 """How much longer (s) than the library itself this side waits for an answer."""
@@ -32,17 +45,27 @@ class ClientProcess:
 
     Args:
         timeout: How long (s) the server may take to answer one call.
+
+    Raises:
+        SimulatorError: CARLA's client library has no version for this system.
     """
 
     def __init__(self, timeout: float) -> None:
+        if sys.platform == "win32":
+            raise SimulatorError(
+                "the world carla needs Linux; on Windows run osc2tx in WSL2, and name the server"
+                " with --carla HOST:PORT"
+            )
         self._timeout = timeout
         self._number = 0
         self._lost = False
+        # No pipe, since the process may outlive this side; closed in `close`.
+        self._errors = tempfile.TemporaryFile()  # noqa: SIM115
         self._process = subprocess.Popen(
-            [sys.executable, "-c", SERVE, str(HERE)],
+            [sys.executable, "-P", "-c", SERVE, str(HERE)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,  # it may live longer than this side
+            stderr=self._errors,
             start_new_session=True,  # Ctrl-C is for this side
         )
         self._received = b""
@@ -101,9 +124,18 @@ class ClientProcess:
                 "the client library of CARLA is not installed: pip install osc2tx-runtime[carla]"
                 " (CPython 3.10 to 3.12 on x86-64)"
             )
+        words = self._last_words()
+        quoted = f"; its last words: {words}" if words else ""
         return SimulatorError(
-            f"the client library of CARLA has ended its process (code {code}): the server is lost"
+            f"the client library of CARLA has ended its process (code {code}): the server is"
+            f" lost{quoted}"
         )
+
+    def _last_words(self) -> str:
+        """Return the end of what the library wrote to its standard error."""
+        self._errors.seek(0)
+        lines = self._errors.read().decode("utf-8", "replace").split("\n")
+        return " | ".join([line.strip() for line in lines if line.strip()][-LAST_WORDS:])
 
     def close(self) -> None:
         """End the process; it lets go of the simulator first.
@@ -114,5 +146,6 @@ class ClientProcess:
         with contextlib.suppress(BrokenPipeError):  # it has ended
             self._process.stdin.close()
         self._process.stdout.close()
+        self._errors.close()
         with contextlib.suppress(subprocess.TimeoutExpired):
             self._process.wait(0.1 if self._lost else CLOSING + self._timeout)

@@ -52,7 +52,8 @@ def measurement_from(state: Sequence[float], ahead: float = 0.0, up: float = 0.0
     """
     pose = pose_from(state[:6], ahead, up)
     vx, vy, vz = state[6], -state[7], state[8]
-    turning = (math.radians(state[9]), -math.radians(state[10]), -math.radians(state[11]))
+    # To turn is of a pair of axes: with y to the other side, only turning about y stays as it is.
+    turning = (-math.radians(state[9]), math.radians(state[10]), -math.radians(state[11]))
     ahead_x, ahead_y = math.cos(pose.h), math.sin(pose.h)
     forwards = vx * ahead_x + vy * ahead_y
     left = -vx * ahead_y + vy * ahead_x + turning[2] * ahead

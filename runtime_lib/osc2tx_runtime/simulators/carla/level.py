@@ -9,14 +9,18 @@ from typing import Any
 from osc2tx_runtime.errors import InputError, SimulatorError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap, read_map_text
 from osc2tx_runtime.worlds import WorldRequest
+from osc2tx_shared.text import complain
 
 from .client_process import ClientProcess
 from .frames import pose_from
 
-__all__ = ["map_of", "with_spawn_points"]
+__all__ = ["difference_of", "map_of", "plain_name", "read_level", "with_spawn_points"]
 
 LOADING = 120.0
-"""How long (s) a server may take to load a level."""
+"""How long (s) a server may take to load a level; the time for a call, if that is longer."""
+
+OPT = "_Opt"
+"""Ending of the names of levels whose layers can be switched."""
 
 SAME_PLACE = 0.05  # m
 SAME_LENGTH = 0.01  # m
@@ -35,9 +39,16 @@ def map_of(client: ClientProcess, request: WorldRequest, load: bool) -> RoadMap:
     Raises:
         SimulatorError: The server has another map.
     """
-    level = client.ask("level")
-    theirs, wanted = _read(level), _wanted(request, level)
-    difference = None if wanted is None else _difference(wanted, theirs)
+    level = client.ask("level", patience=LOADING)
+    theirs, wanted = read_level(level), _wanted(client, request, level, load)
+    if (
+        wanted is None
+        and request.map_file is not None
+        and _stem(request) != plain_name(level["name"])
+    ):
+        level = _loaded(client, request, _stem(request), load=True)
+        return with_spawn_points(read_level(level), level)
+    difference = None if wanted is None else difference_of(wanted, theirs)
     if wanted is None or difference is None:
         return with_spawn_points(wanted or theirs, level)
     if not load:
@@ -45,40 +56,81 @@ def map_of(client: ClientProcess, request: WorldRequest, load: bool) -> RoadMap:
             f"CARLA has the map {theirs.name}, which is not the scenario's {wanted.name}:"
             f" {difference}; load it there, or run with --carla-load"
         )
-    if wanted.name in client.ask("maps") and wanted.name != theirs.name:
-        client.ask("load", wanted.name, patience=LOADING)
-    else:
-        text = request.find_map().read_text(encoding="utf-8")
-        client.ask("generate", text, patience=LOADING)
-    level = client.ask("level")
-    difference = _difference(wanted, _read(level))
+    level = _loaded(client, request, wanted.name, load=wanted.name != plain_name(theirs.name))
+    difference = difference_of(wanted, read_level(level))
     if difference is not None:
         raise SimulatorError(f"the map {wanted.name} of CARLA is not the scenario's: {difference}")
     return with_spawn_points(wanted, level)
 
 
-def _wanted(request: WorldRequest, level: Mapping[str, Any]) -> RoadMap | None:
-    """The scenario's map; None where it leaves that open, or only the server has it."""
+def _loaded(
+    client: ClientProcess, request: WorldRequest, name: str, *, load: bool
+) -> Mapping[str, Any]:
+    """Have the server load a map that it has, else make a level of the file; return the level."""
+    patience = max(LOADING, request.options.get("carla_timeout", 0.0))
+    known = {plain_name(each): each for each in client.ask("maps")} if load else {}
+    complain(f"CARLA: loading {name}")
+    try:
+        if name in known:
+            client.ask("load", known[name], patience, patience=2.0 * patience)
+        else:
+            text = request.find_map().read_text(encoding="utf-8")
+            client.ask("generate", text, patience, patience=2.0 * patience)
+    except SimulatorError as error:
+        if "time-out" not in error.message and "failed to connect" not in error.message:
+            raise
+        raise SimulatorError(
+            f"CARLA has not loaded {name} within {patience:g} s: --carla-timeout allows longer"
+        ) from None
+    level: Mapping[str, Any] = client.ask("level", patience=patience)
+    return level
+
+
+def _wanted(
+    client: ClientProcess, request: WorldRequest, level: Mapping[str, Any], load: bool
+) -> RoadMap | None:
+    """Return the scenario's map; None where it leaves that open, or only the server has it.
+
+    Raises:
+        InputError: There is no such map, neither here nor on the server.
+    """
     if request.map_file is None:
         return None
     try:
         return request.road_map()
     except InputError:
-        stem = request.map_file.rpartition("/")[2].removesuffix(".xodr")
-        if stem == level["name"]:
+        stem = _stem(request)
+        if stem == plain_name(level["name"]) or (
+            load and stem in map(plain_name, client.ask("maps"))
+        ):
             return None
         raise
 
 
-def _read(level: Mapping[str, Any]) -> RoadMap:
+def _stem(request: WorldRequest) -> str:
+    assert request.map_file is not None
+    return request.map_file.rpartition("/")[2].removesuffix(".xodr")
+
+
+def plain_name(name: str) -> str:
+    """Return the name of a level without what tells its variants apart."""
+    return name.removesuffix(OPT)
+
+
+def read_level(level: Mapping[str, Any]) -> RoadMap:
+    """Return the map of a level.
+
+    Raises:
+        SimulatorError: It cannot be read.
+    """
     try:
         return read_map_text(level["text"], level["name"])
     except MapError as error:
         raise SimulatorError(f"the map of CARLA cannot be read: {error}") from error
 
 
-def _difference(ours: RoadMap, theirs: RoadMap) -> str | None:
-    """What tells two maps apart; None if nothing does that matters."""
+def difference_of(ours: RoadMap, theirs: RoadMap) -> str | None:
+    """Return what tells two maps apart; None if nothing does that matters."""
     for road in (*ours.roads, *theirs.roads):
         if (road in ours.roads) != (road in theirs.roads):
             where = "the scenario's" if road in ours.roads else "the server's"

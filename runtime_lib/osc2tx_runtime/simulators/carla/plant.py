@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -12,6 +13,7 @@ from osc2tx_runtime.world.plant.scene import Scene
 from osc2tx_runtime.world.protocol import FEATURES, ActorSpec, ControlMode, Feature
 from osc2tx_shared.text import say
 
+from .attendance import Attendance
 from .cast import CastMember, Command
 from .client_process import ClientProcess
 from .sensors import SensorStacks
@@ -20,12 +22,11 @@ from .surroundings import CarlaSurroundings
 
 __all__ = ["CarlaPlant"]
 
-SETTLING = 40
-"""Steps that vehicles have at most to come to rest on their wheels."""
-
+SETTLING = 2.0  # s that vehicles have at most to come to rest on their wheels
 AT_REST = 0.05  # m/s upwards
+STILL_STEPS = 2  # at rest one after the other: a body at the top of a bounce is still for one
+SAME_DT = 1e-5  # s: frames travel in single precision
 MOVED = 0.05  # m: an exact actor that is farther away was moved by somebody else
-TRAFFIC_MANAGER_PORT = 8000
 DRIVABLE = ("vehicle", "person")
 
 
@@ -41,6 +42,8 @@ class CarlaPlant:
         ticks: We make the steps of the simulator.
         dt: Length of a step (s).
         seed: Of the Traffic Manager.
+        manager_port: Of the Traffic Manager.
+        attendance: Who attends the run.
     """
 
     def __init__(
@@ -54,11 +57,14 @@ class CarlaPlant:
         ticks: bool,
         dt: float,
         seed: int,
+        manager_port: int,
+        attendance: Attendance,
     ) -> None:
         self.name = f"carla {version}"
         self._client, self._wanted, self._sensors = client, control, sensors
         self._spawning = Spawning(client, waiting)
         self._ticks, self._dt, self._seed = ticks, dt, seed
+        self._manager_port, self._attendance = manager_port, attendance
         self._specs: dict[str, ActorSpec] = {}
         self._members: dict[str, CastMember] = {}
         self._surroundings = CarlaSurroundings(client)
@@ -110,6 +116,12 @@ class CarlaPlant:
         members = self._members.items()
         first = [each for actor, member in members for each in member.first(setpoints[actor])]
         looked = self._at_rest(self._client.ask("step", first))
+        self._attendance.wait_for_control(
+            self._client,
+            [each.actor for each in self._members.values() if each.control == "external"],
+            ticks=self._ticks,
+        )
+        self._attendance.begin(self._client, list(self._members))
         self._begin_autopilot()
         for member in self._members.values():
             if member.control != "exact":
@@ -135,9 +147,12 @@ class CarlaPlant:
     def _at_rest(self, looked: Mapping[str, Any]) -> Mapping[str, Any]:
         """Wait until those with wheels or legs stand on the ground."""
         falling = {m.actor for m in self._members.values() if m.control != "exact"}
-        for _ in range(SETTLING if self._ticks else 1):
+        still = 0
+        for _ in range(math.ceil(SETTLING / self._dt) if self._ticks else 1):
             states = dict(looked["actors"])
-            if all(abs(states[each][8]) < AT_REST for each in falling if states[each]):
+            rests = all(abs(states[each][8]) < AT_REST for each in falling if states[each])
+            still = still + 1 if rests else 0
+            if still == STILL_STEPS or not falling:
                 break
             looked = self._client.ask("step", [])
         return looked
@@ -145,7 +160,7 @@ class CarlaPlant:
     def _begin_autopilot(self) -> None:
         numbers = [m.actor for m in self._members.values() if m.control == "autopilot"]
         if numbers:
-            port = self._client.ask("begin_autopilot", TRAFFIC_MANAGER_PORT, self._seed)
+            port = self._client.ask("begin_autopilot", self._manager_port, self._seed)
             self._client.ask("apply", [("autopilot", number, True, port) for number in numbers])
 
     def moved(self, scene: Scene) -> Mapping[str, Measurement]:
@@ -157,6 +172,10 @@ class CarlaPlant:
             for each in member.commands(setpoints[actor], self._dt)
         ]
         batch += self._surroundings.commands(scene, self._members)
+        viewed = self._attendance.viewed
+        if viewed is not None:
+            batch += self._attendance.view(self._members[viewed].pose(setpoints[viewed].state))
+        self._attendance.pause(self._dt)
         looked = self._client.ask("step", batch)
         if looked["skipped"]:
             raise SimulatorError(
@@ -164,6 +183,11 @@ class CarlaPlant:
                 if self._ticks
                 else f"CARLA went on by {looked['skipped'] + 1} steps at once: this run is too slow"
                 " for the client that makes them"
+            )
+        if abs(looked["dt"] - self._dt) > SAME_DT:
+            raise SimulatorError(
+                f"a step of CARLA was {looked['dt']:g} s long, and those of this run are"
+                f" {self._dt:g} s: another client has changed its settings"
             )
         self._surroundings.observe(scene, looked["lights"])
         self._note_collisions(scene, looked)

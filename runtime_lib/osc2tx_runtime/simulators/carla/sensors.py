@@ -132,7 +132,7 @@ class SensorStacks:
             vehicle = roles.get(actor, actor)
             for sensor in sensors:
                 for topic in topics_of(vehicle, sensor):
-                    yield f"{topic}  ({sensor.type})"
+                    yield f"{topic}  ({sensor.type}, expected)"
                 if not topics_of(vehicle, sensor):
                     yield f"{sensor.id}: CARLA does not publish {sensor.type}"
             if vehicle == "hero":

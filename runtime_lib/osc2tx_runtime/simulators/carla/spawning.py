@@ -51,11 +51,17 @@ class Spawning:
         patience = self._waiting[spec.id]
         role = spec.role or spec.id
         found = self._client.ask("find", role, patience, patience=patience)
-        if found is None:
+        if not found:
             raise SimulatorError(
                 f"--wait-for {spec.id}: no actor with role_name {role} came within {patience:g} s"
             )
-        member = member_of(spec, found, control)
+        if len(found) > 1:
+            names = ", ".join(f"{each['type']} {each['id']}" for each in found)
+            raise SimulatorError(
+                f"--wait-for {spec.id}: several actors have the role_name {role}: {names}"
+            )
+        self._client.ask("borrow", found[0]["id"])
+        member = member_of(spec, found[0], control)
         member.foreign = True
         return member
 

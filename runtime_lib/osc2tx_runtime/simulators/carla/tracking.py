@@ -8,6 +8,8 @@ pure pursuit: towards a point ahead on the path, on a circle from the rear axle 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 from osc2tx_runtime.world.measuring.measurement import Measurement
@@ -18,6 +20,7 @@ from .gains import Gains
 
 __all__ = ["Pedals", "SpeedControl", "Steering", "walking"]
 
+LEAST_SHARE = 0.05  # of the full lock: a curve that goes to nothing steers nothing
 STANDING = 0.5  # m/s below which brakes hold a vehicle that is to stand
 HOLD = 0.6  # of the brake
 NEAR = 0.5  # m: a point that is nearer says nothing about steering
@@ -60,6 +63,9 @@ class SpeedControl:
             self._sum = 0.0
             return Pedals(0.0, HOLD, False)
         back = wanted < 0.0 or (wanted == 0.0 and speed < 0.0)
+        if speed < -STANDING if wanted > 0.0 else back and speed > STANDING:
+            self._sum = 0.0  # it rolls the other way: no gear is changed before it stands
+            return Pedals(0.0, HOLD, False)
         sign = -1.0 if back else 1.0
         error, rate = sign * (wanted - speed), sign * acceleration
         gains = self.gains
@@ -79,11 +85,13 @@ class Steering:
         wheelbase: m.
         largest: Angle of the wheels at full lock (rad).
         gains: Of the vehicle.
+        curve: Share of that angle which the simulator allows, by speed (m/s), ascending.
     """
 
     wheelbase: float
     largest: float
     gains: Gains
+    curve: Sequence[tuple[float, float]] = ()
     _last: float = 0.0
 
     def steer(self, setpoint: Setpoint, now: Measurement) -> float:
@@ -97,7 +105,16 @@ class Steering:
         if far > NEAR:
             aside = -dx * math.sin(at.h) + dy * math.cos(at.h)  # to the left
             self._last = math.atan(2.0 * self.wheelbase * aside / far**2)
-        return min(max(-self._last / self.largest, -1.0), 1.0)
+        return min(max(-self._last / (self.largest * self._share(abs(speed))), -1.0), 1.0)
+
+    def _share(self, speed: float) -> float:
+        """Return the share of the full lock at a speed (m/s)."""
+        share = self.curve[-1][1] if self.curve else 1.0
+        for (slow, more), (fast, less) in pairwise(self.curve):
+            if speed < fast:
+                share = more + (less - more) * max(speed - slow, 0.0) / (fast - slow)
+                break
+        return max(share, LEAST_SHARE)
 
 
 def walking(setpoint: Setpoint, now: Measurement, dt: float) -> tuple[float, float, float]:

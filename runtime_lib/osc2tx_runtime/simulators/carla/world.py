@@ -2,27 +2,29 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
-from osc2tx_runtime.errors import SettingsError, SimulatorError
-from osc2tx_runtime.plain_numbers import to_int
+from osc2tx_runtime.errors import SettingsError
+from osc2tx_runtime.plain_numbers import to_float, to_int
 from osc2tx_runtime.world.embedded import EmbeddedWorld
 from osc2tx_runtime.worlds import Option, WorldRequest, WorldType
 from osc2tx_runtime.worlds.option import parse_pair, parse_seconds
 
+from .attendance import Attendance
+from .checks import check
 from .client_process import ClientProcess
+from .connection import DEFAULT_ADDRESS, TIMEOUT, connect
 from .level import map_of
 from .plant import CarlaPlant
 from .sensors import SensorStacks
 
-__all__ = ["DEFAULT_ADDRESS", "OPTIONS", "PATIENCE", "TIMEOUT", "WORLD"]
-
-DEFAULT_ADDRESS = ("127.0.0.1", 2000)
-TIMEOUT = 10.0
-"""How long (s) the server may take for a call."""
+__all__ = ["OPTIONS", "PATIENCE", "TRAFFIC_MANAGER_PORT", "WORLD"]
 
 PATIENCE = 60.0
 """How long (s) to wait for an actor that somebody else spawns."""
+
+TRAFFIC_MANAGER_PORT = 8000
 
 
 def parse_address(text: str) -> tuple[str, int]:
@@ -37,6 +39,28 @@ def parse_address(text: str) -> tuple[str, int]:
         raise SettingsError(
             f"--carla {text}: write HOST:PORT, as in --carla localhost:2000"
         ) from None
+
+
+def parse_port(text: str) -> int:
+    """Read the number of a port."""
+    try:
+        number = to_int(text)
+    except ValueError:
+        number = 0
+    if not 0 < number < 65536:
+        raise SettingsError(f"--carla-tm-port {text}: write a port from 1 to 65535")
+    return number
+
+
+def parse_factor(text: str) -> float:
+    """Read how much faster than real time a run may be."""
+    try:
+        factor = to_float(text)
+    except ValueError:
+        factor = 0.0
+    if not 0.0 < factor < math.inf:
+        raise SettingsError(f"--realtime {text}: write a number above 0, as in --realtime 1")
+    return factor
 
 
 def parse_wait(text: str) -> tuple[str, float]:
@@ -72,6 +96,27 @@ OPTIONS: tuple[Option, ...] = (
     ),
     Option("sensors", "ACTOR=FILE", "sensors to attach to an actor (JSON)", parse_sensors, dict),
     Option.flag("no-tick", "another client makes the steps"),
+    Option.flag("carla-reset", "end a synchronous mode that a client has left behind"),
+    Option("carla-view", "ACTOR", "have the camera of the server's window follow an actor", str),
+    Option(
+        "wait-control",
+        "SECONDS",
+        "hold the scenario until somebody controls its external actors, for so long at most",
+        lambda text: parse_seconds(text, "--wait-control 30s"),
+    ),
+    Option(
+        "realtime",
+        "FACTOR",
+        "make no step before its time: 1 is real time, 2 twice as fast",
+        parse_factor,
+    ),
+    Option(
+        "carla-tm-port",
+        "PORT",
+        "port of the Traffic Manager",
+        parse_port,
+        default=TRAFFIC_MANAGER_PORT,
+    ),
 )
 
 
@@ -86,7 +131,7 @@ def make(request: WorldRequest) -> EmbeddedWorld:
     ticks = not options.get("no_tick", False)
     client = ClientProcess(options.get("carla_timeout", TIMEOUT))
     try:
-        version = connect(client, request, ticks)
+        version = connect(client, request, ticks=ticks)
         road_map = map_of(client, request, options.get("carla_load", False))
         plant = CarlaPlant(
             client,
@@ -97,6 +142,10 @@ def make(request: WorldRequest) -> EmbeddedWorld:
             ticks=ticks,
             dt=request.dt,
             seed=request.seed,
+            manager_port=options.get("carla_tm_port", TRAFFIC_MANAGER_PORT),
+            attendance=Attendance(
+                options.get("wait_control"), options.get("realtime"), options.get("carla_view")
+            ),
         )
     except BaseException:
         client.close()
@@ -104,39 +153,4 @@ def make(request: WorldRequest) -> EmbeddedWorld:
     return EmbeddedWorld(road_map, request.dt, plant=plant)
 
 
-def connect(client: ClientProcess, request: WorldRequest, ticks: bool) -> str:
-    """Connect to the server; return its version.
-
-    Raises:
-        SimulatorError: It is not there, of another version, or its time is somebody else's.
-        SettingsError: The steps of this run are not those of the simulator.
-    """
-    host, port = request.options.get("carla", DEFAULT_ADDRESS)
-    timeout = request.options.get("carla_timeout", TIMEOUT)
-    try:
-        found = client.ask("connect", host, port, timeout)
-    except SimulatorError as error:
-        if "time-out" not in error.message:
-            raise
-        raise SimulatorError(
-            f"there is no CARLA server at {host}:{port} (waited {timeout:g} s): start CarlaUE4, or"
-            " say where it is with --carla HOST:PORT"
-        ) from None
-    server, library = found["server"], found["client"]
-    if server != library:
-        raise SimulatorError(
-            f"the server is CARLA {server} and the client library {library}: they have to be equal"
-            f" (pip install carla=={server})"
-        )
-    if ticks and found["synchronous"]:
-        raise SimulatorError(
-            "CARLA is in synchronous mode already: another client makes its steps. End that one,"
-            " or leave the steps to it with --no-tick"
-        )
-    if not ticks and found["synchronous"] and abs(found["dt"] - request.dt) > 1e-9:
-        theirs = f"{found['dt']:g}"
-        raise SettingsError(f"the steps of CARLA are {theirs} s long: run with --dt {theirs}")
-    return str(server)
-
-
-WORLD = WorldType("carla", make, ("exact", "driven", "external", "autopilot"), OPTIONS)
+WORLD = WorldType("carla", make, ("exact", "driven", "external", "autopilot"), OPTIONS, check)

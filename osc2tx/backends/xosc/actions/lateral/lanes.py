@@ -252,7 +252,17 @@ def _dynamics(leaf: Leaf, shape: str, time: float) -> Element:
 
 
 def lanes_to(leaf: Leaf, reference: CastMember, lanes: int) -> int | None:
-    """Return how many lanes to its left an actor has the lane beside a reference, if known."""
+    """Return how many lanes to its left an actor has the lane beside a reference, if known.
+
+    Raises:
+        Inexpressible: The reference may change lanes meanwhile.
+    """
+    if _may_change_lanes(leaf.ctx.scenario.body, leaf.node, reference.actor.name):
+        raise Inexpressible(
+            f"{reference.name} may be in another lane before it ends; the XML takes the lane at the"
+            " start",
+            leaf.node.span,
+        )
     roads, mine, theirs = leaf.ctx.roads, leaf.state.lane, lane_of(leaf, reference)
     if roads is None or mine is None or theirs is None:
         return None
@@ -260,6 +270,29 @@ def lanes_to(leaf: Leaf, reference: CastMember, lanes: int) -> int | None:
     if between is None:
         return None
     return between - lanes if roads.are_opposed(mine, theirs) else between + lanes
+
+
+def _may_change_lanes(body: ir.Behavior | None, node: ir.Invoke, actor: str) -> bool:
+    """Return whether an actor may go to another lane while an invocation runs."""
+    match body:
+        case ir.Serial(members=members):
+            return any(_may_change_lanes(each, node, actor) for each in members)
+        case ir.Parallel(members=members) | ir.OneOf(members=members):
+            around = [each for each in members if any(n is node for n in ir.walk_behaviors(each))]
+            beside = (each for each in members if around and each is not around[0])
+            invoked = (n for each in beside for n in ir.walk_behaviors(each))
+            if any(isinstance(n, ir.Invoke) and _leaves_lane(n, actor) for n in invoked):
+                return True
+            return any(_may_change_lanes(each, node, actor) for each in around)
+    return False
+
+
+def _leaves_lane(node: ir.Invoke, actor: str) -> bool:
+    if not isinstance(node.actor, ir.FieldRef) or node.actor.name != actor:
+        return False
+    if node.action == "change_lane":
+        return True
+    return any(each.name in ("lane", "change_lane") and each.at == "end" for each in node.modifiers)
 
 
 def _from_and_to(leaf: Leaf, lanes: int) -> tuple[LanePosition | None, LanePosition | None]:

@@ -91,6 +91,8 @@ def _speed(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Cha
     target = given if given is not None else target
     allowed = arguments.get("speed_range")
     if isinstance(allowed, Bounds):
+        if any(other.name == "acceleration" for other in leaf.node.modifiers):
+            raise Inexpressible("the XML has no acceleration within a range of speeds", call.span)
         target = _nearest(leaf, allowed)
     reference = next((name for name in RELATIVE if name in arguments), None)
     if reference is not None:
@@ -128,7 +130,11 @@ def _rate_beside(leaf: Leaf) -> float | None:
     """Return the acceleration (m/s^2) that another modifier gives the change of the speed."""
     for call in leaf.node.modifiers:
         if call.name == "acceleration":
-            rate = Arguments(leaf.ctx, call.arguments, call).number("acceleration")
+            arguments = Arguments(leaf.ctx, call.arguments, call)
+            if "acceleration_range" in arguments:
+                reason = "how fast a speed is reached within a range of accelerations"
+                raise Inexpressible(f"{reason} is not known before the run", call.span)
+            rate = arguments.number("acceleration")
             return None if rate is None else abs(rate)
     return None
 
@@ -252,6 +258,9 @@ def _distance(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[
     distance = arguments.number("distance")
     if distance is None:
         raise Inexpressible("it says no distance", call.span)
+    if any(_has_to_fit(leaf, other) for other in leaf.node.modifiers):
+        reason = "what has to hold at the end of its distance decides how it gets there"
+        raise Inexpressible(reason, call.span)
     if leaf.duration is None:
         leaf.distance = distance
         return ()
@@ -265,6 +274,12 @@ def _distance(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[
     during = replace(after, speed=start.over(known(end)))
     action = speed_action(end, "linear", "time", time)
     return (Change(LONGITUDINAL, (action,), time, during, after),)
+
+
+def _has_to_fit(leaf: Leaf, call: ir.ModifierCall) -> bool:
+    """Return whether a modifier beside a distance has to hold when that is covered."""
+    across = call.name in ("lane", "lateral", "change_lane")
+    return call.at == "end" and not (across and leaf.duration is not None)
 
 
 def time_to_cover(leaf: Leaf) -> float | None:

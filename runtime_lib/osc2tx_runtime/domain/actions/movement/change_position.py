@@ -81,13 +81,14 @@ class ChangePosition(CourseAction):
     def commands(self) -> dict[str, Command]:
         """The way to the target."""
         target = cast(AnyPoint, now(self.target))
-        place = self._place(target)
+        place = self.place(target)
         path = self._along_lanes(place) if self.on_road_network else self._across(place)
         return {
             LATERAL: path_command(self.world.map, self.here, path, (0.0, 0.0), exact=self.may_jump)
         }
 
-    def _place(self, target: AnyPoint) -> LanePosition | opendrive.Pose:
+    def place(self, target: AnyPoint) -> LanePosition | opendrive.Pose:
+        """The place of a point on the map."""
         match target:
             case RoutePoint():
                 return place_of_route(self.world.map, target)

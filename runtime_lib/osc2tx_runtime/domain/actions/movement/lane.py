@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, ClassVar, Unpack, get_args
 
 from osc2tx_runtime.domain.map.road_graph import graph_of
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
-from osc2tx_runtime.domain.modifiers.base import band_of, now
+from osc2tx_runtime.domain.modifiers.base import Late, band_of, now
 from osc2tx_runtime.domain.modifiers.groups import SPEED_FREE
+from osc2tx_runtime.domain.planning.lateral.lateral_planning import lane_of
 from osc2tx_runtime.domain.planning.lateral.lateral_targets import (
     check_shift,
     jump_aside,
@@ -29,7 +30,7 @@ from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.world.commands import LaneChange
 from osc2tx_runtime.world.geometry.lane_neighbours import lane_beside, offset_from
 from osc2tx_runtime.world.lateral.execution import shift_profile
-from osc2tx_shared.rules import above, at_least, at_most_one
+from osc2tx_shared.rules import above, at_least, at_least_one, at_most_one
 
 from .modifiable import ModifiableAction
 from .profiled_change import check_profile, peak_of
@@ -129,6 +130,7 @@ class ChangeLane(_OnLane):
     rules = (
         at_most_one("target", "side"),
         at_most_one("target", "reference"),
+        at_least_one("reference", when=["side"], values=["same"]),
         at_least(0, "num_of_lanes"),
         above(0, "rate_peak"),
     )
@@ -138,7 +140,7 @@ class ChangeLane(_OnLane):
         actor: Vehicle,
         *modifiers: Modifier,
         num_of_lanes: int | Callable[[], int] = 1,
-        side: LaneChangeSide | None = None,
+        side: Late[LaneChangeSide] | None = None,
         reference: PhysicalObject | None = None,
         offset: Value = 0.0,
         rate_profile: DynamicProfile = "none",
@@ -147,18 +149,19 @@ class ChangeLane(_OnLane):
         **options: Unpack[ActionOptions],
     ) -> None:
         super().__init__(actor, *modifiers, course=(rate_profile, rate_peak), **options)
-        if side is not None and side not in SIDES:
+        if side is not None and not callable(side) and side not in SIDES:
             raise ScenarioError(f"{self.action_name}: side `{side}` is none of {', '.join(SIDES)}")
         self.num_of_lanes = num_of_lanes
         self.side = side
         self.reference = reference
         self.offset = offset
         self.target = target
+        self._beside: int | None = None  # lane of the reference when the change was planned
 
     def look_ahead(self) -> None:
         """See whether there can be so many lanes, unless it may be in another lane by then."""
         count, place = self.num_of_lanes, self.here.lane_position
-        if place is None or callable(count) or self.side in (None, "same"):
+        if place is None or callable(count) or callable(self.side) or self.side in (None, "same"):
             return
         if self.target is not None or self.reference is not None or may_leave_lane_before(self):
             return
@@ -173,17 +176,31 @@ class ChangeLane(_OnLane):
 
     def on_start(self) -> None:
         """Commands the change."""
-        self.shift(self._lanes(), value_of(self.offset), self.duration)
+        lanes = self._lanes()
+        if lanes == 0:
+            lane = self.place_of(self.actor.id).lane
+            raise Refused(f"it is in the lane to change to already, lane {lane}; follow_lane stays")
+        self._beside = self._lane_of_reference()
+        self.shift(lanes, value_of(self.offset), self.duration)
+
+    def _lane_of_reference(self) -> int | None:
+        return None if self.reference is None else lane_of(self, self.reference)
 
     @property
     def looks_further(self) -> bool:
-        """Only after a jump."""
-        return self.may_jump
+        """After a jump, and for a reference that changes lanes."""
+        return self.may_jump or self.reference is not None
 
     def on_update(self) -> Status:
-        """Ends in the lane, after a jump at the next step."""
+        """Ends in the lane, after a jump at the next step; keeps up with the reference."""
         if self.may_jump and not self.has_goal:
             return Status.SUCCESS if self.elapsed_steps else Status.RUNNING
+        if self._beside != (now_in := self._lane_of_reference()):
+            self._beside = now_in
+            left = self.time_left()
+            duration = self.duration if left is None or self.duration is None else max(left, 0.0)
+            self.shift(self._lanes(), value_of(self.offset), duration)
+            return Status.RUNNING
         return super().on_update()
 
     def _lanes(self) -> int:
@@ -191,7 +208,7 @@ class ChangeLane(_OnLane):
         if self.target is not None:
             return lanes_to(self, self.target)
         lanes = 0
-        if self.side != "same":
+        if self.side is None or now(self.side) != "same":
             count = now(self.num_of_lanes)
             if count < 0:
                 raise Refused(f"num_of_lanes {count} is negative")
@@ -202,7 +219,7 @@ class ChangeLane(_OnLane):
         """1 for left, -1 for right."""
         own = self.place_of(self.actor.id)
         right_hand = self.world.map.roads[own.road].right_hand_traffic
-        match self.side:
+        match None if self.side is None else now(self.side):
             case "left":
                 return 1
             case "right":
@@ -225,7 +242,7 @@ class FollowLane(_OnLane):
         offset_range: Instead of it: what it may be at any time.
         rate_profile: Course of the lateral speed on the way there.
         rate_peak: Its peak (m/s).
-        target: A lane of the map beside the present one; None: the present one.
+        target: The lane of the map in which it is; None: whichever that is.
         **options: Duration and label.
     """
 
@@ -250,8 +267,12 @@ class FollowLane(_OnLane):
     def on_start(self) -> None:
         """Commands the offset."""
         lanes = 0 if self.target is None else lanes_to(self, self.target)
+        if lanes != 0:
+            side = "left" if lanes > 0 else "right"
+            raise Refused(
+                f"the lane to follow is {abs(lanes)} to the {side} of the one it is in;"
+                " change_lane goes there"
+            )
         low, high = band_of(self.offset, self.offset_range)
-        here = 0.0
-        if lanes == 0:
-            here = self.place_of(self.actor.id).offset - target_of_shift(self, 0).offset
-        self.shift(lanes, min(max(here, low), high), None)
+        here = self.place_of(self.actor.id).offset - target_of_shift(self, 0).offset
+        self.shift(0, min(max(here, low), high), None)

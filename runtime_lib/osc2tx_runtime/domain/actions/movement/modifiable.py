@@ -9,7 +9,7 @@ reached exactly at the end of its duration or of the phase it ends with, else it
 from __future__ import annotations
 
 from functools import cached_property
-from typing import ClassVar, Unpack
+from typing import Any, ClassVar, Unpack
 
 from osc2tx_runtime.domain.actors import MovableObject
 from osc2tx_runtime.domain.map.roads_and_lanes import Route
@@ -25,10 +25,12 @@ from osc2tx_runtime.domain.modifiers import (
     Speed,
     Yaw,
 )
+from osc2tx_runtime.domain.modifiers.base import now
 from osc2tx_runtime.domain.modifiers.groups import PATH_SHAPERS
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.domain.planning.enclosing_phase import phase_of
 from osc2tx_runtime.domain.planning.lateral.lateral_planning import follow_reference, side_command
+from osc2tx_runtime.domain.planning.longitudinal.covering import time_to_goal
 from osc2tx_runtime.domain.planning.longitudinal.goals import distance_to_cover, watched_place
 from osc2tx_runtime.domain.planning.longitudinal.longitudinal_planning import speed_command
 from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
@@ -143,9 +145,10 @@ class ModifiableAction(ModifiedMotion):
 
     # --- how it runs --------------------------------------------------------------------------
 
-    def setup(self, **kwargs: object) -> None:
+    def setup(self, **kwargs: Any) -> None:
         """Claim what the modifiers speak of as well, and check what can be known by now."""
-        self._phase = phase_of(self) if self.has_goal and not self.follows_path else None
+        if self.has_goal and not self.follows_path:
+            self._phase = phase_of(self, strict=not kwargs["context"].first_come)
         if self._phase is not None:
             self.open_ended = True
         check_modifiers(self)
@@ -159,7 +162,7 @@ class ModifiableAction(ModifiedMotion):
     def initialise(self) -> None:
         """Start."""
         self._reached, self._jumped, self._covered, self._to_cover = False, False, 0.0, None
-        self._toward = self._watched = None
+        self._toward = self._watched = self.planned = None
         self._waits = False
         super().initialise()
 
@@ -171,6 +174,8 @@ class ModifiableAction(ModifiedMotion):
 
     def _command_rest(self) -> None:
         self._to_cover = distance_to_cover(self)
+        time = time_to_goal(self)
+        self.planned = None if time is None else self.elapsed + time
         position = watched_place(self)
         self._watched = None if position is None else PlaceWatch(position)
         self._counted = (self.elapsed_steps, self.here.v)
@@ -202,7 +207,7 @@ class ModifiableAction(ModifiedMotion):
     def _careful(self) -> bool:
         avoid = one_of_kind(self.modifiers, AvoidCollisions)
         if avoid is not None:
-            return avoid.avoid
+            return now(avoid.avoid)
         standard = self.context.settings.conduct == "standard"
         return standard and not self.may_jump and isinstance(CARE, self.accepts)
 
@@ -234,10 +239,11 @@ class ModifiableAction(ModifiedMotion):
             self._jumped = False
             self._command_rest()
             return Status.RUNNING
-        if self._to_cover is not None:
-            self._reached = self._cover() >= self._to_cover - 1e-6
+        covered = self._to_cover is None or self._cover() >= self._to_cover - 1e-6
         if self._watched is not None:
-            self._reached = self._watched.reached(self)
+            self._reached = self._watched.reached(self) and covered
+        elif self._to_cover is not None:
+            self._reached = covered
         tilt_again(self)
         if self._toward is not None and self._toward != (now := follow_reference(self)):
             self._toward = now
@@ -245,7 +251,17 @@ class ModifiableAction(ModifiedMotion):
             if side is not None:
                 self.command(LATERAL, side)
                 return Status.RUNNING
-        return super().on_update()
+        status = super().on_update()
+        if status is Status.RUNNING and self._is_beyond_goal():
+            return self.fail(f"it has gone {self._to_cover:g} m, {self._not_reached(earlier=True)}")
+        return status
+
+    def _is_beyond_goal(self) -> bool:
+        """Whether its way ended before the last step, so that it ends without what is missing."""
+        if self._to_cover is None or self.planned is None:
+            return False
+        step = abs(self.here.v) * self.context.dt
+        return self._covered - 1.5 * step > self._to_cover + 1e-6
 
     def update(self) -> Status:
         """Update; at the end of a duration the goal has to be there."""
@@ -260,9 +276,11 @@ class ModifiableAction(ModifiedMotion):
             self._rest()  # at its start its commands are not at work yet
         return Status.SUCCESS if over else status
 
-    def _not_reached(self) -> str:
+    def _not_reached(self, *, earlier: bool = False) -> str:
         ends = [m.name for m in self.modifiers if getattr(m, "at", "all") == "end"]
         what = " and ".join(dict.fromkeys(f"`{name}(at: end)`" for name in ends)) or "its goal"
+        if earlier:
+            return f"before {what} is reached"
         return f"its time is over before {what} is reached; give it more, or none"
 
     # --- goals --------------------------------------------------------------------------------

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, ClassVar, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier, PhysicalMovement, Value, value_of
 from osc2tx_runtime.domain.modifiers.groups import PLACES, SIDE_FREE
+from osc2tx_runtime.domain.planning.longitudinal.longitudinal_planning import stop_command
 from osc2tx_runtime.domain.planning.motion_action import Assignment, Refused
 from osc2tx_runtime.language.actions.action import ActionOptions
 from osc2tx_runtime.language.actions.registry import LATERAL, LONGITUDINAL, action
@@ -109,7 +110,7 @@ class AssignSpeed(Assignment):
 
 @action("movable_object", "remain_stationary", slots=(LONGITUDINAL, LATERAL), ends="open")
 class RemainStationary(ModifiableAction):
-    """Stand; an actor that moves brakes as hard as it can first.
+    """Stand; an actor that moves brakes as hard as it can first, unless physics must hold.
 
     Where it has to stand it has to be at the start: what holds then goes on to hold.
     """
@@ -129,4 +130,4 @@ class RemainStationary(ModifiableAction):
         """Commands it."""
         if self.may_jump:
             self.effect("speed", 0.0, lambda: self.world.assign(self.actor.id, speed=0.0))
-        self.command(LONGITUDINAL, Standstill())
+        self.command(LONGITUDINAL, Standstill() if self.may_jump else stop_command(self))

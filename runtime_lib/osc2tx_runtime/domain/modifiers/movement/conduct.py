@@ -5,9 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from osc2tx_runtime.domain.modifiers.base import Modifier, MovementModifier, Value, now
+from osc2tx_runtime.domain.modifiers.base import (
+    Late,
+    Modifier,
+    MovementModifier,
+    Value,
+    now,
+)
 from osc2tx_runtime.domain.modifiers.registry import modifier
-from osc2tx_runtime.domain.shapes import AnyPositionShape, CommonPositionShape, OwnShape
+from osc2tx_runtime.domain.shapes import AnyPositionShape, OwnShape
 from osc2tx_runtime.enums import MovementOptions
 from osc2tx_runtime.language.actions.modifier import COURSE, LANE, SIDE
 from osc2tx_runtime.language.actions.registry import LATERAL, LONGITUDINAL
@@ -71,7 +77,7 @@ class Along(MovementModifier):
     route: Path | Route | Callable[[], Path | Route]
     start_offset: Value = 0.0
     end_offset: Value = 0.0
-    shape: CommonPositionShape | OwnShape[AnyPositionShape] | None = None
+    shape: AnyPositionShape | OwnShape[AnyPositionShape] | None = None
 
     @property
     def way(self) -> Path | Route:
@@ -86,6 +92,7 @@ class Along(MovementModifier):
     slots=(LONGITUDINAL, LATERAL),
     topics=(COURSE, LANE, SIDE),
     no_start="does not take effect at the start; use position(at: start)",
+    placement=True,
     places=True,
     paces=True,
     bounds=True,
@@ -125,7 +132,7 @@ class AvoidCollisions(Modifier):
     it, because scenarios of near misses and crashes are what most people write.
     """
 
-    avoid: bool = True
+    avoid: Late[bool] = True
 
 
 @modifier("tow_trailer", placement=True, needs=("towing",))

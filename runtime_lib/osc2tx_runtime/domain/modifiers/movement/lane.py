@@ -5,9 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.modifiers.base import Modifier, MovementModifier, Value, now, wanted
+from osc2tx_runtime.domain.modifiers.base import (
+    Late,
+    Modifier,
+    MovementModifier,
+    Value,
+    now,
+    wanted,
+)
 from osc2tx_runtime.domain.modifiers.registry import modifier
-from osc2tx_runtime.domain.shapes import AnyLateralShape, CommonLateralShape, OwnShape
+from osc2tx_runtime.domain.shapes import AnyLateralShape, OwnShape
 from osc2tx_runtime.enums import LatMeasureBy, SideLeftRight
 from osc2tx_runtime.language.actions.modifier import LANE, SIDE
 from osc2tx_runtime.language.actions.registry import LATERAL
@@ -55,14 +62,19 @@ class Lane(MovementModifier):
     lane: int | Callable[[], int] | None = None
     same_as: PhysicalObject | None = None
     side_of: PhysicalObject | None = None
-    side: SideLeftRight | None = None
-    from_: SideLeftRight = "right"
-    shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
+    side: Late[SideLeftRight] | None = None
+    from_: Late[SideLeftRight] = "right"
+    shape: AnyLateralShape | OwnShape[AnyLateralShape] | None = None
 
     @property
     def number(self) -> int:
         """Number of the lane; 1 if none is given."""
         return 1 if self.lane is None else int(now(self.lane))
+
+    @property
+    def edge(self) -> SideLeftRight:
+        """Edge from which lanes are counted, now."""
+        return now(self.from_)
 
     @property
     def reference(self) -> PhysicalObject | None:
@@ -102,9 +114,9 @@ class Lateral(MovementModifier):
     distance: Value | None = None
     distance_range: Range[float] | Callable[[], Range[float]] | None = None
     side_of: PhysicalObject | None = None
-    side: SideLeftRight = "left"
-    measure_by: LatMeasureBy = "center_to_center"
-    shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
+    side: Late[SideLeftRight] = "left"
+    measure_by: Late[LatMeasureBy] = "center_to_center"
+    shape: AnyLateralShape | OwnShape[AnyLateralShape] | None = None
 
     @property
     def reference(self) -> PhysicalObject | None:
@@ -132,11 +144,12 @@ class Lateral(MovementModifier):
 
     def place(self, value: float, own_width: float, other_width: float) -> float:
         """How far (m) left of the reference the own centre is at a distance; see `offsets`."""
-        left = -value if self.side == "right" else value
-        if self.measure_by == "closest":
+        side, measure_by = now(self.side), now(self.measure_by)
+        left = -value if side == "right" else value
+        if measure_by == "closest":
             reach = 0.5 * (own_width + other_width)
-            return left + (reach if left > 0.0 or (left == 0.0 and self.side == "left") else -reach)
-        own, _, other = self.measure_by.split("_")
+            return left + (reach if left > 0.0 or (left == 0.0 and side == "left") else -reach)
+        own, _, other = measure_by.split("_")
         return left + _EDGE[other] * other_width - _EDGE[own] * own_width
 
 
@@ -160,8 +173,8 @@ class ChangeLane(MovementModifier):
 
     shaped_by = AnyLateralShape
     lane: int | Callable[[], int] = 1
-    side: SideLeftRight | None = None
-    shape: CommonLateralShape | OwnShape[AnyLateralShape] | None = None
+    side: Late[SideLeftRight] | None = None
+    shape: AnyLateralShape | OwnShape[AnyLateralShape] | None = None
 
     @property
     def number(self) -> int:

@@ -49,7 +49,7 @@ class Yaw(MovementModifier):
     angle_range: Range[float] | Callable[[], Range[float]] | None = None
     relative_to: PhysicalObject | None = None
     measure_by: YawMeasureBy = "relative_to_road"
-    shape: OwnShape[AnyShape] | None = None
+    shape: AnyShape | OwnShape[AnyShape] | None = None
 
     def angles(self) -> tuple[float, float]:
         """Least and greatest angle (rad) now; both the same without a range."""
@@ -86,7 +86,7 @@ class Orient(MovementModifier):
     roll: Value | None = None
     relative_to: PhysicalObject | None = None
     measure_by: OrientationMeasuredBy | None = None
-    shape: OwnShape[AnyShape] | None = None
+    shape: AnyShape | OwnShape[AnyShape] | None = None
 
     def angles(self) -> tuple[float, float] | None:
         """The yaw (rad), twice: it has no range; None without one."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 from osc2tx_runtime.domain.modifiers.base import Modifier, MovementModifier, Value, band_of, wanted
 from osc2tx_runtime.domain.modifiers.registry import modifier
-from osc2tx_runtime.domain.shapes import AnyPositionShape, CommonPositionShape, OwnShape
+from osc2tx_runtime.domain.shapes import AnyPositionShape, OwnShape
 from osc2tx_runtime.language.actions.modifier import COURSE
 from osc2tx_runtime.language.actions.registry import LATERAL, LONGITUDINAL
 from osc2tx_shared.classes import dataclass
@@ -36,10 +36,7 @@ __all__ = ["Distance", "KeepPosition", "Location", "Position"]
         ),
     ),
     lanes_only=True,
-    while_moving=(
-        at_least_one("ahead_of", "behind", "shape", when=["at"], values=["all"]),
-        none_of("at_point", when=["project_on_route"], values=["false"]),
-    ),
+    while_moving=(none_of("at_point", when=["project_on_route"], values=["false"]),),
     placement=True,
     places=True,
     orders=("ahead_of", "behind"),
@@ -96,12 +93,17 @@ class Position(MovementModifier):
     z: float | None = None
     h: float | None = None
     frame: Literal["world", "carla"] = "world"
-    shape: CommonPositionShape | OwnShape[AnyPositionShape] | None = None
+    shape: AnyPositionShape | OwnShape[AnyPositionShape] | None = None
 
     @property
     def reference(self) -> PhysicalObject | None:
         """The actor it is relative to."""
         return self.ahead_of or self.behind
+
+    @property
+    def stands(self) -> bool:
+        """True for one place on the road all the time."""
+        return self.at == "all" and self.reference is None and self.shape is None
 
     @property
     def reference_point(self) -> Point | None:
@@ -169,7 +171,7 @@ class Distance(MovementModifier):
 
     shaped_by = AnyPositionShape
     distance: Value
-    shape: CommonPositionShape | OwnShape[AnyPositionShape] | None = None
+    shape: AnyPositionShape | OwnShape[AnyPositionShape] | None = None
 
     def way(self) -> float:
         """The metres to cover, now."""

@@ -17,7 +17,6 @@ from osc2tx_runtime.domain.modifiers.registry import modifier
 from osc2tx_runtime.domain.shapes import (
     AnyAccelerationShape,
     AnySpeedShape,
-    CommonAccelerationShape,
     CommonSpeedShape,
     OwnShape,
 )
@@ -81,7 +80,7 @@ class Speed(MovementModifier):
     factor: Value = 1.0
     rate_profile: DynamicProfile = "none"
     rate_peak: Value | None = None
-    shape: CommonSpeedShape | OwnShape[AnySpeedShape] | None = None
+    shape: AnySpeedShape | OwnShape[AnySpeedShape] | None = None
 
     def __post_init__(self) -> None:
         MovementModifier.__post_init__(self)
@@ -145,7 +144,7 @@ class ChangeSpeed(MovementModifier):
     )
     speed: Value | None = None
     speed_range: Range[float] | Callable[[], Range[float]] | None = None
-    shape: CommonSpeedShape | OwnShape[AnySpeedShape] | None = None
+    shape: AnySpeedShape | OwnShape[AnySpeedShape] | None = None
 
     @property
     def course(self) -> tuple[DynamicProfile, float | None]:
@@ -184,9 +183,13 @@ class Acceleration(MovementModifier):
     )
     acceleration: Value | None = None
     acceleration_range: Range[float] | Callable[[], Range[float]] | None = None
-    shape: CommonAccelerationShape | OwnShape[AnyAccelerationShape] | None = None
+    shape: AnyAccelerationShape | OwnShape[AnyAccelerationShape] | None = None
+
+    def bounds(self) -> tuple[float, float]:
+        """Least and greatest acceleration (m/s^2) now; both the same without a range."""
+        return wanted(self.acceleration, self.acceleration_range, self.shape)
 
     def value(self, now: float) -> float:
         """The allowed acceleration (m/s^2) that is nearest to the present one."""
-        low, high = wanted(self.acceleration, self.acceleration_range, self.shape)
+        low, high = self.bounds()
         return min(max(now, low), high)

@@ -29,9 +29,10 @@ from .lane_planning import beside_command, lane_command
 from .lateral_speed_planning import lateral_speed_command
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
+    from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
+    from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion, MotionAction
 
-__all__ = ["follow_reference", "side_command"]
+__all__ = ["follow_reference", "lane_of", "side_command"]
 
 
 def side_command(action: ModifiedMotion) -> Command | None:
@@ -75,19 +76,25 @@ def _across(action: ModifiedMotion) -> Command | None:
 def follow_reference(action: ModifiedMotion) -> object:
     """What of a reference decides where to go sideways and may change; None if nothing does.
 
-    A lane beside another actor is another one when that actor changes lanes, and a heading
-    relative to it changes when it turns.
+    A lane beside another actor is another one when that actor changes lanes, up to the end of the
+    action (§8.9.1.3), and a heading relative to it changes when it turns.
     """
     for modifier in action.lasting:
-        if getattr(modifier, "at", "all") != "all" or getattr(modifier, "projected", False):
+        if getattr(modifier, "projected", False):
             continue
         if isinstance(modifier, Lane) and modifier.reference is not None:
-            place = action.world.state(modifier.reference.id).lane_position
-            if place is not None:
-                return number_of_lane(action.world.map, place, "right") or None
+            return lane_of(action, modifier.reference)
+        if getattr(modifier, "at", "all") != "all":
+            continue
         if isinstance(modifier, Yaw | Orient) and modifier.relative_to is not None:
             return action.world.state(modifier.relative_to.id).h
     return None
+
+
+def lane_of(action: MotionAction, reference: PhysicalObject) -> int | None:
+    """The number of the lane of an actor from the right; None off the lanes for driving."""
+    place = action.world.state(reference.id).lane_position
+    return None if place is None else number_of_lane(action.world.map, place, "right") or None
 
 
 def _along_route(action: ModifiedMotion, along: Along, route: Route) -> FollowRoute:

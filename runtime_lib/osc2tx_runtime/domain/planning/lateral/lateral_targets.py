@@ -148,10 +148,10 @@ def lanes_wanted(action: MotionAction, lane: Lane) -> int:
         count = 0 if lane.side_of is None else lane.number
         return lanes_beside(action, lane.reference.id, count if lane.side == "left" else -count)
     own = action.place_of(action.actor.id)
-    target = lane_with_number(action.world.map, own, lane.number, lane.from_)
+    target = lane_with_number(action.world.map, own, lane.number, lane.edge)
     if target is None:
         raise Refused(
-            f"road {own.road} has no lane {lane.number} from the {lane.from_}"
+            f"road {own.road} has no lane {lane.number} from the {lane.edge}"
             f" at s = {own.s:.1f} m"
         )
     return _lanes_between(action, own, target)

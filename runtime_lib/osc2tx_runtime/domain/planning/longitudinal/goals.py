@@ -4,7 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.modifiers import Acceleration, Along, Distance, Position, Speed
+from osc2tx_runtime.domain.modifiers import (
+    Acceleration,
+    Along,
+    ChangeSpeed,
+    Distance,
+    Position,
+    Speed,
+)
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind, pose_of
 from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.domain.routes.lane_coordinates import along_lane
@@ -34,7 +41,8 @@ def distance_to_cover(action: ModifiedMotion) -> float | None:
         Refused: The place is not ahead.
     """
     way = None if position_shape(action) else way_to_goal(action)
-    if way is None or watched_place(action) is not None:
+    counted = one_of_kind(action.modifiers, Distance) is not None
+    if way is None or (watched_place(action) is not None and not counted):
         return None
     if way[1] < 0.0:
         raise Refused(f"the place it is to be at lies {-way[1]:.1f} m behind it")
@@ -44,13 +52,13 @@ def distance_to_cover(action: ModifiedMotion) -> float | None:
 
 
 def watched_place(action: ModifiedMotion) -> Position | None:
-    """The place at the end, if another modifier decides the speed all the time."""
+    """The place at the end, if another modifier decides the speed all the time, or the way."""
     position = lasting_position(action)
     if position is None or position.shape is not None:
         return None
     rates = [m for m in action.lasting if isinstance(m, Acceleration)]
     rules = any(m.at == "all" for m in (*speeds_of(action), *rates))
-    return position if rules else None
+    return position if rules or one_of_kind(action.lasting, Distance) is not None else None
 
 
 def position_shape(action: ModifiedMotion) -> Along | Distance | Position | None:
@@ -73,7 +81,7 @@ def way_to_goal(action: ModifiedMotion) -> tuple[float, float] | None:
         way = distance.way()
         return way, way
     position = lasting_position(action)
-    if position is None or position.reference is not None:
+    if position is None or position.reference is not None or position.stands:
         return None
     return way_to(action, position)
 
@@ -109,6 +117,10 @@ def _way_to_point(
 def speed_at_end(action: ModifiedMotion) -> float | FollowSpeed | None:
     """The speed (m/s, or that of an actor) to have at the end; None if any will do."""
     lasting = [m for m in speeds_of(action) if m.at == "end"]
+    change = one_of_kind(action.lasting, ChangeSpeed)
+    if not lasting and change is not None and change.at == "end" and change.shape is None:
+        low, high = change.difference()
+        return action.here.v + min(max(0.0, low), high)
     if not lasting:
         return None
     speed = lasting[0]

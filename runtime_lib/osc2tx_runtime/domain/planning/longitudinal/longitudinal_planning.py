@@ -9,6 +9,7 @@ from osc2tx_runtime.domain.modifiers import (
     Acceleration,
     AlongTrajectory,
     ChangeSpeed,
+    Distance,
     KeepPosition,
     Position,
     Speed,
@@ -51,7 +52,9 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
     from osc2tx_runtime.world.geometry.profiles import Profile
 
-__all__ = ["speed_at_start", "speed_command"]
+__all__ = ["speed_at_start", "speed_command", "stop_command"]
+
+STANDS = 0.05  # m/s: a slower actor stands
 
 
 def speed_command(action: ModifiedMotion) -> Command | None:
@@ -61,8 +64,10 @@ def speed_command(action: ModifiedMotion) -> Command | None:
         Refused: It cannot be.
     """
     modifiers = action.lasting
-    if one_of_kind(modifiers, KeepPosition) is not None:
-        return SpeedChange(0.0, "constant", None, 0.0) if action.may_jump else Standstill()
+    position = lasting_position(action)
+    stays = position is not None and position.stands
+    if stays or one_of_kind(modifiers, KeepPosition) is not None:
+        return stop_command(action, at_once=stays)
     timed = one_of_kind(modifiers, AlongTrajectory)
     if timed is not None:
         offsets = (value_of(timed.start_offset), value_of(timed.end_offset))
@@ -74,12 +79,13 @@ def speed_command(action: ModifiedMotion) -> Command | None:
     placed = position_shape(action)
     if placed is not None:
         return position_command(action, placed)
-    position = lasting_position(action)
-    if watched_place(action) is not None:
+    counted = one_of_kind(modifiers, Distance) is not None
+    if watched_place(action) is not None and not counted:
         return _speed(action)
-    if position is not None and position.reference is not None:
+    if position is not None and position.reference is not None and not counted:
         return _gap(action, position)
-    if action.duration is not None or action.end_is_known:
+    aims = position is not None or (speed_at_end(action) is not None and not _says_how(action))
+    if action.duration is not None or action.end_is_known or (counted and aims):
         way = way_to_goal(action)
         if way is not None:
             return _in_time(action, *way)
@@ -91,6 +97,31 @@ def speed_command(action: ModifiedMotion) -> Command | None:
         return _computed(action, change, Mapped(own, 1.0, action.here.v))
     target = action.here.v + min(max(0.0, low), high)
     return _checked(action, _to_speed(action, target, change))
+
+
+def stop_command(action: ModifiedMotion, *, at_once: bool = False) -> Command:
+    """How to stay where it is; one that rolls may brake first, unless physics forbids to stay.
+
+    Args:
+        action: What is carried out.
+        at_once: The place is one on the road, which braking would leave.
+
+    Raises:
+        Refused: It rolls, and must not.
+    """
+    if action.may_jump:
+        return SpeedChange(0.0, "constant", None, 0.0)
+    speed = action.here.v
+    if abs(speed) > STANDS and (at_once or action.option() == "must_be_physical"):
+        raise Refused(
+            f"it moves at {speed:.2f} m/s, so it cannot stay where it is; let it stop before"
+        )
+    return Standstill()
+
+
+def _says_how(action: ModifiedMotion) -> bool:
+    """Whether a speed comes with its course, or holds from the start on."""
+    return any(each.shaped or each.at == "all" for each in speeds_of(action))
 
 
 def _in_time(action: ModifiedMotion, low: float, high: float) -> Command:
@@ -133,7 +164,10 @@ def _speed(action: ModifiedMotion) -> Command | None:
         return _computed(action, speed, Mapped(own, sign, other))
     low, high = low + other, high + other
     present = action.here.v if start is None else start
-    command = _to_speed(action, min(max(present, low), high), speed, rate, start)
+    target = min(max(present, low), high)
+    if rate is not None and low < high:
+        target = _goal_of(action, speed, rate, present, (low, high))
+    command = _to_speed(action, target, speed, rate, start)
     return _checked(action, command)
 
 
@@ -203,10 +237,39 @@ def _to_speed(
     if action.may_jump and start is None:
         return SpeedChange(target, "constant", None, 0.0)
     if rate is not None:
-        return SpeedChange(target, "constant", abs(rate.value(0.0)), start=start)
+        return SpeedChange(target, "constant", _pace(action, target, speed, rate), start=start)
     profile, peak = speed.course
     in_time = speed.at == "end" and profile != "asap" and peak is None
     return SpeedChange(target, profile, peak, action.time_left() if in_time else None, start)
+
+
+def _goal_of(
+    action: ModifiedMotion,
+    speed: Speed,
+    rate: Acceleration,
+    present: float,
+    bounds: tuple[float, float],
+) -> float:
+    """The speed (m/s) in a range to which an acceleration leads from the present one."""
+    low, high = bounds
+    pace = rate.value(action.here.a)
+    time = action.time_left() if speed.at == "end" else math.inf
+    if time is None or pace == 0.0:
+        return min(max(present, low), high)
+    return min(max(present + pace * time, low), high)
+
+
+def _pace(
+    action: ModifiedMotion, target: float, speed: Speed | ChangeSpeed, rate: Acceleration
+) -> float:
+    """The acceleration (m/s^2, unsigned) with which to reach a speed, as far as it is left open."""
+    slowest, fastest = sorted(map(abs, rate.bounds()))
+    if min(rate.bounds()) < 0.0 < max(rate.bounds()):
+        slowest = 0.0
+    time = action.time_left() if speed.at == "end" else None
+    if not time:
+        return slowest or fastest
+    return min(max(abs(target - action.here.v) / time, slowest), fastest)
 
 
 def _checked(action: ModifiedMotion, command: SpeedChange) -> SpeedChange:

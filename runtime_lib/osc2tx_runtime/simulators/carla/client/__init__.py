@@ -1,17 +1,25 @@
 """The process that holds CARLA's client library.
 
 Requests come as lines of JSON, `[number, name, arguments]`, and are answered by `[number, kind,
-value]`: a kind is a value, an error or a bug. Names are those of the methods of
-`session.Session`. The end of the input ends the session: its actors are destroyed, and the
-settings are restored.
+value]`: a kind is a value, an error or a bug. Names are those of the methods of `session` (level,
+time), `actors`, `surroundings` and `inspection`. The end of the input ends the session: its actors
+are destroyed, and the settings are restored.
 """
 
 from __future__ import annotations
 
-__all__ = ["LETTING_GO", "MISSING"]
+import re
+
+__all__ = ["LETTING_GO", "MISSING", "release_of"]
 
 MISSING = 3
 """Exit code where the client library is not installed."""
 
 LETTING_GO = 60
 """How long (s) the process tries to let go of a server at most."""
+
+
+def release_of(version: str) -> str:
+    """Return the release of a version: source builds call themselves `0.9.15-dirty`."""
+    found = re.match(r"\d+\.\d+\.\d+", version)
+    return found[0] if found else version

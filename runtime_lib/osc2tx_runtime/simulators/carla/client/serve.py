@@ -7,8 +7,17 @@ import os
 import signal
 import sys
 import traceback
+from collections.abc import Callable, Iterator
+from typing import Any
 
 from . import LETTING_GO, MISSING
+
+
+def requests_of(holder: object) -> Iterator[tuple[str, Callable[..., Any]]]:
+    """Yield the public methods of an object with their names."""
+    for name in dir(type(holder)):
+        if not name.startswith("_"):
+            yield name, getattr(holder, name)
 
 
 def main() -> int:
@@ -17,17 +26,23 @@ def main() -> int:
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)  # the library prints warnings
     try:
+        from .actors import Actors
+        from .inspection import Inspection
         from .session import Session
+        from .surroundings import Surroundings
     except ImportError as error:
         if error.name != "carla":
             raise
         return MISSING
     session = Session()
+    actors = Actors(session)
+    holders = (session, actors, Surroundings(session, actors), Inspection(session))
+    requests = {name: call for each in holders for name, call in requests_of(each)}
     try:
         for line in sys.stdin:
             number, name, arguments = json.loads(line)
             try:
-                answer = [number, "value", getattr(session, name)(*arguments)]
+                answer = [number, "value", requests[name](*arguments)]
             except RuntimeError as error:  # all that the library raises
                 answer = [number, "error", str(error)]
             except Exception:  # goes on, on the other side

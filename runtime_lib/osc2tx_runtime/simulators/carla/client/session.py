@@ -5,58 +5,99 @@ from __future__ import annotations
 import math
 import socket
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 import carla
 
+from . import release_of
 from .commands import command_of
 from .snapshots import Collisions, actor_state, light_states
 
-POLL = 0.1  # s between two looks for an actor of somebody else
 GLANCE = 0.5  # s to wait for a step of somebody else before it is looked for
 SUBSTEP, MOST_SUBSTEPS = 0.01, 16
 """s, and how many of them the server makes in a step at most."""
 
+LISTENS = 2.0  # s that a port has to take a connection
+TICKS = 2.0  # s without a step after which nobody makes them
+
 
 class Session:
-    """A session; its methods are the requests, with values that JSON knows."""
+    """Connection, level and time; its methods are requests, with values that JSON knows.
+
+    Attributes:
+        client: Of the library.
+        world: Its world.
+        timeout: How long (s) a call may take.
+        ticks: Steps are made by this session.
+        undo: What undoes its changes, from the last one on.
+        watched: Actors whose states a look returns.
+        lights: Traffic lights, whose states it returns, too.
+        collisions: What sensors have told.
+    """
 
     def __init__(self) -> None:
-        self._own: list[int] = []
-        self._settings: Any = None
-        self._ticks = False
-        self._frozen = False
-        self._collisions = Collisions()
-        self._sensors: list[Any] = []
-        self._lights: dict[str, Any] = {}
-        self._manager: Any = None
+        self.client: Any = None
+        self.world: Any = None
+        self.timeout = 0.0
+        self.undo: list[Callable[[], object]] = []
+        self.ticks = False
+        self.collisions = Collisions()
+        self.lights: dict[str, Any] = {}
         self._frame: int | None = None
-        self._watched: list[int] = []
+        self.watched: list[int] = []
 
     # --- connection and map -------------------------------------------------------------------
 
     def connect(self, host: str, port: int, timeout: float) -> Mapping[str, Any]:
-        """Return the versions of server and client, and whether somebody else owns the time."""
-        self._address = (host, port)
-        self._client = carla.Client(host, port)
-        self._client.set_timeout(timeout)
-        self._timeout = timeout
-        found = {
-            "server": self._client.get_server_version(),
-            "client": self._client.get_client_version(),
-        }
-        if found["server"] == found["client"]:  # others may not even have the same calls
-            self._world = self._client.get_world()
-            settings = self._world.get_settings()
-            found["synchronous"] = settings.synchronous_mode
-            if settings.synchronous_mode:
-                found["dt"] = settings.fixed_delta_seconds
+        """Return what a first contact finds, up to the first thing that is missing.
+
+        Returns:
+            `listens`: a port answers. `server`, `client`: versions; they have to be of one release,
+            since others may not even have the same calls. `streams`: snapshots arrive; else
+            `stream_port` says whether the port of the streams, the next one by default, answers.
+            `synchronous`: steps wait for a client, which makes them if `ticks`; `dt` (s): theirs.
+        """
+        self._address, self.timeout = (host, port), timeout
+        found: dict[str, Any] = {"listens": listens(host, port)}
+        if not found["listens"]:
+            return found
+        self.client = carla.Client(host, port)
+        self.client.set_timeout(timeout)
+        found["server"] = self.client.get_server_version()
+        found["client"] = self.client.get_client_version()
+        if release_of(found["server"]) != release_of(found["client"]):
+            return found
+        try:
+            self.world = self.client.get_world()
+        except RuntimeError as error:
+            if "time-out" not in str(error):
+                raise
+            return {**found, "streams": False, "stream_port": listens(host, port + 1)}
+        settings = self.world.get_settings()
+        found |= {"streams": True, "synchronous": settings.synchronous_mode}
+        if settings.synchronous_mode:
+            found |= {"dt": settings.fixed_delta_seconds, "ticks": self._is_ticked()}
         return found
+
+    def _is_ticked(self) -> bool:
+        """Return whether another client makes steps."""
+        try:
+            self.world.wait_for_tick(TICKS)
+        except RuntimeError:  # none came
+            return False
+        return True
+
+    def free_time(self) -> None:
+        """End a synchronous mode that a client has left behind."""
+        settings = self.world.get_settings()
+        settings.synchronous_mode, settings.fixed_delta_seconds = False, None
+        self.world.apply_settings(settings)
 
     def level(self) -> Mapping[str, Any]:
         """Return name, OpenDRIVE text and spawn points of the level, and which maps there are."""
-        found = self._world.get_map()
+        found = self.world.get_map()
         return {
             "name": found.name.rpartition("/")[2],
             "text": found.to_opendrive(),
@@ -65,44 +106,51 @@ class Session:
 
     def maps(self) -> Sequence[str]:
         """Return the names of the maps that the server has."""
-        return [each.rpartition("/")[2] for each in self._client.get_available_maps()]
+        return [each.rpartition("/")[2] for each in self.client.get_available_maps()]
 
-    def load(self, name: str) -> None:
-        """Load a map of the server."""
-        self._world = self._client.load_world(name)
+    def load(self, name: str, patience: float) -> None:
+        """Load a map of the server, which may take so many seconds."""
+        with self._patient(patience):
+            self.world = self.client.load_world(name)
 
-    def generate(self, text: str) -> None:
-        """Make a level from OpenDRIVE text."""
+    def generate(self, text: str, patience: float) -> None:
+        """Make a level from OpenDRIVE text, without walls beside the road; patience as in `load`.
+
+        A mesh for pedestrians is left out: it takes long, and walkers are led without it.
+        """
         parameters = carla.OpendriveGenerationParameters()
-        self._world = self._client.generate_opendrive_world(text, parameters)
+        parameters.wall_height = 0.0
+        parameters.enable_pedestrian_navigation = False
+        with self._patient(patience):
+            self.world = self.client.generate_opendrive_world(text, parameters)
 
-    def blueprints(self) -> Mapping[str, Mapping[str, Sequence[str]]]:
-        """Return recommended values of the attributes of all blueprints."""
-        return {
-            blueprint.id: {
-                attribute.id: [str(value) for value in attribute.recommended_values]
-                for attribute in blueprint
-            }
-            for blueprint in self._world.get_blueprint_library()
-        }
+    @contextmanager
+    def _patient(self, seconds: float) -> Iterator[None]:
+        """Give calls more time: the library goes on trying for as long as one call may take."""
+        self.client.set_timeout(max(seconds, self.timeout))
+        try:
+            yield
+        finally:
+            self.client.set_timeout(self.timeout)
 
     # --- time ---------------------------------------------------------------------------------
 
     def own_time(self, dt: float) -> None:
         """Take the time into our hands: steps of so many seconds, made by us."""
-        self._settings = self._world.get_settings()
-        settings = self._world.get_settings()
+        before = self.world.get_settings()
+        self.undo.append(lambda: self.world.apply_settings(before))
+        settings = self.world.get_settings()
         settings.synchronous_mode, settings.fixed_delta_seconds = True, dt
         settings.max_substeps = min(MOST_SUBSTEPS, max(1, math.ceil(dt / SUBSTEP - 1e-9)))
         settings.max_substep_delta_time = max(SUBSTEP, dt / settings.max_substeps)
-        self._ticks = True
-        self._world.apply_settings(settings)
+        self.ticks = True
+        self.world.apply_settings(settings)
 
     def step(self, commands: Sequence[Sequence[Any]]) -> Mapping[str, Any]:
         """Carry out commands, go on by a step, and return how things are then."""
-        if self._ticks:
+        if self.ticks:
             self.apply(commands)
-            self._world.tick(self._timeout)
+            self.world.tick(self.timeout)
             return self.look()
         late = self._steps_since_look()
         self.apply(commands)
@@ -112,17 +160,17 @@ class Session:
 
     def _steps_since_look(self) -> int:
         """How many steps the server has made since the last look."""
-        frame = self._world.get_snapshot().frame
+        frame = self.world.get_snapshot().frame
         if self._frame is None:
             self._frame = frame
         return int(frame - self._frame)
 
     def _wait_for_step(self) -> None:
         """Wait until the other client has made a step, be it before this side began to wait."""
-        end = time.monotonic() + self._timeout
+        end = time.monotonic() + self.timeout
         while not self._steps_since_look():
             try:
-                self._world.wait_for_tick(GLANCE)
+                self.world.wait_for_tick(GLANCE)
             except RuntimeError:  # none came in so short a time
                 if time.monotonic() > end:
                     raise
@@ -130,7 +178,7 @@ class Session:
     def apply(self, commands: Sequence[Sequence[Any]]) -> None:
         """Carry out commands; one that the server refuses is an error."""
         batch = [command_of(each) for each in commands]
-        answers = self._client.apply_batch_sync(batch, False) if batch else []
+        answers = self.client.apply_batch_sync(batch, False) if batch else []
         refused = [
             f"{each[0]} of actor {each[1]}: {answer.error}"
             for each, answer in zip(commands, answers, strict=True)
@@ -141,123 +189,21 @@ class Session:
 
     def look(self) -> Mapping[str, Any]:
         """Return the latest snapshot: states of the watched actors, traffic lights, contacts."""
-        snapshot = self._world.get_snapshot()
+        snapshot = self.world.get_snapshot()
         skipped = 0 if self._frame is None else snapshot.frame - self._frame - 1
         self._frame = snapshot.frame
         actors = {}
-        for actor in self._watched:
+        for actor in self.watched:
             found = snapshot.find(actor)
             actors[actor] = None if found is None else actor_state(found)
         return {
             "skipped": skipped,
+            "dt": snapshot.timestamp.delta_seconds,
             "time": snapshot.timestamp.elapsed_seconds,
             "actors": list(actors.items()),
-            "lights": light_states(self._lights),
-            "collisions": self._collisions.take(),
+            "lights": light_states(self.lights),
+            "collisions": self.collisions.take(),
         }
-
-    # --- actors -------------------------------------------------------------------------------
-
-    def spawn(
-        self, blueprint: str, attributes: Mapping[str, str], pose: Sequence[float], parent: int = 0
-    ) -> Mapping[str, Any]:
-        """Make an actor that goes with the session, and return what it is like."""
-        description = self._world.get_blueprint_library().find(blueprint)
-        for name, value in attributes.items():
-            description.set_attribute(name, value)
-        holder = self._world.get_actor(parent) if parent else None
-        actor = self._world.spawn_actor(description, transform(pose), attach_to=holder)
-        self._own.append(actor.id)
-        return self._described(actor)
-
-    def find(self, role: str, patience: float) -> Mapping[str, Any] | None:
-        """Return an actor of somebody else by its role name; None if none comes in time."""
-        end = time.monotonic() + patience
-        while True:
-            for actor in self._world.get_actors():
-                if actor.attributes.get("role_name") == role and actor.is_alive:
-                    return self._described(actor)
-            if time.monotonic() >= end:
-                return None
-            time.sleep(POLL)
-
-    def _described(self, actor: Any) -> Mapping[str, Any]:
-        found: dict[str, Any] = {"id": actor.id, "type": actor.type_id}
-        if isinstance(actor, carla.Vehicle | carla.Walker) or actor.type_id.startswith("static."):
-            self._watched.append(actor.id)
-            box = actor.bounding_box
-            found["box"] = [box.location.x, box.extent.x, box.extent.y, box.extent.z]
-        if isinstance(actor, carla.Vehicle):  # asked before physics is switched off
-            wheels = actor.get_physics_control().wheels
-            found["steering"] = max(wheel.max_steer_angle for wheel in wheels)
-            found["wheels"] = [[wheel.position.x, wheel.position.y] for wheel in wheels]
-        return found
-
-    def nearby(self, x: float, y: float, radius: float) -> Sequence[Sequence[Any]]:
-        """Return id, blueprint and role name of the actors within a radius (m)."""
-        here = carla.Location(x, y, 0.0)
-        found = []
-        for actor in self._world.get_actors():
-            at = actor.get_location()
-            at.z = 0.0
-            if at.distance(here) <= radius and actor.type_id.startswith(("vehicle.", "walker.")):
-                found.append([actor.id, actor.type_id, actor.attributes.get("role_name", "")])
-        return found
-
-    def watch_collisions(self, actor: int) -> None:
-        """Note the contacts of an actor from now on."""
-        description = self._world.get_blueprint_library().find("sensor.other.collision")
-        holder = self._world.get_actor(actor)
-        sensor = self._world.spawn_actor(description, carla.Transform(), attach_to=holder)
-        self._own.append(sensor.id)
-        sensor.listen(self._collisions.add)
-        self._sensors.append(sensor)
-
-    def enable_for_ros(self, sensor: int) -> None:
-        """Have the server publish what a sensor sees, by its native ROS 2."""
-        self._world.get_actor(sensor).enable_for_ros()
-
-    def begin_autopilot(self, port: int, seed: int) -> int:
-        """Start the Traffic Manager, in step with the world; return its port."""
-        self._manager = self._client.get_trafficmanager(port)
-        self._manager.set_synchronous_mode(True)
-        self._manager.set_random_device_seed(seed)
-        return int(self._manager.get_port())
-
-    # --- surroundings -------------------------------------------------------------------------
-
-    def set_weather(self, values: Mapping[str, float]) -> None:
-        """Change the weather; what is not named stays."""
-        weather = self._world.get_weather()
-        for name, value in values.items():
-            setattr(weather, name, value)
-        self._world.set_weather(weather)
-
-    def set_friction(self, friction: float | None) -> None:
-        """Have all tyres hold so much everywhere; None: as they do by themselves."""
-        for actor in self._world.get_actors(self._own).filter("static.trigger.friction"):
-            actor.destroy()
-            self._own.remove(actor.id)
-        if friction is not None:
-            far = str(1e6)  # cm
-            extents = {f"extent_{axis}": far for axis in "xyz"}
-            attributes = {"friction": str(friction), **extents}
-            self.spawn("static.trigger.friction", attributes, [0.0] * 6)
-
-    def traffic_lights(self) -> Sequence[str]:
-        """Return the OpenDRIVE ids of the lights; `look` has their states from now on."""
-        lights = self._world.get_actors().filter("traffic.traffic_light*")
-        self._lights = {each.get_opendrive_id(): each for each in lights}
-        return [name for name in self._lights if name]
-
-    def set_light(self, name: str, state: str) -> None:
-        """Have a traffic light show a state; batches have no command for that."""
-        self._lights[name].set_state(carla.TrafficLightState.names[state])
-
-    def freeze_lights(self) -> None:
-        """Stop the cycles of all lights."""
-        self._frozen = True
-        self._world.freeze_all_traffic_lights(True)
 
     # --- end ----------------------------------------------------------------------------------
 
@@ -267,46 +213,24 @@ class Session:
         A server that does not answer may come to itself again: this goes on until somebody ends
         the process, or the server is gone.
         """
-        for undo in (self._stop, self._thaw, self._destroy, self._restore):
-            while True:
-                try:
-                    undo()
-                    break
-                except RuntimeError as error:
-                    if "time-out" not in str(error):
-                        break  # it cannot be undone
-                    if not self._is_there():
-                        return
+        while self.undo:
+            try:
+                self.undo[-1]()
+            except RuntimeError as error:  # else it cannot be undone
+                if "time-out" in str(error):
+                    if listens(*self._address):
+                        continue
+                    return
+            self.undo.pop()
 
-    def _is_there(self) -> bool:
-        """Whether anybody listens where the server was."""
-        try:
-            with socket.create_connection(self._address, timeout=1.0):
-                return True
-        except OSError:
-            return False
 
-    def _stop(self) -> None:
-        for sensor in self._sensors:
-            sensor.stop()
-        if self._manager is not None:
-            self._manager.shut_down()
-
-    def _thaw(self) -> None:
-        if self._frozen:
-            self._world.freeze_all_traffic_lights(False)
-
-    def _destroy(self) -> None:
-        if not self._own:
-            return
-        destroy = [carla.command.DestroyActor(each) for each in reversed(self._own)]
-        self._client.apply_batch_sync(destroy, False)
-        if self._ticks:
-            self._world.tick(self._timeout)  # the batch would tick with the interpreter locked
-
-    def _restore(self) -> None:
-        if self._settings is not None:
-            self._world.apply_settings(self._settings)
+def listens(host: str, port: int) -> bool:
+    """Return whether a port takes connections."""
+    try:
+        with socket.create_connection((host, port), timeout=LISTENS):
+            return True
+    except OSError:
+        return False
 
 
 def transform(pose: Sequence[float]) -> Any:

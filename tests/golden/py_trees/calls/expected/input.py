@@ -1,7 +1,7 @@
 """Scenario `calls`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -57,16 +57,17 @@ class Calls(Scenario):
         return vehicle.speed > limit
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "calls",
-            self.do_serial(),
+            self._ego_drive_then_now(),
             On(
                 self.passed,
-                do=[Call(lambda: self.note(self.ego.speed, "passed"))],
+                Call(lambda: self.note(self.ego.speed, "passed")),
             ),
         )
 
-    def do_serial(self) -> Behaviour:
+    def _ego_drive_then_now(self) -> Behaviour:
         return Serial(
             "do serial",
             Until(

@@ -1,7 +1,7 @@
 """Scenario `carla_lanes`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect carla; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect carla.
 """
 
 from osc2tx_runtime import (
@@ -26,7 +26,6 @@ require_api(1)
 class CarlaLanes(Scenario):
     name = "carla_lanes"
     source = "input.osc"
-    first_come = True
 
     def declare(self) -> None:
         """Cast, events and values."""
@@ -43,6 +42,7 @@ class CarlaLanes(Scenario):
         self.place(self.cone, position(x=300.0, y=5.25, z=0.0, h=1.57 * rad, frame="carla"))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "carla_lanes",
             Wait(self.go),

@@ -3,7 +3,7 @@
 A road asked for by a `Path`, as ScenarioRunner has it.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect carla; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect carla; a duration only ends its member early.
 """
 
 from osc2tx_runtime import (
@@ -27,15 +27,13 @@ require_api(1)
 class Top(Scenario):
     name = "top"
     source = "input.osc"
+    # A duration only ends its member early
     first_come = True
 
     def declare(self) -> None:
         """Cast, events and values."""
         self.town = self.parameter("town", "highway")
-
-        # the map
-        self.path_map = self.cast("path.map", Map(map_file=self.town))
-
+        self.path_map = self.cast("path.map", Map(map_file=self.town))  # the map
         # where to drive
         self.path = self.argument(
             "path",
@@ -62,14 +60,15 @@ class Top(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "top",
             self.npc.drive(speed(30 * kph)),
-            self.ego_vehicle_serial(),
+            self._ego_vehicle_behind_then_drive(),
             duration=20 * s,
         )
 
-    def ego_vehicle_serial(self) -> Behaviour:
+    def _ego_vehicle_behind_then_drive(self) -> Behaviour:
         return Serial(
             "ego_vehicle: serial",
             self.ego_vehicle.drive("behind", speed(30 * kph), duration=5 * s),

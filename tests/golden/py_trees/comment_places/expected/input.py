@@ -3,7 +3,7 @@
 Above the last line of the head.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from dataclasses import dataclass
@@ -51,9 +51,10 @@ class Top(Scenario):
         """Cast, events and values."""
         # First in its block.
         self.one = self.argument("one", Part())
-        self.ego = self.cast("ego", Vehicle())
-        self.other = self.cast("other", Vehicle())
 
+        self.ego = self.cast("ego", Vehicle())
+
+        self.other = self.cast("other", Vehicle())
         # above a value
         self.v = self.parameter("v", 30 * kph, at_most(50 * kph), unit="kph")
         self.over = Event()
@@ -66,6 +67,7 @@ class Top(Scenario):
         self.place(self.other, speed(self.v), throughout=True)
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "top",
             self.ego.drive(speed(self.v)),
@@ -76,13 +78,13 @@ class Top(Scenario):
                 # behind an argument
                 speed(self.v)
             ),
-            self.serial(),
+            self._wait_serial(),
             duration=1 * s,
             # At the end of the parallel.
         )
 
-    # Above a serial.
-    def serial(self) -> Behaviour:
+    def _wait_serial(self) -> Behaviour:
+        """Above a serial."""
         return Until(
             Serial(
                 "serial",

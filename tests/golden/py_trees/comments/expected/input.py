@@ -5,7 +5,7 @@ in two lines.
 beside the import
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -49,10 +49,7 @@ class Comments(Scenario):
                 map_file="highway.xodr"
             ),
         )
-
-        # beside the actor
-        self.ego = self.cast("ego", Vehicle())
-
+        self.ego = self.cast("ego", Vehicle())  # beside the actor
         # Above a value
         self.v = self.parameter("v", 50 * kph, unit="kph")
 
@@ -63,8 +60,8 @@ class Comments(Scenario):
         """Where the actors are when the scenario starts."""
         self.place(self.ego, speed(self.v), throughout=True)
 
-    # Above do
     def behavior(self) -> Behaviour:
+        """Above do."""
         return Serial(
             "comments",
             # Above a drive
@@ -79,17 +76,16 @@ class Comments(Scenario):
                 # above until
                 elapsed(1 * s),
             ),
-            self.parallel(),
+            self._wait_and_emit_seen(),
             # below the last member of the serial
         )
 
-    # Above a parallel
-    def parallel(self) -> Behaviour:
+    def _wait_and_emit_seen(self) -> Behaviour:
+        """Above a parallel."""
         return Parallel(
             "parallel",
             # above a member
-            # beside a wait
-            Wait(elapsed(1 * s)),
+            Wait(elapsed(1 * s)),  # beside a wait
             Emit(self.seen),
             # below the last member of the parallel
         )

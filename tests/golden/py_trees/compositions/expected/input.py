@@ -33,19 +33,19 @@ class Compositions(Scenario):
         self.ego = self.cast("ego", Vehicle())
         self.other = self.cast("other", Vehicle())
 
-    # Everything at once
     def behavior(self) -> Behaviour:
+        """Everything at once."""
         return Parallel(
             "compositions",
-            self.ego_serial(),
+            self._ego_drive_then_keep_speed(),
             self.with_limit(),
             self.other.keep_speed(duration=1 * s),
             duration=20 * s,
-            overlap="equal",
+            overlap="any",
         )
 
-    # the ego vehicle
-    def ego_serial(self) -> Behaviour:
+    def _ego_drive_then_keep_speed(self) -> Behaviour:
+        """the ego vehicle."""
         return Serial(
             "ego: serial",
             self.ego.drive(duration=2 * s),
@@ -65,8 +65,8 @@ class Compositions(Scenario):
             self.ego.change_lane(num_of_lanes=1, side="left"),
         )
 
-    # the other one
     def with_limit(self) -> Behaviour:
+        """the other one."""
         return Until(
             Serial(
                 "with_limit",

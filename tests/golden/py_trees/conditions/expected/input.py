@@ -1,7 +1,7 @@
 """Scenario `conditions`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -51,13 +51,14 @@ class Conditions(Scenario):
         self.wait_time_2 = self.parameter("wait time 2", within(1 * s, 2 * s), unit="s")
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "conditions",
-            self.ego_serial(),
-            self.other_serial(),
+            self._ego_first_serial(),
+            self._other_second_serial(),
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_first_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Wait(self.close),
@@ -70,7 +71,7 @@ class Conditions(Scenario):
             Wait(self.ended("second")),
         )
 
-    def other_serial(self) -> Behaviour:
+    def _other_second_serial(self) -> Behaviour:
         return Serial(
             "other: serial",
             Wait(self.started("first")),

@@ -1,7 +1,7 @@
 """Scenario `constraints`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from typing import Literal, TypeAlias
@@ -60,22 +60,17 @@ class Constraints(Scenario):
 
         # one bound and a default: the bound holds for settings
         self.gap = self.parameter("gap", 10 * m, at_least(3 * m), unit="m")
-
         # an open end: a value must be given
         self.reach = self.required("reach", Length, at_least(2 * m), unit="m")
-
         # both bounds, in two constraints
         self.slow = self.parameter("slow", within(20 * kph, 40 * kph), unit="kph")
         self.fast = self.parameter("fast", within(30 * kph, 60 * kph), unit="kph")
-
         # solved for the one that is declared last
         self.first = self.parameter("first", within(1 * s, 2 * s), unit="s")
         self.second = 3 * s - self.first
-
         # a set of values
         self.lanes = self.parameter("lanes", any_of(1, 2))
         self.road_state: WeatherKind = self.parameter("road_state", any_of("dry", "wet"))
-
         # later constraints replace defaults
         self.pause = 1 * s
         self.number = self.parameter("number", within(2, 4))
@@ -94,16 +89,17 @@ class Constraints(Scenario):
         self.place(self.ego, speed(self.slow), lane(self.lanes))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "constraints",
             Until(
                 self.ego.drive("drive", speed(self.slow), duration=(self.first, inf)),
                 elapsed(self.second + self.pause),
             ),
-            self.npc_serial(),
+            self._npc_change_serial(),
         )
 
-    def npc_serial(self) -> Behaviour:
+    def _npc_change_serial(self) -> Behaviour:
         return Serial(
             "npc: serial",
             Wait(elapsed(1 * s)),

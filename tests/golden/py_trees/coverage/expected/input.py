@@ -1,7 +1,7 @@
 """Scenario `coverage`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -9,7 +9,6 @@ from osc2tx_runtime import (
     Event,
     Map,
     Scenario,
-    Unit,
     Vehicle,
     main,
     require_api,
@@ -35,22 +34,18 @@ class Coverage(Scenario):
         self.target = self.parameter("target", 60 * kph, unit="kph")
 
         # an item of a field: `it` is the field
-        self.cover("target", lambda: self.target, unit=Unit("kph", kph), within=(40, 80), every=10)
+        self.cover("target", lambda: self.target, unit="kph", within=(40, 80), every=10)
 
         # How fast it is when it is fast, in slices of the unit
         self.cover(
-            "speed_then",
-            lambda: self.ego.speed,
-            unit=Unit("kph", kph),
-            buckets=(0, 40, 55, 80),
-            at=self.fast,
+            "speed_then", lambda: self.ego.speed, unit="kph", buckets=(0, 40, 55, 80), at=self.fast
         )
 
         # One hit is enough; what lies below the range is no hit
         self.cover(
             "gap",
             lambda: self.npc.object_distance(reference=self.ego, direction="euclidean"),
-            unit=Unit("m", m),
+            unit="m",
             within=(0, 500),
             every=50,
             ignore=lambda it: it < 1 * m,
@@ -66,6 +61,7 @@ class Coverage(Scenario):
         self.place(self.ego, speed(10 * kph))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return self.ego.drive(speed(self.target, at="end"), duration=3 * s)
 
 

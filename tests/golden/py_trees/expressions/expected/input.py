@@ -1,7 +1,7 @@
 """Scenario `expressions`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -39,6 +39,7 @@ class Expressions(Scenario):
         self.choice = self.v if self.b > 5 and not self.a < 1.0 else 2 * self.v
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "expressions",
             Wait(

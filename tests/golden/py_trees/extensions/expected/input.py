@@ -3,7 +3,7 @@
 Names of several namespaces, and what is added to types after they are declared.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from dataclasses import dataclass
@@ -55,7 +55,6 @@ class Commute(Scenario):
         self.actor = self.cast("actor", Vehicle())
         self.habit = self.argument("habit", Habits())
         self.mood: Mood = self.parameter("mood", "calm")
-
         # A default that a user may not want
         self.top = self.parameter("top", 20 * mps, unit="mps")
 
@@ -64,6 +63,7 @@ class Commute(Scenario):
         self.place(self.actor, speed(self.habit.pace), throughout=True)
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return self.actor.drive(speed(self.habit.pace), duration=1 * s)
 
 
@@ -95,6 +95,7 @@ class Extensions(Scenario):
         self.keep(self.ego_commute_top < self.fast.pace)
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "extensions",
             self.invoke(Commute, actor=self.ego, habit=self.economical, top=self.ego_commute_top),

@@ -3,7 +3,7 @@
 Fields of actors, of their parts and of the weather, read and fixed in all places.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -31,7 +31,6 @@ from osc2tx_runtime import (
     Trailer,
     TranslationalAcceleration,
     TranslationalVelocity,
-    Unit,
     Until,
     Vehicle,
     Velocity,
@@ -77,6 +76,7 @@ class Fields(Scenario):
             "driver", BehavioralModel(bm_engine=BmEngine(name="careful_driver"))
         )
         self.drizzle = self.argument("drizzle", Precipitation(intensity=0.5 * mmph))
+
         self.ego = self.cast(
             "ego",
             Vehicle(
@@ -133,6 +133,7 @@ class Fields(Scenario):
         self.on_foot = self.parameter(
             "on_foot", self.walker.intended_infrastructure[0] == "sidewalk"
         )
+
         self.turning = Event(rise(lambda: self.ego.velocity.angular.yaw > self.limit.angular.yaw))
         self.shaken = Event(parameters={"strength": None, "moving": None})
         self.where = self.sample(lambda: self.ego.pose.position, self.shaken, self.place_)
@@ -140,16 +141,10 @@ class Fields(Scenario):
             lambda: self.ego.velocity.translational.norm(), self.turning, 0 * mps
         )
 
-        self.record(
-            "side_push", lambda: self.ego.acceleration.translational.y, unit=Unit("mpsps", mpsps)
-        )
+        self.record("side_push", lambda: self.ego.acceleration.translational.y, unit="mpsps")
         self.record("sight", lambda: self.env.weather.fog.visual_range < 1 * km)
         self.cover(
-            "wetness",
-            lambda: self.env.weather.rain.intensity,
-            unit=Unit("mmph", mmph),
-            within=(0, 10),
-            every=1,
+            "wetness", lambda: self.env.weather.rain.intensity, unit="mmph", within=(0, 10), every=1
         )
 
     def placement(self) -> None:
@@ -163,13 +158,14 @@ class Fields(Scenario):
         return motion.translational.norm() > self.limit.translational.norm()
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "fields",
-            self.ego_serial(),
-            self.serial(),
+            self._ego_drive_then_call(),
+            self._env_then_van(),
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_drive_then_call(self) -> Behaviour:
         return Serial(
             "ego: serial",
             Until(
@@ -193,7 +189,7 @@ class Fields(Scenario):
             ),
         )
 
-    def serial(self) -> Behaviour:
+    def _env_then_van(self) -> Behaviour:
         return Serial(
             "serial",
             self.env.rain(intensity=1 * mmph),

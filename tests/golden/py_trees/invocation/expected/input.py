@@ -1,7 +1,7 @@
 """Scenarios `vehicle.approach`, `top`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -52,6 +52,7 @@ class Approach(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "approach",
             Until(
@@ -82,26 +83,27 @@ class Top(Scenario):
         self.place(self.car1, lane(2), position(200 * m), speed(50 * kph))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "top",
-            self.do_parallel(),
+            self._car1_p1_and_drive(),
             On(
                 self.told,
+                Emit(self.done),
                 condition=lambda: self.told["v"] > 1 * mps,
-                do=[Emit(self.done)],
             ),
         )
 
-    def do_parallel(self) -> Behaviour:
+    def _car1_p1_and_drive(self) -> Behaviour:
         return Parallel(
             "do parallel",
             self.invoke("p1", Approach, actor=self.ego, lead=self.car1, gap=15 * m),
             self.car1.drive(speed(50 * kph)),
-            self.serial(),
+            self._wait_then_emit_told(),
             overlap="start",
         )
 
-    def serial(self) -> Behaviour:
+    def _wait_then_emit_told(self) -> Behaviour:
         return Serial(
             "serial",
             Wait(self.event("p1.near")),

@@ -1,7 +1,7 @@
 """Scenario `lists`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from typing import Literal, TypeAlias
@@ -41,7 +41,6 @@ class Lists(Scenario):
         self.back: KindOfRoad = self.parameter("back", "highway")
         self.half = self.parameter("half", float(self.number) / 2.0)
         self.cruise = self.parameter("cruise", self.speeds[1], unit="mps")
-
         # operators of lists within operators of lists
         self.slow = self.argument("slow", [it / 2.0 for it in self.speeds if it < 25 * kph])
 
@@ -52,6 +51,7 @@ class Lists(Scenario):
         self.place(self.ego, speed(self.cruise), throughout=True)
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "lists",
             self.ego.drive(speed(self.cruise), duration=2 * s),

@@ -3,7 +3,7 @@
 What a map fills in, and what is read of it.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -74,6 +74,7 @@ class MapValues(Scenario):
         )
         self.near_side = self.argument("near_side", Lane(lane_type="pedestrian"))
         self.far_side = self.argument("far_side", Lane(lane_type="pedestrian"))
+
         self.over = self.argument("over", Crossing(width=3 * m))
         self.striped = self.argument(
             "striped", Crossing(crossing_type=CrossingType(marking="zebra", use="pedestrian"))
@@ -89,6 +90,7 @@ class MapValues(Scenario):
         self.to_place = self.argument(
             "to_place", self.road.create_route([self.first, self.place_], connect_points_by="lane")
         )
+
         self.light = self.argument("light", TrafficLight(map_id="101"))
         self.line = self.argument(
             "line",
@@ -100,6 +102,7 @@ class MapValues(Scenario):
                 primary_stop_line_marking="solid",
             ),
         )
+
         self.stopped = Event(rise(lambda: self.light.bulbs[0].state == "is_on"))
         self.at_end = Event(
             rise(lambda: self.ego.distance_along_route(self.section) > self.section.length - 10 * m)
@@ -145,6 +148,7 @@ class MapValues(Scenario):
         )
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "map_values",
             self.walker.walk(along(self.way), speed(1.5 * mps)),

@@ -1,7 +1,7 @@
 """Scenario `methods`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -48,6 +48,7 @@ class Methods(Scenario):
         return a.speed > b.speed
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "methods",
             self.ego.drive(speed(self.share(self.limit)), duration=2 * s),

@@ -1,7 +1,7 @@
 """Scenarios `event`, `quoting`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -44,6 +44,7 @@ class EventScenario(Scenario):
         self.place(self.place_, position(self.name_, ahead_of=self.lambda_))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "event",
             self.class_(),
@@ -72,8 +73,8 @@ class Quoting(Scenario):
         self.road = self.cast("road", Map(map_file="high\"way{{ 1 }}'''.xodr"))
         self.ego = self.cast("ego", Vehicle())
 
-    # a comment with """ and \ and {% raw %}
     def behavior(self) -> Behaviour:
+        """a comment with \"\"\" and \\ and {% raw %}"""
         return self.ego.drive(duration=1 * s)
 
 

@@ -1,7 +1,7 @@
 """Scenario `own_actions`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from typing import Protocol
@@ -40,12 +40,12 @@ class Note(Protocol):
         /,
         *,
         text: Late[str] = ...,
-        level: Late[int],
+        level: Late[int] = 1,
         duration: Duration | None = None,
     ) -> Behaviour: ...
 
 
-note: Note = global_action("note")
+note: Note = global_action("note", Note)
 
 
 class Honk(Protocol):
@@ -58,13 +58,13 @@ class Honk(Protocol):
         /,
         *modifiers: Modifier,
         times: Late[int] = ...,
-        loudness: Late[float],
+        loudness: Late[float] = 0.5,
         at_whom: PhysicalObject,
         duration: Duration | None = None,
     ) -> Behaviour: ...
 
 
-honk: Honk = user_action("honk")
+honk: Honk = user_action("honk", Honk)
 
 
 class KeepHonking(Protocol):
@@ -80,14 +80,14 @@ class KeepHonking(Protocol):
         /,
         *modifiers: Modifier,
         times: Late[int] = ...,
-        loudness: Late[float],
+        loudness: Late[float] = 0.5,
         at_whom: PhysicalObject,
-        pause: Late[Time],
+        pause: Late[Time] = 2 * s,
         duration: Duration | None = None,
     ) -> Behaviour: ...
 
 
-keep_honking: KeepHonking = user_action("keep_honking")
+keep_honking: KeepHonking = user_action("keep_honking", KeepHonking)
 
 
 class OwnActions(Scenario):
@@ -101,20 +101,19 @@ class OwnActions(Scenario):
         self.other = self.cast("other", Vehicle())
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "own_actions",
-            note(text="honking", level=1),
-            honk(self.ego, times=3, loudness=0.5, at_whom=self.ego),
-            self.ego_parallel(),
-            honk(self.ego, speed(20 * kph), times=2, loudness=0.5, at_whom=self.ego),
+            note(text="honking"),
+            honk(self.ego, times=3, at_whom=self.ego),
+            self._ego_keep_honking_and_drive(),
+            honk(self.ego, speed(20 * kph), times=2, at_whom=self.ego),
         )
 
-    def ego_parallel(self) -> Behaviour:
+    def _ego_keep_honking_and_drive(self) -> Behaviour:
         return Parallel(
             "ego: parallel",
-            keep_honking(
-                self.ego, times=1, at_whom=self.other, loudness=0.5, pause=2 * s, duration=6 * s
-            ),
+            keep_honking(self.ego, times=1, at_whom=self.other, duration=6 * s),
             self.ego.drive(speed(10 * mps)),
         )
 

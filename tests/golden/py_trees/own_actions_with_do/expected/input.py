@@ -3,7 +3,7 @@
 Actions that say what they do, and modifiers that say what they modify.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -11,7 +11,6 @@ from osc2tx_runtime import (
     Emit,
     Event,
     Map,
-    Modifier,
     On,
     Parallel,
     Scenario,
@@ -27,7 +26,7 @@ from osc2tx_runtime.units import Speed, mps, s
 require_api(1)
 
 
-def brief() -> list[Modifier]:
+def brief() -> list[speed]:
     """Modifier `brief`."""
     return [
         speed(9 * mps),
@@ -46,16 +45,17 @@ class Top(Scenario):
         self.seen = Event()
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "top",
-            self.do_serial(),
+            self._ego_quick_then_hurry(),
             On(
                 self.event("quick.done"),
-                do=[Emit(self.seen)],
+                Emit(self.seen),
             ),
         )
 
-    def do_serial(self) -> Behaviour:
+    def _ego_quick_then_hurry(self) -> Behaviour:
         return Serial(
             "do serial",
             self.invoke("quick", HurryMore, actor=self.ego),
@@ -77,6 +77,7 @@ class HurryMore(Scenario):
         self.done = Event()
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "hurry_more",
             self.actor.change_speed(target=self.to),
@@ -98,6 +99,7 @@ class Hurry(Scenario):
         self.done = Event()
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "hurry",
             self.actor.change_speed(target=self.to),
@@ -124,6 +126,7 @@ class Platoon(Scenario):
         self.place(self.second, speed(self.pace), throughout=True)
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "platoon",
             self.first.drive(speed(self.pace)),

@@ -3,10 +3,10 @@
 Events of objects, of the scenario itself and deep inside of others.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
-from typing import Any
+from typing import Unpack
 
 from osc2tx_runtime import (
     Behaviour,
@@ -25,6 +25,7 @@ from osc2tx_runtime import (
     rise,
     within,
 )
+from osc2tx_runtime.fields import VehicleFields
 from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.units import Speed, mps, mpsps, ms, s
 
@@ -36,7 +37,7 @@ class Probe(Vehicle):
 
     kinds = ("probe", *Vehicle.kinds)
 
-    def __init__(self, *, limit: Speed = 12 * mps, **fields: Any) -> None:
+    def __init__(self, *, limit: Speed = 12 * mps, **fields: Unpack[VehicleFields]) -> None:
         super().__init__(**fields)
         self.limit = limit
 
@@ -56,6 +57,7 @@ class Step(Scenario):
         self.place(self.actor, speed(self.pace), throughout=True)
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "step",
             self.actor.drive("roll", speed(self.pace), duration=1 * s),
@@ -73,6 +75,7 @@ class WalkAround(Scenario):
         self.car = self.cast("car", Vehicle())
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "walk_around",
             self.invoke("inner", Step, actor=self.car),
@@ -94,7 +97,6 @@ class OwnEvents(Scenario):
         self.reached = Event()
         self.told = Event()
         self.heard = Event()
-
         # Too fast for its own good
         self.ego_fast = Event(rise(lambda: self.ego.speed > self.ego.limit), name="ego.fast")
 
@@ -103,49 +105,50 @@ class OwnEvents(Scenario):
         self.place(self.ego, speed(10 * mps))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "own_events",
-            self.do_serial(),
+            self._ego_round_serial(),
             On(
                 self.event("round.inner.moving"),
+                Emit(self.told),
                 condition=lambda: self.event("round.inner.moving")["at"] > 1 * mps,
-                do=[Emit(self.told)],
             ),
         )
 
-    def do_serial(self) -> Behaviour:
+    def _ego_round_serial(self) -> Behaviour:
         return Serial(
             "do serial",
             # Right at the start
             Emit(self.begun),
-            self.do_parallel(),
+            self._ego_round_and_drive(),
             Emit(self.over),
         )
 
-    def do_parallel(self) -> Behaviour:
+    def _ego_round_and_drive(self) -> Behaviour:
         return Parallel(
             "do parallel",
             self.invoke("round", WalkAround, car=self.other),
-            self.ego_serial(),
-            self.serial(),
-            self.serial_2(),
-            self.serial_3(),
+            self._ego_drive_serial(),
+            self._wait_then_emit_reached(),
+            self._wait_then_emit_heard(),
+            self._wait_serial(),
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_drive_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             self.ego.drive(speed(15 * mps, at="end"), duration=3 * s),
         )
 
-    def serial(self) -> Behaviour:
+    def _wait_then_emit_reached(self) -> Behaviour:
         return Serial(
             "serial",
             Wait(self.ego_fast),
             Emit(self.reached),
         )
 
-    def serial_2(self) -> Behaviour:
+    def _wait_then_emit_heard(self) -> Behaviour:
         return Serial(
             "serial 2",
             Wait(self.event("round.inner.roll.end")),
@@ -154,7 +157,7 @@ class OwnEvents(Scenario):
             Emit(self.heard),
         )
 
-    def serial_3(self) -> Behaviour:
+    def _wait_serial(self) -> Behaviour:
         return Serial(
             "serial 3",
             Wait(self.reached, condition=elapsed(500 * ms)),

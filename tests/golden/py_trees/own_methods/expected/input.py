@@ -1,11 +1,11 @@
 """Scenario `own_methods`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Unpack
 
 from osc2tx_runtime import (
     Behaviour,
@@ -17,6 +17,7 @@ from osc2tx_runtime import (
     main,
     require_api,
 )
+from osc2tx_runtime.fields import VehicleFields
 from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.units import Speed, kph, s
 
@@ -28,9 +29,11 @@ class Coach(Vehicle):
 
     kinds = ("coach", *Vehicle.kinds)
 
-    def __init__(self, *, seats: int, **fields: Any) -> None:
+    def __init__(self, *, seats: int, **fields: Unpack[VehicleFields]) -> None:
         super().__init__(**fields)
         self.seats = seats
+
+    # keep(default seats == 30)
 
     def is_full(self, guests: int) -> bool:
         return guests >= self.seats
@@ -52,6 +55,8 @@ class Limits:
     low: Speed
     high: Speed = 50 * kph
 
+    # keep(low < high)
+
     def middle(self) -> Speed:
         return (self.low + self.high) / 2.0
 
@@ -67,7 +72,6 @@ class OwnMethods(Scenario):
         self.other = self.cast("other", DoubleDecker(seats=40))
         self.range_of_speed = self.argument("range_of_speed", Limits(low=10 * kph))
         self.base = self.parameter("base", 10 * kph, unit="kph")
-
         # A value may need a method whose body needs a later value.
         self.cruise = self.parameter("cruise", self.scaled(2.0), unit="mps")
 
@@ -81,6 +85,7 @@ class OwnMethods(Scenario):
         return self.base * factor
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "own_methods",
             self.ego.drive(speed(self.range_of_speed.middle()), duration=1 * s),

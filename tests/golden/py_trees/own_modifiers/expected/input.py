@@ -1,13 +1,12 @@
 """Scenario `demo`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
     Behaviour,
     Map,
-    Modifier,
     Parallel,
     Scenario,
     Serial,
@@ -24,22 +23,14 @@ from osc2tx_runtime.units import Speed, m, mps, s
 require_api(1)
 
 
-def careful(*, limit: Speed, in_lane: int = 2) -> list[Modifier]:
-    """Modifier `careful`."""
-    return [
-        speed(limit),
-        lane(in_lane, at="start"),
-    ]
-
-
-def gentle(*, top: Speed = 8 * mps) -> list[Modifier]:
+def gentle(*, top: Speed = 8 * mps) -> list[speed]:
     """Modifier `gentle`."""
     return [
         speed(top),
     ]
 
 
-def calm(*, top: Speed) -> list[Modifier]:
+def calm(*, top: Speed) -> list[keep_lane | speed]:
     """Modifier `calm`."""
     return [
         # as it was
@@ -48,7 +39,7 @@ def calm(*, top: Speed) -> list[Modifier]:
     ]
 
 
-def easy(*, top: Speed = 8 * mps, side: int) -> list[Modifier]:
+def easy(*, top: Speed = 8 * mps, side: int) -> list[lane | speed]:
     """Modifier `easy`."""
     return [
         # in the end
@@ -72,6 +63,7 @@ class Demo(Scenario):
         self.place(self.ego, speed(10 * mps), lane(2), position(50 * m))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         self.override("slow", "quick")
         return Serial(
             "demo",
@@ -79,11 +71,11 @@ class Demo(Scenario):
             self.ego.drive("b", *gentle(), duration=2 * s),
             self.ego.drive("c", *gentle(top=7 * mps), duration=2 * s),
             self.ego.drive("d", *calm(top=6 * mps), duration=2 * s),
-            self.ego_parallel(),
+            self._ego_slow_and_w(),
         )
 
-    # all at once
-    def ego_parallel(self) -> Behaviour:
+    def _ego_slow_and_w(self) -> Behaviour:
+        """all at once."""
         return Parallel(
             "ego: parallel",
             self.ego.drive(

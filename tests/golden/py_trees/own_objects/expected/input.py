@@ -3,11 +3,11 @@
 Objects in objects: structs, actors and lists as fields, defaults that read others.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Unpack
 
 from osc2tx_runtime import (
     Actor,
@@ -22,6 +22,7 @@ from osc2tx_runtime import (
     main,
     require_api,
 )
+from osc2tx_runtime.fields import ActorFields, VehicleFields
 from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.units import Speed, Time, mps, s
 
@@ -33,7 +34,9 @@ class Company(Actor):
 
     kinds = ("company", *Actor.kinds)
 
-    def __init__(self, *, name_: str = "Example", cars: list[Vehicle], **fields: Any) -> None:
+    def __init__(
+        self, *, name_: str = "Example", cars: list[Vehicle], **fields: Unpack[ActorFields]
+    ) -> None:
         super().__init__(**fields)
         self.name_ = name_
         self.cars = cars
@@ -46,6 +49,7 @@ class Leg:
     pace: Speed = 10 * mps
     # twice as fast at most
     most: Speed
+    # keep(it in [1s..2s])
     time_of: Time
 
 
@@ -54,6 +58,7 @@ class Journey:
     """Struct `journey`."""
 
     first: Leg
+    # keep(it.pace == 12mps)
     second: Leg
     stops: list[str]
     allowed: Speed
@@ -68,7 +73,9 @@ class Cab(Vehicle):
 
     kinds = ("cab", *Vehicle.kinds)
 
-    def __init__(self, *, trip: Journey, owner: Company, guest: Person, **fields: Any) -> None:
+    def __init__(
+        self, *, trip: Journey, owner: Company, guest: Person, **fields: Unpack[VehicleFields]
+    ) -> None:
         super().__init__(**fields)
         self.trip = trip
         self.owner = owner
@@ -118,6 +125,7 @@ class Top(Scenario):
         self.keep(self.names[1] in ["second", "third"])
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "top",
             self.invoke(Ride, it_is=self.ego),
@@ -143,6 +151,7 @@ class Ride(Scenario):
         self.place(self.it_is, speed(self.it_is.trip.first.most), throughout=True)
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "ride",
             self.it_is.drive(

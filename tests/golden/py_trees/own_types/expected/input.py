@@ -1,11 +1,11 @@
 """Scenario `own_types`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Unpack
 
 from osc2tx_runtime import (
     Behaviour,
@@ -20,6 +20,7 @@ from osc2tx_runtime import (
     not_given,
     require_api,
 )
+from osc2tx_runtime.fields import VehicleFields
 from osc2tx_runtime.modifiers import position, speed
 from osc2tx_runtime.units import Length, Speed, Time, m, mps, s
 
@@ -58,7 +59,7 @@ class TestCar(Vehicle):
 
     kinds = ("test_car", *Vehicle.kinds)
 
-    def __init__(self, *, seats: int = 5, number: int, **fields: Any) -> None:
+    def __init__(self, *, seats: int = 5, number: int, **fields: Unpack[VehicleFields]) -> None:
         super().__init__(**fields)
         self.seats = seats
         # Painted on the door
@@ -70,8 +71,15 @@ class LongCar(TestCar):
 
     kinds = ("long_car", *TestCar.kinds)
 
-    def __init__(self, *, doors: int, **fields: Any) -> None:
+    class Inherited(VehicleFields, total=False):
+        """Keywords of the bases."""
+
+        seats: int
+        number: int
+
+    def __init__(self, *, doors: int, **fields: Unpack[Inherited]) -> None:
         super().__init__(**fields)
+        # keep(it == 3)
         self.doors = doors
 
 
@@ -101,6 +109,7 @@ class OwnTypes(Scenario):
         self.place(self.ego, position(at_point=self.start), speed(self.style.v), throughout=True)
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "own_types",
             self.ego.assign_position(position(at_point=self.start), speed(self.style.v)),

@@ -3,10 +3,10 @@
 What an object is because of what a field of it is.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias, Unpack
 
 from osc2tx_runtime import (
     Behaviour,
@@ -20,6 +20,7 @@ from osc2tx_runtime import (
     main,
     require_api,
 )
+from osc2tx_runtime.fields import VehicleFields
 from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.units import Speed, mps, s
 
@@ -34,7 +35,7 @@ class Lorry(Vehicle):
 
     kinds = ("lorry", *Vehicle.kinds)
 
-    def __init__(self, *, load: Load, crew: int = 1, **fields: Any) -> None:
+    def __init__(self, *, load: Load, crew: int = 1, **fields: Unpack[VehicleFields]) -> None:
         super().__init__(**fields)
         self.load = load
         self.crew = crew
@@ -51,9 +52,17 @@ class LoadedLorry(Lorry):
 
     kinds = ("loaded_lorry", *Lorry.kinds)
 
-    def __init__(self, *, weight: float = 7.5, **fields: Any) -> None:
+    class Inherited(VehicleFields, total=False):
+        """Keywords of the bases."""
+
+        load: Load
+        crew: int
+
+    def __init__(self, *, weight: float = 7.5, **fields: Unpack[Inherited]) -> None:
         super().__init__(**fields)
         self.weight = weight
+
+    # keep(crew == 2)
 
     def pace(self) -> Speed:
         return 12 * mps
@@ -70,6 +79,7 @@ class Top(Scenario):
         self.other = self.cast("other", Lorry(load="empty"))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "top",
             self.invoke(Haul, who=self.ego, hands=2),
@@ -93,6 +103,7 @@ class Haul(Scenario):
         self.place(self.who, speed(self.who.pace()), throughout=True)
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "haul",
             self.who.drive(speed(self.who.pace()), duration=1 * s),

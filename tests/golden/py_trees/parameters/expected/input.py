@@ -1,7 +1,7 @@
 """Scenario `parameters`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -34,16 +34,12 @@ class Parameters(Scenario):
                 length=12 * m,
             ),
         )
-
         # constant
         self.fixed = 50 * kph
-
         # default, may be set
         self.cruise = self.parameter("cruise", 60 * kph, unit="kph")
-
         # drawn from the seed
         self.slow = self.parameter("slow", within(20 * kph, 30 * kph), unit="kph")
-
         # the range replaces the default
         self.gap = self.parameter("gap", within(5 * m, 15 * m), unit="m")
         self.lanes = self.parameter("lanes", 2)
@@ -54,6 +50,7 @@ class Parameters(Scenario):
         self.place(self.ego, lane(self.lanes), speed(self.limit))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return self.ego.drive(speed(self.limit), duration=2 * s)
 
 

@@ -1,7 +1,7 @@
 """Scenario `paths`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -25,7 +25,7 @@ from osc2tx_runtime import (
     main,
     require_api,
 )
-from osc2tx_runtime.modifiers import along, lane, position, speed, tow_trailer
+from osc2tx_runtime.modifiers import along, along_trajectory, lane, position, speed, tow_trailer
 from osc2tx_runtime.units import m, mps, s
 
 require_api(1)
@@ -43,6 +43,7 @@ class Paths(Scenario):
         self.ego = self.cast("ego", Vehicle())
         self.other = self.cast("other", Vehicle())
         self.cart = self.cast("cart", Trailer())
+
         self.begin = self.argument("begin", Pose(x=110 * m, y=-8.75 * m))
         self.aside = self.argument("aside", Pose(x=150 * m, y=-7 * m))
 
@@ -75,6 +76,7 @@ class Paths(Scenario):
         self.ahead = self.argument("ahead", Pose(x=330 * m, y=-8.75 * m))
         self.beyond = self.argument("beyond", Pose(x=390 * m, y=-8.75 * m))
         self.corner = self.argument("corner", XyzPoint(position=Point(x=400 * m, y=-8.75 * m)))
+
         self.near_the_corner = Event()
 
     def placement(self) -> None:
@@ -82,15 +84,17 @@ class Paths(Scenario):
         self.place(
             self.ego, tow_trailer(trailer=self.cart), lane(1), position(100 * m), speed(10 * mps)
         )
+        self.place(self.other, along_trajectory(trajectory=self.in_time))
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "paths",
-            self.ego_serial(),
-            self.other_serial(),
+            self._ego_follow_path_then_disconnect_trailer(),
+            self._other_replay_trajectory_serial(),
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_follow_path_then_disconnect_trailer(self) -> Behaviour:
         return Serial(
             "ego: serial",
             self.ego.follow_path(absolute=self.spelled_out),
@@ -102,7 +106,7 @@ class Paths(Scenario):
             ),
         )
 
-    def other_serial(self) -> Behaviour:
+    def _other_replay_trajectory_serial(self) -> Behaviour:
         return Serial(
             "other: serial",
             self.other.replay_trajectory(absolute=self.in_time),

@@ -1,7 +1,7 @@
 """Scenario `reactions`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -38,28 +38,27 @@ class Reactions(Scenario):
         self.reported = Event()
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "reactions",
-            self.do_serial(),
+            self._ego_drive_serial(),
             # As soon as the other one is near, whatever else happens
             On(
                 rise(
                     lambda: self.ego.object_distance(reference=self.other, direction="euclidean")
                     < 20 * m
                 ),
-                do=[Emit(self.seen)],
+                Emit(self.seen),
             ),
             On(
                 self.seen,
+                # once more
+                Emit(self.reported),
                 condition=lambda: self.ego.speed > 10 * kph,
-                do=[
-                    # once more
-                    Emit(self.reported)
-                ],
             ),
         )
 
-    def do_serial(self) -> Behaviour:
+    def _ego_drive_serial(self) -> Behaviour:
         return Serial(
             "do serial",
             Until(

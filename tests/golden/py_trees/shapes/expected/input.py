@@ -1,7 +1,7 @@
 """Scenario `shapes`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from dataclasses import dataclass
@@ -14,7 +14,6 @@ from osc2tx_runtime import (
     CommonPositionShape,
     CommonSpeedShape,
     Map,
-    OwnShape,
     Parallel,
     Person,
     Scenario,
@@ -105,6 +104,7 @@ class Shapes(Scenario):
         self.ego = self.cast("ego", Vehicle())
         self.lead = self.cast("lead", Vehicle())
         self.walker = self.cast("walker", Person())
+
         self.up = self.argument("up", Ramp(first=10 * mps, last=14 * mps, length=4 * s))
         self.out = self.argument("out", Sway(rate=0.2 * mps))
         self.round = self.argument("round", Turn(rate=10 * degps))
@@ -125,30 +125,23 @@ class Shapes(Scenario):
         self.place(self.walker, speed(self.plain.compute(500 * ms)), throughout=True)
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Parallel(
             "shapes",
-            self.ego_serial(),
+            self._ego_drive_serial(),
             self.lead.drive(speed(self.up.compute(2 * s)), duration=20 * s),
             self.walker.walk(
-                yaw(shape=OwnShape(self.round, Turn.compute, Turn.duration)),
-                speed(self.plain.compute(500 * ms)),
-                duration=3 * s,
+                yaw(shape=self.round), speed(self.plain.compute(500 * ms)), duration=3 * s
             ),
             overlap="any",
         )
 
-    def ego_serial(self) -> Behaviour:
+    def _ego_drive_serial(self) -> Behaviour:
         return Serial(
             "ego: serial",
             # What holds throughout starts with its first value.
-            self.ego.drive(
-                speed(shape=OwnShape(self.up, Ramp.compute, Ramp.duration)),
-                duration=self.up.duration(),
-            ),
-            self.ego.drive(
-                lateral(shape=OwnShape(self.out, Sway.compute)),
-                duration=self.plain.duration() + 1 * s,
-            ),
+            self.ego.drive(speed(shape=self.up), duration=self.up.duration()),
+            self.ego.drive(lateral(shape=self.out), duration=self.plain.duration() + 1 * s),
             self.ego.drive(
                 position(20 * m, behind=self.lead, shape=self.near, at="end"), duration=8 * s
             ),

@@ -3,7 +3,7 @@
 Sun, rain and places as values of structs.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.1, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -40,6 +40,7 @@ class Sky(Scenario):
         self.ego = self.cast("ego", Vehicle())
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "sky",
             self.ego.drive(duration=1 * s),

@@ -1,7 +1,7 @@
 """Scenario `values`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
-OpenSCENARIO DSL 2.2, dialect asam; `one_of` is a race.
+OpenSCENARIO DSL 2.2, dialect asam.
 """
 
 from osc2tx_runtime import (
@@ -47,6 +47,7 @@ class Values(Scenario):
         return value * 2.0
 
     def behavior(self) -> Behaviour:
+        """What happens."""
         return Serial(
             "values",
             self.ego.drive(speed(self.cruise.low), duration=1 * s),

@@ -1,0 +1,37 @@
+"""A condition on the states of a phase."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+from osc2tx_runtime.enums import At
+from osc2tx_shared.classes import dataclass
+
+__all__ = ["Condition", "Reading"]
+
+Reading: TypeAlias = tuple[float, float, float]
+"""A value, and the least and the greatest that is allowed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """A condition on the states of a phase.
+
+    Attributes:
+        modifier: Name in the DSL of what states it.
+        what: What is measured, for messages: `its speed`.
+        quantity: Name in `QUANTITIES`.
+        at: When it has to hold.
+        measure: Reads it at the present step; None while it cannot be measured.
+        text: Says what was found, where numbers alone tell nobody; takes a reading.
+        is_target: It is the target of an action (DSL 8.8.2.2), and no modifier.
+    """
+
+    modifier: str
+    what: str
+    quantity: str
+    at: At
+    measure: Callable[[], Reading | None]
+    text: Callable[[Reading], str] | None = None
+    is_target: bool = False

@@ -1,0 +1,124 @@
+"""Monitors of paths, routes and trajectories (DSL 8.9.11, 8.9.12)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
+
+from osc2tx_runtime.domain.modifiers import Along, AlongTrajectory, Modifier, value_of
+from osc2tx_runtime.domain.modifiers.base import now
+from osc2tx_runtime.domain.monitoring.conditions import Condition, Reading
+from osc2tx_runtime.domain.monitoring.registry import monitors, stands_for
+from osc2tx_runtime.domain.paths.path_curves import interval_between_offsets
+from osc2tx_runtime.domain.paths.path_values import Path
+from osc2tx_runtime.domain.routes.network_paths import path_in_world, trajectory_in_world
+from osc2tx_runtime.domain.routes.place_on_route import place_on_route
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.opendrive import LanePosition
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.actions.movement.change_position import ChangePosition
+    from osc2tx_runtime.domain.actions.movement.path_following import _OnPath, _OnTrajectory
+    from osc2tx_runtime.domain.map.roads_and_lanes import Route
+    from osc2tx_runtime.domain.monitoring.phase import Phase
+
+__all__: list[str] = []
+
+_REACH = 5.0  # m around its last place on a curve in which an actor is looked for
+
+
+@monitors("along")
+def along(modifier: Along, phase: Phase) -> Iterator[Condition]:
+    """The way along a path, or on a route."""
+    route = modifier.way
+    if not isinstance(route, Path):
+        measure = _on_route(route, phase)
+        yield Condition("along", "its route", "lane", modifier.at, measure, lambda _: _OFF_ROUTE)
+        return
+    offsets = value_of(modifier.start_offset), value_of(modifier.end_offset)
+    measure = _on_path(route, offsets, phase)
+    yield Condition("along", "its distance from the path", "position", modifier.at, measure)
+
+
+_OFF_ROUTE = "it is not on the route"
+
+
+def _on_route(route: Route, phase: Phase) -> Callable[[], Reading]:
+    road_map, me = phase.world.map, phase.me
+
+    def measure() -> Reading:
+        try:
+            place_on_route(road_map, route, me())
+        except ScenarioError:
+            return 1.0, 0.0, 0.0
+        return 0.0, 0.0, 0.0
+
+    return measure
+
+
+def _on_path(path: Path, offsets: tuple[float, float], phase: Phase) -> Callable[[], Reading]:
+    """How far from a path it is, which it goes along from its start to its end."""
+    curve = path_in_world(phase.world.map, path).curve
+    begin, end = interval_between_offsets(curve, *offsets)
+    me, last = phase.me, begin
+
+    def measure() -> Reading:
+        nonlocal last
+        here = me()
+        found = curve.nearest(here.x, here.y, last, _REACH)
+        last = min(max(found, begin), end)
+        return curve.distance_to(here.x, here.y, last), 0.0, 0.0
+
+    return measure
+
+
+@monitors("along_trajectory")
+def along_trajectory(modifier: AlongTrajectory, phase: Phase) -> Iterator[Condition]:
+    """The position at each time of a trajectory; before its first one the actor gets there."""
+    trajectory = trajectory_in_world(phase.world.map, now(modifier.trajectory))
+    curve, first = trajectory.curve, trajectory.time_stamps[0]
+    offsets = value_of(modifier.start_offset), value_of(modifier.end_offset)
+    low, high = interval_between_offsets(curve, *offsets)
+    begin = curve.at_length(low) if offsets[0] else 0.0
+    end = curve.at_length(high) if offsets[1] else curve.end
+    me = phase.me
+
+    def measure() -> Reading | None:
+        time = begin + phase.elapsed
+        if not first <= time <= end:
+            return None
+        x, y, _ = curve.point(time)
+        here = me()
+        return math.hypot(here.x - x, here.y - y), 0.0, 0.0
+
+    what = "its distance from the trajectory"
+    yield Condition("along_trajectory", what, "position", modifier.at, measure)
+
+
+@stands_for("follow_path", "replay_path")
+def on_path(action: _OnPath, phase: Phase) -> Iterator[Modifier]:
+    """The path, from one offset to the other."""
+    yield Along(action.course(), *action.offsets)
+
+
+@stands_for("follow_trajectory", "replay_trajectory")
+def on_trajectory(action: _OnTrajectory, phase: Phase) -> Iterator[Modifier]:
+    """The trajectory, from one offset to the other."""
+    yield AlongTrajectory(action.course(), *action.offsets)
+
+
+@stands_for("change_position")
+def change_position(action: ChangePosition, phase: Phase) -> Iterator[Condition]:
+    """The target, at the end."""
+    target: Any = now(action.target)
+    place = action.place(target)
+    at = phase.world.map.pose(place) if isinstance(place, LanePosition) else place
+    me = phase.me
+
+    def measure() -> Reading:
+        here = me()
+        return math.hypot(here.x - at.x, here.y - at.y), 0.0, 0.0
+
+    what = "its distance from the target"
+    yield Condition("change_position", what, "position", "end", measure)

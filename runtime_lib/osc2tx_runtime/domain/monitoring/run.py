@@ -1,0 +1,78 @@
+"""The monitors of a run: the phases of the actions that are at work."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.domain.monitoring.phase import Phase, Violation
+from osc2tx_runtime.domain.monitoring.registry import conditions_of
+from osc2tx_runtime.language.actions.action import Action
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.actions.base_action import BaseAction
+    from osc2tx_runtime.language.context import ExecutionContext
+
+__all__ = ["Monitors"]
+
+
+class Monitors:
+    """Checks each phase of a run, from states alone.
+
+    Args:
+        context: The run.
+
+    Attributes:
+        violations: What was found in the phases that have ended.
+    """
+
+    def __init__(self, context: ExecutionContext) -> None:
+        self._context = context
+        self._begun: list[Action] = []
+        self._phases: dict[Action, Phase] = {}
+        self._watched: list[Phase] = []
+        self.violations: list[Violation] = []
+
+    def begins(self, action: BaseAction) -> None:
+        """Take note of a phase that begins; its first state is that of the settled instant."""
+        if isinstance(action, Action) and action.actor.id in self._context.cast():
+            self._begun.append(action)
+
+    def observe(self) -> None:
+        """Look at the states of a settled instant."""
+        time = self._context.time
+        for phase in self._watched:
+            phase.observe(time)
+        if self._begun:
+            for action in self._begun:
+                phase = Phase(action, self._context.world, time, self._context.dt)
+                self._phases[action] = phase
+                if phase.begin(conditions_of(phase)):
+                    self._watched.append(phase)
+            self._begun.clear()
+
+    def leaves(self, action: BaseAction) -> None:
+        """Forget a phase that is cut short: what it asks for counts no more."""
+        self._close(action)
+
+    def ends(self, action: BaseAction) -> str | None:
+        """Check the last state of a phase; return why it fails, if it does."""
+        phase = self._close(action)
+        if phase is None:
+            return None
+        phase.end(self._context.time)
+        found = phase.violations()
+        self.violations += found
+        for violation in found:
+            self._context.trace.violation(violation.words(), violation.source)
+        failures = [str(each) for each in found if each.severity == "failure"]
+        return "; ".join(failures) or None
+
+    def _close(self, action: BaseAction) -> Phase | None:
+        if not isinstance(action, Action):
+            return None
+        if action in self._begun:
+            self._begun.remove(action)
+        phase = self._phases.pop(action, None)
+        if phase in self._watched:
+            self._watched.remove(phase)
+        return phase

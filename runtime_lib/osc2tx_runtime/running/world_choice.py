@@ -1,0 +1,89 @@
+"""The world that the settings choose: made for a run, or compared with what runs rely on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.domain.map.search import find_map
+from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
+from osc2tx_runtime.errors import OwnCode, SettingsError, SimulatorError
+from osc2tx_runtime.language.settings import RunSettings, check_known
+from osc2tx_runtime.opendrive import RoadMap, read_map
+from osc2tx_runtime.worlds import CheckRequest, CheckResult, WorldRequest, find_world
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.scenario import Scenario
+    from osc2tx_runtime.world.protocol import ActorSpec
+
+__all__ = ["check_world", "make_world"]
+
+
+def make_world(scenario: Scenario, read: Callable[[Path], RoadMap] = read_map) -> object:
+    """Make the world that the settings choose, for the scenario's map.
+
+    Raises:
+        SimulatorError: It cannot be made, whatever keeps it from that.
+    """
+    settings = scenario.settings
+    request = _request(scenario.map_file(), settings, read)
+    found = find_world(settings.world)
+    for actor, control in settings.control.items():
+        if control not in found.controls:
+            raise SettingsError(
+                f"--control {control}: the world {found.name} has {' and '.join(found.controls)}"
+            )
+        if actor:
+            check_known("--control", "actor", [actor], scenario.actors)
+    with OwnCode(f"the world {settings.world} raised", error=SimulatorError):
+        return found.make(request)
+
+
+def check_world(
+    scenario_class: Callable[[RunSettings], Scenario] | None,
+    settings: RunSettings,
+    *,
+    drives: bool = False,
+    fixes: bool = False,
+) -> Iterator[CheckResult]:
+    """Compare the simulator of a world with what runs rely on.
+
+    Args:
+        scenario_class: A generated class whose needs count; None: those of any run.
+        settings: Of a run; they choose the world.
+        drives: Actors may be spawned and moved.
+        fixes: What other clients have left behind is removed.
+
+    Raises:
+        SettingsError: The world has no such check.
+        SimulatorError: It cannot be looked at.
+    """
+    found = find_world(settings.world)
+    if found.check is None:
+        raise SettingsError(f"the world {found.name} has nothing to check")
+    actors: tuple[ActorSpec, ...] = ()
+    map_file = None
+    if scenario_class is not None:
+        scenario = scenario_class(settings)
+        scenario.create_tree()
+        map_file = scenario.map_file()
+        objects = scenario.actors.values()
+        actors = tuple(each.spec() for each in objects if isinstance(each, PhysicalObject))
+    request = _request(map_file, settings, read_map)
+    yield from found.check(CheckRequest(request, actors, drives, fixes))
+
+
+def _request(
+    map_file: str | None, settings: RunSettings, read: Callable[[Path], RoadMap]
+) -> WorldRequest:
+    """Return what a run wants of its world."""
+    return WorldRequest(
+        map_file,
+        lambda: find_map(map_file, settings.map_path),
+        settings.dt,
+        settings.seed,
+        settings.control,
+        settings.world_options,
+        read,
+    )

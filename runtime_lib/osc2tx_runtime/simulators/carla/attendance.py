@@ -1,0 +1,86 @@
+"""Who attends a run from outside: a stack under test that needs time, somebody who looks on."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+from dataclasses import field
+
+from osc2tx_runtime.errors import SettingsError, SimulatorError
+from osc2tx_runtime.opendrive import Pose
+from osc2tx_shared.classes import dataclass
+from osc2tx_shared.text import complain
+
+from .cast import Command
+from .client_process import ClientProcess
+from .frames import transform_of
+
+__all__ = ["Attendance"]
+
+BEHIND, ABOVE, DOWN = 8.0, 4.0, math.radians(15.0)
+"""Where the camera is from the actor that it follows (m), and how far it looks down."""
+
+
+@dataclass
+class Attendance:
+    """What a run does for those outside it; nothing of it changes a trace.
+
+    Attributes:
+        patience: How long (s) to wait for a first control; None: not at all.
+        pace: How many times faster than real time steps may be; None: as fast as they can.
+        viewed: The actor that the camera follows, if any.
+    """
+
+    patience: float | None = None
+    pace: float | None = None
+    viewed: str | None = None
+    _camera: int | None = None
+    _due: float = field(default=0.0)
+
+    def wait_for_control(
+        self, client: ClientProcess, actors: Sequence[int], *, ticks: bool
+    ) -> None:
+        """Hold the scenario until somebody controls all these vehicles.
+
+        Steps of the simulator go on meanwhile, for a stack may need them.
+
+        Raises:
+            SimulatorError: Nobody does in time.
+        """
+        if self.patience is None or not actors:
+            return
+        complain(f"waiting for control ({self.patience:g} s at most)")
+        end = time.monotonic() + self.patience
+        while not client.ask("controlled", actors):
+            if time.monotonic() > end:
+                waited = f"{self.patience:g} s"
+                raise SimulatorError(
+                    f"--wait-control: nobody controls the external actors within {waited}"
+                )
+            client.ask("step", [])
+            if ticks:
+                time.sleep(0.02)  # faster than real time is of no use to who attaches
+
+    def begin(self, client: ClientProcess, actors: Sequence[str]) -> None:
+        """Take the camera, and the time of the first step."""
+        if self.viewed is not None:
+            if self.viewed not in actors:
+                raise SettingsError(f"--carla-view {self.viewed}: the scenario has no such actor")
+            self._camera = client.ask("spectator")
+        self._due = time.monotonic()
+
+    def pause(self, dt: float) -> None:
+        """Wait until the next step of so many seconds may be made."""
+        if self.pace is not None:
+            self._due += dt / self.pace
+            time.sleep(max(0.0, self._due - time.monotonic()))
+
+    def view(self, pose: Pose) -> list[Command]:
+        """Return what has the camera follow an actor."""
+        if self._camera is None:
+            return []
+        x = pose.x - BEHIND * math.cos(pose.h)
+        y = pose.y - BEHIND * math.sin(pose.h)
+        behind = Pose(x, y, pose.z + ABOVE, pose.h, DOWN)
+        return [("place", self._camera, *transform_of(behind))]

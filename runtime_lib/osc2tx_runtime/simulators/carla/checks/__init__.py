@@ -1,0 +1,12 @@
+"""`osc2tx world check carla`: what a server is like, line by line.
+
+`table` runs the lines, in order: `contact` (library, ports, version, time), `surroundings` (map,
+ground, blueprints, lights), `motion` (steps, poses, speeds; these take the server over for a
+while). `probe` is what they look with.
+"""
+
+from __future__ import annotations
+
+from .table import check
+
+__all__ = ["check"]

@@ -1,0 +1,73 @@
+"""Lines 1 to 6: library, ports, version, time."""
+
+from __future__ import annotations
+
+from osc2tx_runtime.errors import SimulatorError
+from osc2tx_runtime.simulators.carla.client import release_of
+
+from .probe import Finding, Probe, differs, line, ok
+
+
+@line(1, "client library", blocks=True)
+def library(probe: Probe) -> Finding:
+    """The process of the library has started."""
+    found = probe.client.ask("library")
+    return ok(f"{found['version']}, {found['file']}")
+
+
+@line(2, "port of the calls", blocks=True)
+def calls(probe: Probe) -> Finding:
+    """Somebody listens; what answers is looked at in the next line."""
+    where = ":".join(map(str, probe.address))
+    try:
+        probe.contact = probe.connect(probe.client)
+    except SimulatorError as error:
+        probe.contact = {"listens": True, "error": error.message}
+    if not probe.contact["listens"]:
+        return differs(f"nothing listens at {where}", "start CarlaUE4.sh, or --carla HOST:PORT")
+    return ok(where)
+
+
+@line(3, "server", blocks=True)
+def server(probe: Probe) -> Finding:
+    """It answers as CARLA does."""
+    if "server" not in probe.contact:
+        return differs(
+            probe.contact["error"],
+            "the server is still starting (--carla-timeout), or another program listens there",
+        )
+    return ok(f"CARLA {probe.contact['server']}")
+
+
+@line(4, "versions", blocks=True)
+def versions(probe: Probe) -> Finding:
+    """Server and library are of one release."""
+    theirs, ours = probe.contact["server"], probe.contact["client"]
+    found = f"server {theirs}, library {ours}"
+    if release_of(theirs) != release_of(ours):
+        return differs(found, f"pip install carla=={release_of(theirs)}, or another server")
+    return ok(found)
+
+
+@line(5, "port of the snapshots", blocks=True)
+def streams(probe: Probe) -> Finding:
+    """Snapshots arrive."""
+    if probe.contact["streams"]:
+        return ok("snapshots arrive")
+    port = probe.address[1] + 1
+    if probe.contact["stream_port"]:
+        return differs("no snapshots arrive", "the level may still be loading (--carla-timeout)")
+    return differs(f"nothing answers at port {port}", f"open or publish port {port} as well")
+
+
+@line(6, "time", blocks=True)
+def time(probe: Probe) -> Finding:
+    """Nobody else makes the steps."""
+    if not probe.contact["synchronous"]:
+        return ok("free")
+    if probe.contact["ticks"]:
+        return differs("another client makes the steps", "end it, or run with --no-tick")
+    if probe.request.fixes:
+        probe.client.ask("free_time")
+        return ok("free; a synchronous mode that a client had left behind was ended")
+    return differs("synchronous, and nobody makes the steps", "--fix or --carla-reset ends that")

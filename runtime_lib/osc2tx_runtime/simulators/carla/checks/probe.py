@@ -1,0 +1,130 @@
+"""What the lines of a check look with, and how one is declared."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import field
+from typing import Any, NamedTuple
+
+from osc2tx_runtime.opendrive import RoadMap
+from osc2tx_runtime.simulators.carla.client_process import ClientProcess
+from osc2tx_runtime.simulators.carla.connection import DEFAULT_ADDRESS, LOOKING, TIMEOUT
+from osc2tx_runtime.worlds import CheckRequest
+from osc2tx_runtime.worlds.check import CheckStatus
+from osc2tx_shared.classes import dataclass
+
+__all__ = ["Finding", "Line", "Probe", "differs", "line", "ok", "unknown"]
+
+
+class Finding(NamedTuple):
+    """What a line has found; see `CheckResult`."""
+
+    status: CheckStatus
+    found: str
+    meaning: str = ""
+
+
+def ok(found: str) -> Finding:
+    """It is as runs rely on."""
+    return Finding("ok", found)
+
+
+def differs(found: str, meaning: str) -> Finding:
+    """It is not."""
+    return Finding("differs", found, meaning)
+
+
+def unknown(found: str, meaning: str = "") -> Finding:
+    """It cannot be found out."""
+    return Finding("unknown", found, meaning)
+
+
+@dataclass
+class Probe:
+    """Connections and what they have told.
+
+    Attributes:
+        request: What is to be checked.
+        client: Looks on, and changes nothing but what `fixes` asks for.
+        contact: What the first contact has found.
+        level: Of the server.
+        road_map: Of that level.
+        driver: A second connection, which makes steps; there from the first line that drives on.
+        before: The situation before that.
+    """
+
+    request: CheckRequest
+    client: ClientProcess
+    contact: Mapping[str, Any] = field(default_factory=dict)
+    level: Mapping[str, Any] = field(default_factory=dict)
+    road_map: RoadMap | None = None
+    driver: ClientProcess | None = None
+    before: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def address(self) -> tuple[str, int]:
+        """Host and port."""
+        found: tuple[str, int] = self.request.world.options.get("carla", DEFAULT_ADDRESS)
+        return found
+
+    @property
+    def timeout(self) -> float:
+        """Seconds that a call may take."""
+        return float(self.request.world.options.get("carla_timeout", TIMEOUT))
+
+    def connect(self, client: ClientProcess) -> Mapping[str, Any]:
+        """Connect a process to the server, and return what it finds."""
+        found: Mapping[str, Any] = client.ask(
+            "connect", *self.address, self.timeout, patience=LOOKING
+        )
+        return found
+
+    def driving(self) -> ClientProcess:
+        """Return the connection that makes steps of the run's length."""
+        if self.driver is None:
+            self.before = self.client.ask("situation")
+            self.driver = ClientProcess(self.timeout)
+            self.connect(self.driver)
+            self.driver.ask("own_time", self.request.world.dt)
+        return self.driver
+
+    def close(self) -> None:
+        """End the connections."""
+        if self.driver is not None:
+            self.driver.close()
+            self.driver = None
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One line of the table.
+
+    Attributes:
+        number: Its number.
+        name: What is compared.
+        look: Finds it out.
+        drives: It takes the server over.
+        blocks: A run cannot begin where it differs.
+    """
+
+    number: int
+    name: str
+    look: Callable[[Probe], Finding]
+    drives: bool = False
+    blocks: bool = False
+
+
+LINES: dict[int, Line] = {}
+"""All lines by number; the modules of this package fill it."""
+
+
+def line(
+    number: int, name: str, *, drives: bool = False, blocks: bool = False
+) -> Callable[[Callable[[Probe], Finding]], Callable[[Probe], Finding]]:
+    """Declare a line; see `Line`."""
+
+    def declared(look: Callable[[Probe], Finding]) -> Callable[[Probe], Finding]:
+        LINES[number] = Line(number, name, look, drives, blocks)
+        return look
+
+    return declared

@@ -1,0 +1,162 @@
+"""Lines 9 to 13 and 20 to 22: map, ground, left-overs, blueprints, lights, traffic, ROS 2."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+
+from osc2tx_runtime.errors import InputError, SimulatorError
+from osc2tx_runtime.opendrive import LanePosition, MapError
+from osc2tx_runtime.simulators.carla.blueprints import blueprint_for
+from osc2tx_runtime.simulators.carla.level import difference_of, plain_name, read_level
+from osc2tx_runtime.simulators.carla.sensors import SensorStacks
+
+from .probe import Finding, Probe, differs, line, ok, unknown
+
+LARGE = ("Town11", "Town12", "Town13", "Town15")
+"""Levels that are streamed around actors whose role name has `hero` in it."""
+
+POINTS = 20
+ABOVE = 2.0  # m above a lane from where the ground is looked for
+FLOATS = 0.1  # m between ground and lane that one can see
+ROS_PATIENCE = 10.0  # s
+
+
+@line(9, "map", blocks=True)
+def level(probe: Probe) -> Finding:
+    """The server has loaded the scenario's map."""
+    probe.level = probe.client.ask("level", patience=probe.timeout)
+    probe.road_map = read_level(probe.level)
+    request = probe.request.world
+    name = probe.level["name"]
+    if request.map_file is None:
+        return ok(f"{name}, {len(probe.level['spawn_points'])} spawn points")
+    try:
+        wanted = request.road_map()
+    except InputError as error:
+        stem = request.map_file.rpartition("/")[2].removesuffix(".xodr")
+        if stem == plain_name(name):
+            return ok(f"{name}; the file is not on this machine, that of the server is taken")
+        return differs(error.message, "--map-path FOLDER, or --carla-load if the server has it")
+    difference = difference_of(wanted, probe.road_map)
+    if difference is None:
+        return ok(name)
+    known = wanted.name in map(plain_name, probe.client.ask("maps"))
+    how = "loads it" if known else "makes a level of its OpenDRIVE file"
+    return differs(f"{name} instead of {wanted.name}: {difference}", f"--carla-load {how}")
+
+
+@line(10, "ground")
+def ground(probe: Probe) -> Finding:
+    """What is below the lanes is where OpenDRIVE has them."""
+    assert probe.road_map is not None
+    places = []
+    for road in sorted(probe.road_map.roads)[:POINTS]:
+        for section in probe.road_map.roads[road].sections[:1]:
+            lane = next((n for n, each in section.lanes.items() if each.type == "driving"), None)
+            if lane is not None:
+                places.append(LanePosition(road, lane, 0.5 * (section.begin + section.end)))
+    try:
+        poses = [probe.road_map.pose(place) for place in places]
+    except MapError as error:
+        return unknown(str(error))
+    heights = probe.client.ask("ground", [(p.x, -p.y, p.z + ABOVE) for p in poses])
+    off = [abs(z - p.z) for z, p in zip(heights, poses, strict=True) if z is not None]
+    if not off:
+        return unknown("no ground was found below the lanes")
+    found = f"{max(off):.2f} m at most between mesh and lanes ({len(off)} points)"
+    if max(off) > FLOATS:
+        return differs(found, "exact actors float or sink; driven ones stand on the mesh")
+    return ok(found)
+
+
+@line(11, "size of the level")
+def size(probe: Probe) -> Finding:
+    """A level that is streamed needs somebody to stream it for."""
+    name = plain_name(probe.level["name"])
+    roles = [each.role or each.id for each in probe.request.actors]
+    if name not in LARGE or any("hero" in role for role in roles):
+        return ok(name)
+    return differs(
+        f"{name} is streamed around actors with `hero` in their role names, and there is none",
+        'name the actor to stream for: keep(it.name == "hero"); others far from it are dormant',
+    )
+
+
+@line(12, "actors of others")
+def left_overs(probe: Probe) -> Finding:
+    """Nobody has the role names of the scenario already."""
+    there = probe.client.ask("situation")["actors"]
+    roles = {each.role or each.id for each in probe.request.actors}
+    taken = [(number, kind, role) for number, kind, role in there if role in roles]
+    if not taken:
+        return ok(f"{len(there)} actors, none with a role name of the scenario")
+    named = ", ".join(f"{role} ({kind} {number})" for number, kind, role in taken)
+    if probe.request.fixes:
+        probe.client.ask("remove", [number for number, *_ in taken])
+        return ok(f"removed {named}")
+    return differs(f"left by another client: {named}", "--fix removes them; --wait-for takes them")
+
+
+@line(13, "blueprints", blocks=True)
+def blueprints(probe: Probe) -> Finding:
+    """The models of the scenario are there."""
+    library = probe.client.ask("blueprints")
+    found, missing = [], []
+    for spec in probe.request.actors:
+        try:
+            found.append(f"{spec.id}: {blueprint_for(spec, library)}")
+        except SimulatorError as error:
+            missing.append(error.message)
+    if missing:
+        return differs("; ".join(missing), "name a model that this server has")
+    return ok(", ".join(found) or f"{len(library)} blueprints")
+
+
+@line(20, "traffic lights")
+def lights(probe: Probe) -> Finding:
+    """Each light of the map is one of the server's, and none is frozen."""
+    assert probe.road_map is not None
+    there = set(probe.client.ask("traffic_lights"))
+    wanted = {signal.id for signal in probe.road_map.signals() if signal.dynamic}
+    frozen = probe.client.ask("situation")["frozen"]
+    if wanted - there:
+        names = ", ".join(sorted(wanted - there)[:5])
+        return differs(
+            f"{len(wanted - there)} signals without a light: {names}",
+            "states of these lights are known to the scenario alone",
+        )
+    if frozen:
+        return differs(f"{len(frozen)} lights are frozen", "they keep their states during a run")
+    return ok(f"{len(there)} lights")
+
+
+@line(21, "Traffic Manager")
+def manager(probe: Probe) -> Finding:
+    """Its port is free."""
+    port = probe.request.world.options.get("carla_tm_port", 8000)
+    if probe.client.ask("is_port_taken", port):
+        return differs(f"port {port} is used", "--carla-tm-port takes another one for autopilot")
+    return ok(f"port {port} is free")
+
+
+@line(22, "ROS 2")
+def ros(probe: Probe) -> Finding:
+    """The topics of the sensors are there, as far as this machine can see them."""
+    stacks = SensorStacks(probe.request.world.options.get("sensors", {}))
+    roles = {each.id: each.role or each.id for each in probe.request.actors}
+    expected = [text.split()[0] for text in stacks.table(roles) if text.startswith("/carla/")]
+    program = shutil.which("ros2")
+    if not expected or program is None:
+        why = "no sensors are attached" if not expected else "ros2 is not installed here"
+        return unknown(why, "" if not expected else "look at `ros2 topic list` during a run")
+    try:
+        listed = subprocess.run(
+            [program, "topic", "list"], capture_output=True, text=True, timeout=ROS_PATIENCE
+        ).stdout.split()
+    except (OSError, subprocess.TimeoutExpired) as error:
+        return unknown(f"ros2 topic list: {error}")
+    missing = [topic for topic in expected if topic not in listed]
+    if missing:
+        return differs(f"missing: {', '.join(missing)}", "start the server with --ros2")
+    return ok(f"{len(expected)} topics")

@@ -1,0 +1,155 @@
+"""Requests about actors: own ones are gone in the end, those of others are as before."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import carla
+
+from .session import Session, transform
+
+POLL = 0.1  # s between two looks for an actor of somebody else
+ROLLING = 0.1  # m/s of a vehicle that somebody controls
+
+
+class Actors:
+    """Spawns, finds and describes; its methods are requests.
+
+    Args:
+        session: A connected one.
+    """
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        self.own: list[int] = []
+
+    def blueprints(self) -> Mapping[str, Mapping[str, Sequence[str]]]:
+        """Return recommended values of the attributes of all blueprints."""
+        return {
+            blueprint.id: {
+                attribute.id: [str(value) for value in attribute.recommended_values]
+                for attribute in blueprint
+            }
+            for blueprint in self._session.world.get_blueprint_library()
+        }
+
+    def spawn(
+        self, blueprint: str, attributes: Mapping[str, str], pose: Sequence[float], parent: int = 0
+    ) -> Mapping[str, Any]:
+        """Make an actor that goes with the session, and return what it is like."""
+        description = self._session.world.get_blueprint_library().find(blueprint)
+        for name, value in attributes.items():
+            description.set_attribute(name, value)
+        holder = self._session.world.get_actor(parent) if parent else None
+        actor = self._session.world.spawn_actor(description, transform(pose), attach_to=holder)
+        self._owns(actor)
+        return self._described(actor)
+
+    def _owns(self, actor: Any) -> None:
+        """Destroy an actor in the end."""
+        if not self.own:
+            self._session.undo.append(self._destroy)
+        self.own.append(actor.id)
+
+    def discard(self, actor: int) -> None:
+        """Destroy an actor of the session."""
+        self._session.client.apply_batch_sync([carla.command.DestroyActor(actor)], False)
+        self.own.remove(actor)
+        if actor in self._session.watched:
+            self._session.watched.remove(actor)
+
+    def find(self, role: str, patience: float) -> Sequence[Mapping[str, Any]]:
+        """Return vehicles and walkers of others by their role name; none if none comes in time."""
+        end = time.monotonic() + patience
+        while True:
+            found = [
+                actor
+                for actor in self._session.world.get_actors()
+                if actor.type_id.startswith(("vehicle.", "walker."))
+                and actor.attributes.get("role_name") == role
+                and actor.is_alive
+            ]
+            if found or time.monotonic() >= end:
+                return [self._described(actor) for actor in found]
+            time.sleep(POLL)
+
+    def borrow(self, actor_id: int) -> None:
+        """Take an actor of somebody else, which gets its physics and its pedals back in the end."""
+        actor = self._session.world.get_actor(actor_id)
+        control = actor.get_control() if isinstance(actor, carla.Vehicle) else None
+
+        def give_back() -> None:
+            actor.set_simulate_physics(True)
+            actor.set_target_angular_velocity(carla.Vector3D())
+            if control is not None:
+                actor.apply_control(control)
+
+        self._session.undo.append(give_back)
+
+    def _described(self, actor: Any) -> Mapping[str, Any]:
+        found: dict[str, Any] = {"id": actor.id, "type": actor.type_id}
+        if isinstance(actor, carla.Vehicle | carla.Walker) or actor.type_id.startswith("static."):
+            self._session.watched.append(actor.id)
+            box = actor.bounding_box
+            found["box"] = [box.location.x, box.extent.x, box.extent.y, box.extent.z]
+        if isinstance(actor, carla.Vehicle):  # asked before physics is switched off
+            wheels = actor.get_physics_control().wheels
+            found["wheels"] = [
+                [wheel.position.x, wheel.position.y, wheel.max_steer_angle] for wheel in wheels
+            ]
+            curve = actor.get_physics_control().steering_curve
+            found["steering_curve"] = [[point.x, point.y] for point in curve]
+        return found
+
+    def controlled(self, actors: Sequence[int]) -> bool:
+        """Return whether somebody has all these vehicles move."""
+        return all(
+            actor.get_control().throttle > 0.0 or actor.get_velocity().length() > ROLLING
+            for actor in self._session.world.get_actors(list(actors))
+            if isinstance(actor, carla.Vehicle)
+        )
+
+    def describe(self, actor: int) -> Mapping[str, Any]:
+        """Return what an actor is like."""
+        return self._described(self._session.world.get_actor(actor))
+
+    def nearby(self, x: float, y: float, radius: float) -> Sequence[Sequence[Any]]:
+        """Return id, blueprint and role name of the actors within a radius (m)."""
+        here = carla.Location(x, y, 0.0)
+        found = []
+        for actor in self._session.world.get_actors():
+            at = actor.get_location()
+            at.z = 0.0
+            if at.distance(here) <= radius and actor.type_id.startswith(("vehicle.", "walker.")):
+                found.append([actor.id, actor.type_id, actor.attributes.get("role_name", "")])
+        return found
+
+    def watch_collisions(self, actor: int) -> None:
+        """Note the contacts of an actor from now on."""
+        description = self._session.world.get_blueprint_library().find("sensor.other.collision")
+        holder = self._session.world.get_actor(actor)
+        sensor = self._session.world.spawn_actor(description, carla.Transform(), attach_to=holder)
+        self._owns(sensor)
+        sensor.listen(self._session.collisions.add)
+        self._session.undo.append(sensor.stop)
+
+    def enable_for_ros(self, sensor: int) -> None:
+        """Have the server publish what a sensor sees, by its native ROS 2."""
+        self._session.world.get_actor(sensor).enable_for_ros()
+
+    def begin_autopilot(self, port: int, seed: int) -> int:
+        """Start the Traffic Manager, in step with the world; return its port."""
+        manager = self._session.client.get_trafficmanager(port)
+        self._session.undo.append(manager.shut_down)
+        manager.set_synchronous_mode(True)
+        manager.set_random_device_seed(seed)
+        return int(manager.get_port())
+
+    def _destroy(self) -> None:
+        destroy = [carla.command.DestroyActor(each) for each in reversed(self.own)]
+        self._session.client.apply_batch_sync(destroy, False)
+        if self._session.ticks:
+            # The batch would tick with the interpreter locked.
+            self._session.world.tick(self._session.timeout)

@@ -1,0 +1,68 @@
+"""Requests of `osc2tx world check`: what a session would find, and would have to restore."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import carla
+
+from .session import Session, listens, written
+
+REACH = 20.0  # m down to which ground is looked for
+SPAWNED = ("vehicle.", "walker.", "sensor.", "static.", "controller.")
+WEATHER = (
+    "cloudiness",
+    "fog_density",
+    "precipitation",
+    "precipitation_deposits",
+    "sun_altitude_angle",
+    "sun_azimuth_angle",
+    "wetness",
+    "wind_intensity",
+)
+
+
+class Inspection:
+    """Looks at the server of a session; its methods are requests.
+
+    Args:
+        session: A connected one, but for `library` and `is_port_taken`.
+    """
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+
+    def library(self) -> Mapping[str, str]:
+        """Return version and file of the client library."""
+        client = carla.Client("localhost", 1)
+        return {"version": client.get_client_version(), "file": carla.__file__}
+
+    def situation(self) -> Mapping[str, Any]:
+        """Return what a session may change: settings, weather, actors, camera, frozen lights."""
+        world = self._session.world
+        settings, weather, actors = world.get_settings(), world.get_weather(), world.get_actors()
+        spawned = [each for each in actors if each.type_id.startswith(SPAWNED)]
+        lights = actors.filter("traffic.traffic_light*")
+        return {
+            "settings": [settings.synchronous_mode, settings.fixed_delta_seconds],
+            "weather": [round(getattr(weather, name), 3) for name in WEATHER],
+            "actors": sorted([a.id, a.type_id, a.attributes.get("role_name", "")] for a in spawned),
+            "camera": [round(each, 2) for each in written(world.get_spectator().get_transform())],
+            "frozen": sorted(light.get_opendrive_id() for light in lights if light.is_frozen()),
+        }
+
+    def remove(self, actors: Sequence[int]) -> None:
+        """Destroy actors that a client has left behind."""
+        destroy = [carla.command.DestroyActor(each) for each in actors]
+        self._session.client.apply_batch_sync(destroy, False)
+
+    def ground(self, points: Sequence[Sequence[float]]) -> Sequence[float | None]:
+        """Return the height (m) of what is below each point; None where nothing is."""
+        world = self._session.world
+        found = [world.ground_projection(carla.Location(*point), REACH) for point in points]
+        return [None if each is None else each.location.z for each in found]
+
+    def is_port_taken(self, port: int) -> bool:
+        """Return whether a program on this machine listens at a port."""
+        return listens("127.0.0.1", port)

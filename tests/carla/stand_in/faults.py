@@ -1,0 +1,152 @@
+"""Ways in which servers differ from what runs rely on, by name: `--fault NAME`."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from . import dynamics
+from .blueprints import BLUEPRINTS, VEHICLES
+from .simulation import Simulation
+
+Calls = dict[str, Callable[..., Any]]
+
+
+def long_steps(simulation: Simulation, calls: Calls) -> None:
+    """Steps are longer than they were set."""
+    settings = calls["set_episode_settings"]
+
+    def set_longer(given: list[Any]) -> int:
+        fixed = [True, 2.0 * given[2][1]] if given[2][0] else given[2]
+        return int(settings([*given[:2], fixed, *given[3:]]))
+
+    calls["set_episode_settings"] = set_longer
+
+
+def slow(simulation: Simulation, calls: Calls) -> None:
+    """A step takes longer than it is."""
+    tick = calls["tick_cue"]
+
+    def slowly() -> int:
+        time.sleep(1.5 * simulation.dt)
+        return int(tick())
+
+    calls["tick_cue"] = slowly
+
+
+def sunk_mesh(simulation: Simulation, calls: Calls) -> None:
+    """The mesh is below the lanes."""
+    project = calls["project_point"]
+
+    def below(*given: Any) -> list[Any]:
+        hit, ((x, y, z), label) = project(*given)
+        return [hit, [[x, y, z - 0.5], label]]
+
+    calls["project_point"] = below
+
+
+def few_blueprints(simulation: Simulation, calls: Calls) -> None:
+    """No vehicle has the size that is wanted, and models have other names."""
+    for name in VEHICLES:
+        if name != "vehicle.audi.tt":
+            del BLUEPRINTS[name]
+
+
+def no_boxes(simulation: Simulation, calls: Calls) -> None:
+    """Boxes have no size (carla issues 3670, 5841, 7596)."""
+    calls["get_actor_bounding_box"] = lambda actor: [[0.0] * 3, [0.0] * 3, [0.0] * 3, actor]
+    simulation.box = lambda actor: [[0.0] * 3, [0.0] * 3, [0.0] * 3, actor.id]  # type: ignore[method-assign]
+
+
+def loose(simulation: Simulation, calls: Calls) -> None:
+    """Poses are not quite those that were sent."""
+    batch = calls["apply_batch"]
+
+    def elsewhere(commands: list[Any], tick: bool = False) -> list[Any]:
+        for ((number, fields),) in commands:
+            if number == 6:
+                fields[1][0][0] += 0.02
+        return list(batch(commands, tick))
+
+    calls["apply_batch"] = elsewhere
+
+
+def sagging(simulation: Simulation, calls: Calls) -> None:
+    """A body that is given a speed loses it: wheels and gear were not told (carla issue 3710)."""
+    batch = calls["apply_batch"]
+
+    def slower(commands: list[Any], tick: bool = False) -> list[Any]:
+        for ((number, fields),) in commands:
+            if number == 8:
+                fields[1] = [0.7 * each for each in fields[1]]
+        return list(batch(commands, tick))
+
+    calls["apply_batch"] = slower
+
+
+def weak(simulation: Simulation, calls: Calls) -> None:
+    """Engines are too weak to keep a speed."""
+    dynamics.THROTTLE.update(dict.fromkeys(dynamics.THROTTLE, 0.01))
+    dynamics.DRAG = 0.02
+
+
+def other_axes(simulation: Simulation, calls: Calls) -> None:
+    """Rates are counted the other way round."""
+    righted = dynamics._fall_on_wheels
+
+    def turned(actor: Any, dt: float) -> None:
+        before = list(actor.turning)
+        righted(actor, dt)
+        actor.turning = [2.0 * old - new for old, new in zip(before, actor.turning, strict=True)]
+
+    dynamics._fall_on_wheels = turned
+
+
+def late_walkers(simulation: Simulation, calls: Calls) -> None:
+    """Walkers take half of the speed that they are told."""
+    batch = calls["apply_batch"]
+
+    def slower(commands: list[Any], tick: bool = False) -> list[Any]:
+        for ((number, fields),) in commands:
+            if number == 4:
+                fields[1][1] *= 0.5
+        return list(batch(commands, tick))
+
+    calls["apply_batch"] = slower
+
+
+def nameless_lights(simulation: Simulation, calls: Calls) -> None:
+    """Lights have no ids of the map."""
+    for _, light in simulation.lights():
+        light.sign = ""
+
+
+def sticky_camera(simulation: Simulation, calls: Calls) -> None:
+    """What was changed does not go back: the camera drifts."""
+    tick = calls["tick_cue"]
+
+    def drifting() -> int:
+        simulation.spectator.location[2] += 1.0
+        return int(tick())
+
+    calls["tick_cue"] = drifting
+
+
+FAULTS: Mapping[str, Callable[[Simulation, Calls], None]] = {
+    each.__name__.replace("_", "-"): each
+    for each in (
+        long_steps,
+        slow,
+        sunk_mesh,
+        few_blueprints,
+        no_boxes,
+        loose,
+        sagging,
+        weak,
+        other_axes,
+        late_walkers,
+        nameless_lights,
+        sticky_camera,
+    )
+}

@@ -1,0 +1,87 @@
+"""The page "Extend a generated scenario in Python", and what happens by hand around modules."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import py_trees
+import pytest
+
+from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
+from osc2tx_runtime.units import kph
+from tests.end_to_end.harness import REPOSITORY
+from tests.processes import HANGING
+
+PAGE = REPOSITORY / "docs" / "how-to" / "extend-in-python.md"
+GENERATED = REPOSITORY / "generated"
+
+BROKEN = """
+from cut_in import CutIn
+from osc2tx_runtime import main
+
+class Broken(CutIn):
+    def other_cuts_in(self):
+        return self.other.drvie()
+
+raise SystemExit(main(Broken))
+"""
+
+
+@pytest.fixture
+def cut_in(monkeypatch: pytest.MonkeyPatch) -> type[Scenario]:
+    monkeypatch.syspath_prepend(GENERATED)
+    from cut_in import CutIn
+
+    return CutIn
+
+
+def test_the_page_runs(cut_in: type[Scenario]) -> None:
+    blocks = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+    names: dict[str, object] = {"__name__": "page"}
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said):
+        for block in blocks:
+            exec(block, names)
+    assert said.getvalue().split() == ["success", "90.0"]
+
+
+def test_an_assigned_parameter_is_what_trace_and_world_have(cut_in: type[Scenario]) -> None:
+    class FastEgo(cut_in):  # type: ignore[misc, valid-type]
+        def declare(self) -> None:
+            super().declare()
+            self.v_ego = 90 * kph
+
+    lines = [json.loads(line) for line in run_scenario(FastEgo, RunSettings()).trace_lines]
+    assert lines[0]["parameters"]["v_ego"] == 90 * kph
+    ego = next(line for line in lines if line.get("actor") == "ego")
+    assert ego["v"] == 90 * kph
+
+
+def test_a_tree_without_a_run_says_what_to_call(cut_in: type[Scenario]) -> None:
+    tree = py_trees.trees.BehaviourTree(cut_in().create_tree())
+    with pytest.raises(ScenarioError, match=r"call `run_scenario\(TheScenario\)`"):
+        tree.setup()
+    with pytest.raises(ScenarioError, match=r"call `run_scenario\(TheScenario\)`"):
+        py_trees.trees.BehaviourTree(cut_in().create_tree()).root.tick_once()
+
+
+def test_mistakes_in_a_subclass_are_those_of_its_file(tmp_path: Path) -> None:
+    script = tmp_path / "broken.py"
+    script.write_text(BROKEN, encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, str(script)],
+        capture_output=True,
+        text=True,
+        timeout=HANGING,
+        env={"PYTHONPATH": f"{GENERATED}:{REPOSITORY / 'runtime_lib'}"},
+    )
+    assert done.returncode == 4
+    last = done.stderr.splitlines()[-1]
+    assert last.startswith(f"error: {script}:7: AttributeError: ")
+    assert "bug" not in done.stderr
