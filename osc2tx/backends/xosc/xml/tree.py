@@ -35,6 +35,10 @@ LISTS = frozenset(
         "VariableDeclarations",
         "MonitorDeclarations",
         "Entities",
+        "ScenarioObject",
+        "Vehicle",
+        "Pedestrian",
+        "MiscObject",
         "Storyboard",
         "Init",
         "Actions",
@@ -43,6 +47,10 @@ LISTS = frozenset(
         "Act",
         "ManeuverGroup",
         "Maneuver",
+        "Event",
+        "StartTrigger",
+        "StopTrigger",
+        "ConditionGroup",
         "ParameterValueDistribution",
         "Deterministic",
         "ValueSetDistribution",
@@ -50,33 +58,31 @@ LISTS = frozenset(
 )
 """Elements that list others: each of those begins a line, and the end tag does."""
 
-ALTERNATIVES = frozenset({"StartTrigger", "StopTrigger", "ConditionGroup"})
-"""Elements that are lists where they have more than one child."""
-
-PARTS = frozenset({"Event", "Vehicle", "Pedestrian", "MiscObject"})
-"""Elements whose first child stands on their line; each of the others begins a line."""
+TOGETHER = frozenset({"BoundingBox", "ConstraintGroup", "Polyline", "Properties"})
+"""Elements whose children are parts of one thing: they stay on one line."""
 
 
 def lay_out(node: etree._Element, line: str = "\n") -> None:
     """Put white space between the elements below a node; there is none yet.
 
+    Each of several children begins a line, an only child of no list stands on that of its parent.
+    That depends on no value, so that a longer one changes only its own line.
+
     Args:
         node: The node.
         line: What begins the line that it stands on.
     """
+    if len(node) == 0 or node.tag in TOGETHER:
+        return
+    if len(node) == 1 and node.tag not in LISTS:
+        lay_out(node[0], line)
+        return
     inner = f"{line}  "
-    is_list = node.tag in LISTS or (node.tag in ALTERNATIVES and len(node) > 1)
-    previous: etree._Element | None = None
+    node.text = inner
     for child in node:
-        begins = is_list or (node.tag in PARTS and previous is not None)
-        if begins and previous is None:
-            node.text = inner
-        elif begins and previous is not None:
-            previous.tail = inner
-        lay_out(child, inner if begins else line)
-        previous = child
-    if is_list and previous is not None:
-        previous.tail = line
+        lay_out(child, inner)
+        child.tail = inner
+    node[-1].tail = line
 
 
 Value: TypeAlias = str | int | float | bool

@@ -59,19 +59,29 @@ def test_a_curve_is_one_line() -> None:
 def test_an_event_has_lines_for_its_actions_and_its_trigger() -> None:
     event = "<Event><Action><A/></Action><Action><B/></Action><StartTrigger/></Event>"
     assert lines_of(event) == [
-        "<Event><Action><A/></Action>",
+        "<Event>",
+        "  <Action><A/></Action>",
         "  <Action><B/></Action>",
-        "  <StartTrigger/></Event>",
+        "  <StartTrigger/>",
+        "</Event>",
     ]
 
 
-def test_several_conditions_have_lines_of_their_own() -> None:
-    group = "<ConditionGroup><Condition/><Condition/></ConditionGroup>"
-    assert lines_of(f"<E><StartTrigger>{group}</StartTrigger></E>") == [
-        "<E><StartTrigger><ConditionGroup>",
-        "  <Condition/>",
-        "  <Condition/>",
-        "</ConditionGroup></StartTrigger></E>",
+def test_each_condition_has_a_line_of_its_own() -> None:
+    group = "<ConditionGroup><Condition/></ConditionGroup>"
+    assert lines_of(f"<StartTrigger>{group}</StartTrigger>") == [
+        "<StartTrigger>",
+        "  <ConditionGroup>",
+        "    <Condition/>",
+        "  </ConditionGroup>",
+        "</StartTrigger>",
     ]
-    single = "<E><StartTrigger><ConditionGroup><Condition/></ConditionGroup></StartTrigger></E>"
-    assert lines_of(single) == [single]
+
+
+def test_an_only_child_stands_on_the_line_of_its_parent() -> None:
+    assert lines_of("<A><B><C><D/><E/></C></B></A>") == [
+        "<A><B><C>",
+        "  <D/>",
+        "  <E/>",
+        "</C></B></A>",
+    ]
