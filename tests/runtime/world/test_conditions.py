@@ -74,8 +74,13 @@ def test_along_the_road(load_map: LoadMap, name: str) -> None:
     near = pytest.approx(way_between, abs=2e-3)
     assert front.position.ahead_of(back) == near
     assert back.position.behind(front) == near
-    assert back.road_distance(front, "longitudinal") == near
-    assert front.road_distance(back, "longitudinal") == pytest.approx(-way_between, abs=2e-3)
+    mode = "reference_points"
+    assert back.road_distance(front, "longitudinal", mode, "on_lane") == near
+    assert front.road_distance(back, "longitudinal", mode, "on_lane") == pytest.approx(
+        -way_between, abs=2e-3
+    )
+    on_road = abs(last[3] - first[2]) if first[0] == last[0] else way_between
+    assert back.road_distance(front, "longitudinal") == pytest.approx(on_road, abs=2e-3)
     gap = way_between - 2.0 - (4.6 - 0.92)
     assert front.space_gap(back, "longitudinal") == pytest.approx(gap, abs=2e-3)
     assert back.time_gap(front, "longitudinal") == pytest.approx(-gap / 10.0, abs=1e-3)

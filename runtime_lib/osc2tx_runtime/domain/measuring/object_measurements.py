@@ -30,7 +30,9 @@ from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_runtime.world.actor_dimensions import Shape
 from osc2tx_runtime.world.measuring.distances import (
+    across_road,
     along_lanes,
+    along_road,
     gap_between,
     headway_between,
     lateral_on_road,
@@ -102,6 +104,9 @@ class Measures(MeasuredObject):
         route_type: OnRouteType = "on_road",
     ) -> float:
         """Distance (m) along or across the road; positive if the reference is ahead or left.
+
+        On one road it is the difference of s or t, in whatever lanes both are; from road to road,
+        and with another route type, it is measured along the lanes between them.
 
         With `bounding_boxes` it is measured between the facing ends or sides.
         """
@@ -221,7 +226,11 @@ class Measures(MeasuredObject):
         ahead = direction == "longitudinal"
         if route_type == "on_crossing":
             return between_on_crossing(self.context, here, there, ahead=ahead, mode=mode)
-        distance = (along_lanes if ahead else lateral_on_road)(road_map, here, there)
+        distance = None
+        if route_type == "on_road":
+            distance = (along_road if ahead else across_road)(road_map, here, there)
+        if distance is None:
+            distance = (along_lanes if ahead else lateral_on_road)(road_map, here, there)
         if distance is None:
             raise ScenarioError(f"no lane leads from {self.id} to the place or back")
         if mode == "reference_points":

@@ -183,7 +183,10 @@ class ScenarioInitializer(StartRoom[ActorStart]):
 
     def _is_free(self, start: ActorStart, place: LanePosition) -> bool:
         """Whether nobody is at a place, and it was not tried in vain."""
-        return not self.was_tried(start, place) and self._who_is_at(start.actor, place) is None
+        return (
+            not self.was_tried(start, place._replace(offset=0.0))
+            and self._who_is_at(start.actor, place) is None
+        )
 
     def _spawn(self, actor_id: str) -> LanePosition | None:
         given = self._context.settings.spawn.get(actor_id)

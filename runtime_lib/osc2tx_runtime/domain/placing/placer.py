@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime import opendrive
@@ -87,10 +88,12 @@ class Placer:
         if speed is None and timed is not None:
             speed = self._begin(timed)[1]
         own_speed = speed if speed is not None else (0.0 if now is None else now.v)
+        lateral = one_of_kind(modifiers, Lateral)
+        if lateral is not None and lateral.side_of is None and lateral.is_fixed:
+            is_free = partial(self._is_free_aside, actor, lateral, is_free)
         at = self._place(actor, modifiers, own_speed, now, spawn, is_free)
         if speed and not actor.movable:
             raise PlacementError(f"{actor.id} is stationary, so it has no speed")
-        lateral = one_of_kind(modifiers, Lateral)
         if lateral is not None:
             if not isinstance(at, LanePosition):
                 raise PlacementError(f"{actor.id}: lateral needs a lane, not a point off the lanes")
@@ -158,6 +161,16 @@ class Placer:
             )
         pose = location.pose
         return Position(x=pose.x, y=pose.y, z=pose.z, h=pose.yaw or 0.0)
+
+    def _is_free_aside(
+        self,
+        actor: PhysicalObject,
+        lateral: Lateral,
+        is_free: Callable[[LanePosition], bool],
+        place: LanePosition,
+    ) -> bool:
+        """Whether a start place can be used at a distance from the centre of its lane."""
+        return is_free(self._aside(actor, place, lateral))
 
     def _aside(self, actor: PhysicalObject, at: LanePosition, lateral: Lateral) -> LanePosition:
         """The place across the lane, in the lane or beside another actor."""

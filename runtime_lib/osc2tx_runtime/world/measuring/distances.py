@@ -17,7 +17,9 @@ from osc2tx_runtime.world.state import ActorState
 from .collision import Box, box_of, contact_interval
 
 __all__ = [
+    "across_road",
     "along_lanes",
+    "along_road",
     "gap_between",
     "headway_between",
     "lateral_on_road",
@@ -129,6 +131,41 @@ def lateral_on_road(road_map: RoadMap, a: ActorState, b: ActorState) -> float | 
     pose = road_map.pose(road_map.advance(place, along).position)
     left = (b.y - pose.y) * math.cos(pose.h) - (b.x - pose.x) * math.sin(pose.h)
     return left / math.cos(pose.roll) if pose.roll else left
+
+
+def along_road(road_map: RoadMap, a: ActorState, b: ActorState) -> float | None:
+    """Difference of s (m) on one road, positive if b is ahead of a; None on different roads."""
+    found = _on_one_road(road_map, a, b)
+    if found is None:
+        return None
+    place_a, place_b = found
+    return road_map.travel_direction(place_a.road, place_a.lane) * (place_b.s - place_a.s)
+
+
+def across_road(road_map: RoadMap, a: ActorState, b: ActorState) -> float | None:
+    """Difference of t (m) on one road, positive if b is left of a; None on different roads."""
+    found = _on_one_road(road_map, a, b)
+    if found is None:
+        return None
+    place_a, place_b = found
+    difference = _beside_reference(road_map, place_b, b) - _beside_reference(road_map, place_a, a)
+    return road_map.travel_direction(place_a.road, place_a.lane) * difference
+
+
+def _on_one_road(
+    road_map: RoadMap, a: ActorState, b: ActorState
+) -> tuple[LanePosition, LanePosition] | None:
+    place_a, place_b = _on_lane(road_map, a), _on_lane(road_map, b)
+    if place_a is None or place_b is None or place_a.road != place_b.road:
+        return None
+    return place_a, place_b
+
+
+def _beside_reference(road_map: RoadMap, place: LanePosition, state: ActorState) -> float:
+    """The t (m) of an actor: left of the reference line of its road, on the surface."""
+    line = road_map.road_pose(place.road, place.s, 0.0)
+    left = (state.y - line.y) * math.cos(line.h) - (state.x - line.x) * math.sin(line.h)
+    return left / math.cos(line.roll) if line.roll else left
 
 
 def gap_between(along: float, caller: Shape, other: Shape) -> float:

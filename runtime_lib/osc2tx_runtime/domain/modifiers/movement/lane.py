@@ -123,6 +123,11 @@ class Lateral(MovementModifier):
         """The actor it is relative to."""
         return self.side_of
 
+    @property
+    def is_fixed(self) -> bool:
+        """Whether it leaves no choice between distances."""
+        return self.distance_range is None
+
     def offsets(self, own_width: float = 0.0, other_width: float = 0.0) -> tuple[float, float]:
         """How far (m) the own centre may be left of that of the reference, now.
 
