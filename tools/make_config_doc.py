@@ -7,6 +7,7 @@ from pathlib import Path
 from osc2tx.config import (
     CAMPAIGN_SETTINGS,
     COMPILE_SETTINGS,
+    FILES_SETTINGS,
     PROJECT_SETTINGS,
     RUN_SETTINGS,
     Setting,
@@ -39,14 +40,21 @@ dialect = "carla"
 [scenarios.hello_world.run]    # options of `osc2tx run hello_world.osc`
 signal = ["go_signal@1s"]
 max-time = 60
+
+[files."highway/**"]           # for all files of a pattern
+ignore = ["OSC437"]
 ```
+
+A pattern counts from a folder of `sources` or from the settings file: `*` is any part of a name,
+`**` any number of folders. Of several patterns the later one goes before, and `[scenarios.NAME]`
+goes before all.
 
 In `pyproject.toml` the tables are called `[tool.osc2tx]`, `[tool.osc2tx.scenarios.hello_world]` and
 so on.
 
 An unknown key, or a value of the wrong form, is an error: exit code 2, with the nearest key that is
-known. A table `[scenarios.NAME]` without a file `NAME.osc` is reported when a folder is checked or
-built, and counts as a warning under `--strict`.
+known. A table `[scenarios.NAME]` or `[files."PATTERN"]` without a file is reported when a folder is
+checked or built, and counts as a warning under `--strict`.
 """
 
 
@@ -58,13 +66,15 @@ def render() -> str:
     return "\n".join(
         [
             INTRODUCTION,
-            "## For all sources, and in `[scenarios.NAME]`\n",
+            '## For all sources, and in `[scenarios.NAME]` and `[files."PATTERN"]`\n',
             _table(compiling),
             "## For the project\n",
             "For `osc2tx build` without paths or without `--out`, started in the folder of the",
             "settings file or below. Paths are relative to the settings file.\n",
             _table([_row(setting) for setting in PROJECT_SETTINGS]),
-            "## In `[scenarios.NAME.run]`\n",
+            '## In `[files."PATTERN"]` only\n',
+            _table([_row(setting) for setting in FILES_SETTINGS]),
+            '## In `[scenarios.NAME.run]` and `[files."PATTERN".run]`\n',
             "Options of `osc2tx run`, written as on the command line. Lists are put together with",
             "those of the command line, item by item; of two values for one name that of the",
             "command line counts. Paths are relative to the settings file. Where `world` names",

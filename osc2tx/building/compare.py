@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from osc2tx.building.jobs import Job, find_jobs
 from osc2tx.building.plan import place_outputs
+from osc2tx.building.result_cache import ResultCache
 from osc2tx.building.results import FileResult
 from osc2tx.building.version_control import (
     LINK,
@@ -210,59 +211,92 @@ def compare_with(
     given: GivenOptions,
     *,
     workers: int,
+    cache: Path | None = None,
     progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> Comparison:
-    """Compile the sources of a revision and those of today, with the settings of each.
+    """Compare what the sources of a revision make with those of today, with the settings of each.
 
     Args:
         revision: A commit, in any way git understands.
         paths: Files and folders of today.
         given: Options that go before those of settings files, in both.
         workers: How many processes may compile.
+        cache: Folder of earlier results; in the user's cache if left out.
         progress: Is told how many of how many files are compiled.
 
     Raises:
         InputError, ConfigError: If either cannot be read.
     """
-
-    def compile_more(jobs: Sequence[Job]) -> list[FileResult]:
-        return compile_jobs(jobs, workers)
-
-    new_jobs = find_jobs(paths, given, ConfigFiles())
+    new = _State(paths, given, workers, cache, progress)
     libraries = given.import_paths or ()
     with checked_out(paths, revision, libraries) as old_sources:
         old_given = replace(given, import_paths=old_sources.libraries or None)
-        old_jobs = find_jobs(old_sources.paths, old_given, ConfigFiles())
-        jobs = (*old_jobs, *new_jobs)
-        numbers = count(1)
-        results = compile_jobs(jobs, workers, lambda _: progress(next(numbers), len(jobs)))
-        old, new = results[: len(old_jobs)], results[len(old_jobs) :]
-        old_texts, _ = _texts(with_siblings(old, compile_more, ConfigFiles()))
-    new_texts, problems = _texts(with_siblings(new, compile_more, ConfigFiles()))
-    problems += old_sources.problems
+        old = _State(old_sources.paths, old_given, workers, cache, progress)
+        differences = [
+            Difference(path, old.text(path), new.text(path))
+            for path in sorted(old.placed.keys() | new.placed.keys())
+            if old.digest(path) != new.digest(path)
+        ]
+    problems = [*new.problems, *old_sources.problems]
     problems += [
         f"{revision}: {result.job.name} has errors and makes nothing"
-        for result in old
+        for result in old.results
         if any(report.severity is Severity.ERROR for report in result.reports)
     ]
-    differences = [
-        Difference(path, old_texts.get(path), new_texts.get(path))
-        for path in sorted(old_texts | new_texts)
-        if old_texts.get(path) != new_texts.get(path)
-    ]
     return Comparison(
-        results=tuple(new),
+        results=tuple(new.results),
         differences=tuple(differences),
         problems=tuple(problems),
-        bugs=tuple(result.bug for result in results if result.bug),
+        bugs=tuple(result.bug for result in (*old.results, *new.results) if result.bug),
     )
 
 
-def _texts(results: Sequence[FileResult]) -> tuple[dict[str, str], list[str]]:
-    placed, problems = place_outputs(results)
-    texts = {
-        item.path: item.made.text
-        for item in placed
-        if item.is_committed and item.made.text is not None
-    }
-    return texts, problems
+class _State:
+    """What the sources of one state make; results of earlier builds count."""
+
+    def __init__(
+        self,
+        paths: Sequence[str | Path],
+        given: GivenOptions,
+        workers: int,
+        cache: Path | None,
+        progress: Callable[[int, int], None],
+    ) -> None:
+        configs = ConfigFiles()
+        self._workers = workers
+        self._progress = progress
+        self._memory = ResultCache("build", configs, cache)
+        self.results = self._compile(find_jobs(paths, given, configs))
+        made = with_siblings(self.results, self._compile, configs)
+        self._memory.close()
+        placed, self.problems = place_outputs(made)
+        self.placed = {item.path: item for item in placed if item.is_committed}
+
+    def digest(self, path: str) -> str | None:
+        """Return the digest of an output; `None` if it makes none."""
+        return self.placed[path].made.digest if path in self.placed else None
+
+    def text(self, path: str) -> str | None:
+        """Return the text of an output; `None` if it makes none."""
+        if path not in self.placed:
+            return None
+        item = self.placed[path]
+        result = item.result
+        if item.made.text is None:
+            whole = self._memory.with_texts(result)
+            result = whole or compile_jobs([result.job], self._workers)[0]
+        texts = {made.suffix: made.text for made in result.outputs}
+        return texts[item.made.suffix]
+
+    def _compile(self, jobs: Sequence[Job]) -> list[FileResult]:
+        known = {job: result for job in jobs if (result := self._memory.load(job)) is not None}
+        missing = [job for job in jobs if job not in known]
+        numbers = count(1)
+
+        def finished(result: FileResult) -> None:
+            self._memory.keep(result)
+            self._progress(next(numbers), len(missing))
+
+        made = compile_jobs(missing, self._workers, finished)
+        known |= dict(zip(missing, made, strict=True))
+        return [known[job] for job in jobs]

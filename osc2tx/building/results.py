@@ -12,12 +12,13 @@ from osc2tx.building.jobs import Job, find_bug
 from osc2tx.compilation.file_reports import LossEntry
 from osc2tx.diagnostics import Diagnostic, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
-from osc2tx_shared.classes import dataclass
+from osc2tx_shared.classes import dataclass, replace
 
 if TYPE_CHECKING:
     from osc2tx.compilation.driver import Compilation, Memory, Output
     from osc2tx.compilation.imports import Lookup
     from osc2tx.compilation.uses import UsedFile
+    from osc2tx.config import ConfigFiles
     from osc2tx.options import CompileOptions
 
 SUFFIX = ".osc"
@@ -246,3 +247,25 @@ def used_files(dependencies: Iterable[Dependency], text_of: Callable[[str], str]
     wanted = (d for d in dependencies if d.detail is Detail.USES and d.digest is not None)
     paths = dict.fromkeys(each.found for each in wanted)
     return [UsedFile(PurePath(path).name, text_of(path)) for path in paths]
+
+
+def without_ignored(results: Sequence[FileResult], configs: ConfigFiles) -> list[FileResult]:
+    """Return results without the warnings that settings ignore in the files that they are in."""
+    codes: dict[Path, frozenset[str]] = {}
+
+    def is_ignored(report: Diagnostic) -> bool:
+        path = report.primary.source.path if report.primary is not None else None
+        if path is None:
+            return False
+        if path not in codes:
+            codes[path] = configs.for_source(path).ignored(path)
+        return report.code in codes[path]
+
+    return [
+        (
+            replace(result, reports=tuple(r for r in result.reports if not is_ignored(r)))
+            if any(map(is_ignored, result.reports))
+            else result
+        )
+        for result in results
+    ]

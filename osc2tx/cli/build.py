@@ -24,6 +24,7 @@ from osc2tx.compilation.driver import Compilation
 from osc2tx.compilation.dump import dump_product
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError, ConfigFiles, GivenOptions
+from osc2tx.diagnostics.report import FileFault
 from osc2tx.options import PRODUCT_NAMES, ProductName
 from osc2tx.support.paths import is_committed
 from osc2tx_shared.cache import cache_folder
@@ -111,7 +112,7 @@ def build(
             "of --check/--diff, --diff-against, --watch choose one; "
             "--force and --prune are for builds that write"
         )
-    if (diff or diff_against) and reporter.form != "text":
+    if diff and reporter.form != "text":
         raise click.UsageError("--diff and --output-format both print to standard output")
     from osc2tx.building.workers import processors
 
@@ -154,7 +155,11 @@ def _run(task: _Task, options: BuildOptions) -> tuple[BuildResult, Exit, str]:
             progress=progress,
             waiting=_say_who_builds,
         )
-    code, report = task.reporter.report(result.results, result.bugs)
+    changes = result.changes if options.check_only else ()
+    faults = [
+        FileFault(change.path.as_posix(), "stale-output", _fault(change)) for change in changes
+    ]
+    code, report = task.reporter.report(result.results, result.bugs, faults)
     if any(Path(path).is_dir() for path in task.paths):
         code = max(code, task.reporter.warn(configs.unmatched_tables()))
     for problem in (*result.collisions, *result.failures):
@@ -207,13 +212,10 @@ def _say_losses(reporter: Reporter, results: Sequence[FileResult]) -> None:
 
 def _compare(task: _Task, *, check: bool, diff: bool) -> Exit:
     from osc2tx.building.build import BuildOptions
-    from osc2tx.building.plan import State
 
     options = BuildOptions(check_only=True, want_texts=diff, workers=task.workers)
     result, code, counts = _run(task, options)
     for change in result.changes:
-        fault = _orphaned(change) if change.state is State.ORPHANED else change.state.value
-        task.reporter.find_fault(change.path, fault)
         if diff and change.text is not None:
             print_diff(str(change.path), read_text(change.path), change.text)
     summary = f"{count_of(result.modules, 'module')} in {task.out_dir}: "
@@ -222,23 +224,44 @@ def _compare(task: _Task, *, check: bool, diff: bool) -> Exit:
     return max(code, Exit.STALE) if check and result.changes else code
 
 
+def _fault(change: Change) -> str:
+    return _orphaned(change) if change.origin else change.state.value
+
+
 def _orphaned(change: Change) -> str:
     return f"{change.state.value}: {change.origin} makes no such file"
 
 
 def _diff_against(task: _Task, revision: str) -> Exit:
     """Print what the sources of today make, against what those of a revision would."""
-    from osc2tx.building.compare import compare_with
+    from osc2tx.building.compare import compare_with, diff_lines
 
     with progress_bar("compiling") as progress:
         comparison = compare_with(
-            revision, task.paths, task.given, workers=task.workers, progress=progress
+            revision,
+            task.paths,
+            task.given,
+            workers=task.workers,
+            cache=task.cache,
+            progress=progress,
         )
-    code, report = task.reporter.report(comparison.results)
+    reads_document = task.reporter.form != "text"
+    paths = {each: (task.out_dir / each.path).as_posix() for each in comparison.differences}
+    faults = [
+        FileFault(
+            path,
+            "changed-output",
+            f"changed since {revision}",
+            "".join(diff_lines(path, each.old, each.new)),
+        )
+        for each, path in paths.items()
+        if reads_document
+    ]
+    code, report = task.reporter.report(comparison.results, faults=faults)
     for problem in comparison.problems:
         complain(problem)
-    for difference in comparison.differences:
-        print_diff(str(task.out_dir / difference.path), difference.old, difference.new)
+    for each, path in () if reads_document else paths.items():
+        print_diff(path, each.old, each.new)
     changed = count_of(len(comparison.differences), "file")
     complain(f"{changed} changed since {revision}; {found(report)}")
     return max(code, Exit.BUG) if comparison.bugs else code

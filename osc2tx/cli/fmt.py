@@ -18,6 +18,7 @@ from osc2tx.cli.standard_input import (
 )
 from osc2tx.compilation.driver import Compilation
 from osc2tx.config import GivenOptions
+from osc2tx.diagnostics.report import FileFault
 from osc2tx.support.paths import real_path
 from osc2tx_shared.text import complain, put
 
@@ -53,17 +54,17 @@ def fmt(
 
     def format_one(compilation: Compilation) -> None:
         text = compilation.formatted
-        if text is not None and compilation.path.read_bytes() != text.encode():
+        if text is not None and _differs(compilation.path, text):
             formatted[compilation.path] = text
 
     bugs = run_all(compilations, format_one)
-    code, _ = reporter.report(compilations, bugs)
+    wrong = formatted if check_only and not show_diff else ()
+    faults = [FileFault(path.as_posix(), "not-formatted", "is not formatted") for path in wrong]
+    code, _ = reporter.report(compilations, bugs, faults)
     for path, text in formatted.items():
         if show_diff:
             print_diff(str(path), path.read_bytes().decode("utf-8"), text)
-        elif check_only:
-            complain(f"{path}: is not formatted")
-        else:
+        elif not check_only:
             code = max(code, _write(path, text))
     would = "would be " if check_only or show_diff else ""
     total = count_of(len(compilations), "file")
@@ -88,6 +89,12 @@ def _format_input(
     elif not check_only and not show_diff:
         put(text.removesuffix("\n"))
     return max(code, Exit.STALE) if differs and (check_only or show_diff) else code
+
+
+def _differs(path: Path, text: str) -> bool:
+    """Whether a file is not formatted; a working copy may have line ends of Windows throughout."""
+    data = path.read_bytes()
+    return data not in (text.encode(), text.replace("\n", "\r\n").encode())
 
 
 def _write(path: Path, text: str) -> Exit:

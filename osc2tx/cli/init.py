@@ -20,6 +20,7 @@ FILES: Mapping[str, str] = {
     "scenarios/slow_down.osc": "scenario.osc",
     "tests/test_scenarios.py": "test_scenarios.py",
     ".gitignore": "gitignore",
+    ".gitattributes": "gitattributes",
     ".pre-commit-config.yaml": "pre-commit-config.yaml",
     ".github/workflows/scenarios.yml": "workflow.yml",
 }

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections import Counter
 from collections.abc import Callable, Sequence
 from enum import IntEnum
 from functools import wraps
@@ -18,7 +19,7 @@ import click
 
 from osc2tx.compilation.file_reports import Reportable, apply_suppressions
 from osc2tx.diagnostics import Severity
-from osc2tx.diagnostics.report import Report, make_report
+from osc2tx.diagnostics.report import FileFault, Report, display_name, make_report
 from osc2tx.version import __version__
 from osc2tx_shared.classes import dataclass, replace
 from osc2tx_shared.text import complain, is_watched, put, put_document, say
@@ -99,9 +100,12 @@ class Reporter:
     docs_url: str | None = None
 
     def report(
-        self, compilations: Sequence[Reportable], bugs: Sequence[str] = ()
+        self,
+        compilations: Sequence[Reportable],
+        bugs: Sequence[str] = (),
+        faults: Sequence[FileFault] = (),
     ) -> tuple[Exit, Report]:
-        """Print all diagnostics, and bugs of ours.
+        """Print all diagnostics, bugs of ours, and what is wrong with files as a whole.
 
         Returns:
             The exit code they call for, and what there is to report.
@@ -116,14 +120,19 @@ class Reporter:
             suppressed=len(settled.suppressed),
             folder=Path.cwd(),
             most_shown=most,
+            is_for_readers=self.form in FORMATS_FOR_READERS and self.most_shown is None,
         )
         entries = (entry for item in compilations for entry in item.scenarios)
-        report = replace(report, scenarios=tuple(entries))
+        report = replace(report, scenarios=tuple(entries), faults=tuple(faults))
         self._print(report, failed=bool(bugs))
         for bug in bugs:
             put(bug, err=True)
         if bugs:
             complain(BUG_REPORT)
+        self._say_what_was_not_compiled(compilations)
+        for fault in faults:
+            if fault.diff is None:
+                complain(f"{fault.file}: {fault.message}")
         return self._exit_code(compilations, report, bugs), report
 
     def report_nothing(self) -> None:
@@ -139,13 +148,18 @@ class Reporter:
             complain(f"warning: {sentence}")
         return Exit.WARNINGS if self.is_strict and sentences else Exit.OK
 
-    def find_fault(self, file: Path, message: str) -> None:
-        """Print what is wrong with an output."""
-        complain(f"{file}: {message}")
-        if self.form == "github":
-            from osc2tx.diagnostics.render import render_remark
-
-            put_document(render_remark(file.as_posix(), "osc2tx build --check", message))
+    @staticmethod
+    def _say_what_was_not_compiled(compilations: Sequence[Reportable]) -> None:
+        """Count files without an error of their own that a library keeps from being compiled."""
+        waiting: Counter[str] = Counter()
+        for each in compilations:
+            errors = [r for r in each.reports if r.severity is Severity.ERROR and r.primary]
+            places = [report.primary.source for report in errors if report.primary is not None]
+            own = each.source.identity if each.source is not None else None
+            if places and all(place.identity != own for place in places):
+                waiting[display_name(places[0], Path.cwd())] += 1
+        for library, count in waiting.items():
+            complain(f"{count_of(count, 'file')} not compiled because of errors in {library}")
 
     def say(self, line: str) -> None:
         """Print a line that sums up, where it does not disturb."""

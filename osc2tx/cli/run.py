@@ -216,7 +216,8 @@ def merge_texts(config: Config, path: Path, given: Texts) -> dict[str, tuple[str
     try:
         read_options(stated)
     except SettingsError as error:
-        where = f"{config.path}: in [scenarios.{path.stem}.run]"
+        tables = " or ".join(f"[{name}.run]" for name, _ in config.tables_for(path))
+        where = f"{config.path}: in {tables}"
         raise ConfigError(f"{where}: {error.message}") from None
     own = {name.replace("_", "-"): tuple(texts) for name, texts in given.items()}
     texts = {

@@ -10,6 +10,8 @@ before pyproject.toml. What the command line says beats what a file says.
     dialect = "carla"
     [scenarios.hello_world.run]    # run options, written as on the command line
     signal = ["go_signal@1s"]
+    [files."highway/**"]           # for all files of a pattern
+    ignore = ["OSC437"]
 
 `settings` holds the tables of all keys, `reader` turns a file into a `Config` of `model`, and
 `files` finds the file for a source.
@@ -20,6 +22,7 @@ from osc2tx.config.model import Config, ConfigError, GivenOptions, InForce, Orig
 from osc2tx.config.settings import (
     CAMPAIGN_SETTINGS,
     COMPILE_SETTINGS,
+    FILES_SETTINGS,
     PROJECT_SETTINGS,
     RUN_SETTINGS,
     Setting,
@@ -28,6 +31,7 @@ from osc2tx.config.settings import (
 __all__ = [
     "CAMPAIGN_SETTINGS",
     "COMPILE_SETTINGS",
+    "FILES_SETTINGS",
     "PROJECT_SETTINGS",
     "RUN_SETTINGS",
     "Config",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from pathlib import Path
 
 from osc2tx.config.model import Config
@@ -17,7 +18,7 @@ class ConfigFiles:
         """Start with nothing read."""
         self._by_folder: dict[Path, Config] = {}
         self._resolved: dict[Path, Path] = {}
-        self._used: dict[Path, set[str]] = {}
+        self._used: dict[Path, set[Path]] = {}
 
     def for_source(self, source: Path) -> Config:
         """Return the settings for a source file; for a link, those of the place of the link.
@@ -29,7 +30,7 @@ class ConfigFiles:
             self._resolved[source.parent] = real_path(source.parent)
         config = self._for_folder(self._resolved[source.parent])
         if config.path is not None:
-            self._used.setdefault(config.path, set()).add(source.stem)
+            self._used.setdefault(config.path, set()).add(source)
         return config
 
     def for_folder(self, folder: Path) -> Config:
@@ -41,27 +42,35 @@ class ConfigFiles:
         return self._for_folder(real_path(folder))
 
     def unmatched_tables(self) -> list[str]:
-        """Return a sentence for each table of a file that does not exist.
+        """Return a sentence for each table of files that do not exist.
 
         Only the settings of sources that were asked for are looked at.
         """
+        configs = {config.path: config for config in self._by_folder.values()}
         return [
-            f"{config.path}: [{table}] is for no file: there is no `{name}.osc`"
-            for config in {config.path: config for config in self._by_folder.values()}.values()
-            if config.path in self._used
-            for name in sorted(self._missing(config))
-            for table in (".".join(filter(None, (config.prefix, "scenarios", name))),)
+            f"{config.path}: [{name}] is for no file: {why}"
+            for path, config in configs.items()
+            if path in self._used
+            for table, why in self._missing(config)
+            for name in (".".join(filter(None, (config.prefix, table))),)
         ]
 
-    def _missing(self, config: Config) -> set[str]:
+    def _missing(self, config: Config) -> Iterator[tuple[str, str]]:
+        """Yield the tables that match no file, each with the reason."""
         assert config.path is not None, "there is a file"
-        missing = set(config.scenarios) - self._used[config.path]
-        for _, folders, files in os.walk(config.path.parent if missing else ""):
-            folders[:] = [name for name in folders if not name.startswith(".")]
-            missing -= {name.removesuffix(".osc") for name in files if name.endswith(".osc")}
-            if not missing:
-                break
-        return missing
+        used = self._used[config.path]
+        names = set(config.scenarios) - {source.stem for source in used}
+        patterns = {
+            pattern
+            for pattern in config.files
+            if not any(config.matches(pattern, source) for source in used)
+        }
+        for source in _sources_below(config.path.parent) if names or patterns else ():
+            names.discard(source.stem)
+            patterns -= {pattern for pattern in patterns if config.matches(pattern, source)}
+        yield from ((f"scenarios.{name}", f"there is no `{name}.osc`") for name in sorted(names))
+        for pattern in sorted(patterns):
+            yield f'files."{pattern}"', "no source is called like that"
 
     def _for_folder(self, folder: Path) -> Config:
         if folder not in self._by_folder:
@@ -70,3 +79,9 @@ class ConfigFiles:
                 found = Config() if folder == folder.parent else self._for_folder(folder.parent)
             self._by_folder[folder] = found
         return self._by_folder[folder]
+
+
+def _sources_below(folder: Path) -> Iterator[Path]:
+    for place, folders, files in os.walk(folder):
+        folders[:] = [name for name in folders if not name.startswith(".")]
+        yield from (Path(place, name) for name in files if name.endswith(".osc"))

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from osc2tx.config.settings import COMPILE_SETTINGS, RUN_SETTINGS
 from osc2tx.options import ONLY_VERSIONS, CompileOptions, XmlOptions
-from osc2tx_shared.classes import dataclass
+from osc2tx.support.paths import real_path
+from osc2tx_shared.classes import dataclass, replace
 
 
 class ConfigError(Exception):
@@ -76,17 +79,29 @@ _XML = {
 
 @dataclass(frozen=True, slots=True)
 class ScenarioConfig:
-    """The table of one scenario file.
+    """The table of one scenario file, or of a pattern of files.
 
     Attributes:
         options: Compile options of this file.
         run: Run option to what is written for it, in the syntax of the command line.
         campaign: Option of `osc2tx campaign run`, likewise.
+        ignore: Codes of warnings that are not reported.
     """
 
     options: GivenOptions = GivenOptions()
     run: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     campaign: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    ignore: tuple[str, ...] = ()
+
+    def given(self) -> GivenOptions:
+        """Return its compile options, and its run options as far as XML holds them."""
+        return self.options.over(
+            GivenOptions(
+                signal=self.run.get("signal"),
+                spawn=self.run.get("spawn"),
+                map_path=self.run.get("map-path"),
+            )
+        )
 
 
 _RUN_PATHS = {setting.key for setting in RUN_SETTINGS if setting.is_path}
@@ -119,51 +134,88 @@ class Config:
         prefix: The table of the file that is ours; empty if all of it is.
         options: Compile options for all files.
         scenarios: Tables of single files, by the stem of the file name.
+        files: Tables by pattern of the paths of files; a later one goes before an earlier one.
         sources: Files and folders of the project.
         source_folders: Their folders, links followed.
         out: Where to.
+        map_paths: Folders with maps, for all files.
     """
 
     path: Path | None = None
     prefix: str = ""
     options: GivenOptions = GivenOptions()
     scenarios: Mapping[str, ScenarioConfig] = field(default_factory=dict)
+    files: Mapping[str, ScenarioConfig] = field(default_factory=dict)
     sources: tuple[Path, ...] = ()
     source_folders: tuple[Path, ...] = ()
     out: Path | None = None
+    map_paths: tuple[str, ...] = ()
 
     @property
     def folder(self) -> Path | None:
         """The folder that the file stands for: all in it belongs to one project."""
         return self.path.parent if self.path else None
 
+    def tables_for(self, source: Path) -> list[tuple[str, ScenarioConfig]]:
+        """Return the tables of a file with their names, the one that goes before all first."""
+        found = [
+            (f'files."{pattern}"', table)
+            for pattern, table in reversed(list(self.files.items()))
+            if self.matches(pattern, source)
+        ]
+        if source.stem in self.scenarios:
+            found.insert(0, (f"scenarios.{source.stem}", self.scenarios[source.stem]))
+        return found
+
+    def matches(self, pattern: str, source: Path) -> bool:
+        """Return whether a file is one of a pattern.
+
+        Its path counts from the folder of sources that holds it, or from the settings file; `*` is
+        any part of a name, `**` any number of folders.
+        """
+        place = real_path(source.parent) / source.name
+        folders = (*self.source_folders, *(() if self.folder is None else (self.folder,)))
+        names = (place.relative_to(each) for each in folders if place.is_relative_to(each))
+        return any(_pattern(pattern).fullmatch(name.as_posix()) for name in names)
+
     def options_for(self, source: Path, given: GivenOptions) -> CompileOptions:
-        """Return the options for a file: the command line, then its table, then the file's."""
-        table = self.scenarios.get(source.stem, ScenarioConfig())
-        of_run = GivenOptions(
-            signal=table.run.get("signal"),
-            spawn=table.run.get("spawn"),
-            map_path=table.run.get("map-path"),
-        )
-        return given.over(table.options).over(of_run).over(self.options).complete()
+        """Return the options for a file: the command line, then its tables, then the file's."""
+        for _, table in self.tables_for(source):
+            given = given.over(table.given())
+        found = given.over(self.options).complete()
+        if not self.map_paths:
+            return found
+        maps = (*found.xml.map_path, *self.map_paths)
+        return replace(found, xml=replace(found.xml, map_path=maps))
 
     def run_settings(self, source: Path) -> Mapping[str, tuple[str, ...]]:
         """Return the run options of a file."""
-        return self.scenarios.get(source.stem, ScenarioConfig()).run
+        found: dict[str, tuple[str, ...]] = {}
+        for _, table in self.tables_for(source):
+            found = {**table.run, **found}
+        if self.map_paths:
+            found["map-path"] = (*found.get("map-path", ()), *self.map_paths)
+        return found
 
     def campaign_settings(self, source: Path) -> Mapping[str, tuple[str, ...]]:
         """Return the options of the campaign of a file."""
-        return self.scenarios.get(source.stem, ScenarioConfig()).campaign
+        found: dict[str, tuple[str, ...]] = {}
+        for _, table in self.tables_for(source):
+            found = {**table.campaign, **found}
+        return found
+
+    def ignored(self, source: Path) -> frozenset[str]:
+        """Return the codes of warnings that are not reported in a file."""
+        return frozenset(code for _, table in self.tables_for(source) for code in table.ignore)
 
     def settings_in_force(self, source: Path | None, given: GivenOptions) -> Iterator[InForce]:
         """Yield what counts for a file, or for a folder, with where it is from."""
-        table = self.scenarios.get(source.stem, ScenarioConfig()) if source else ScenarioConfig()
-        section = f"scenarios.{source.stem}" if source else ""
-        layers = (
+        tables = self.tables_for(source) if source else []
+        layers = [
             (given, Origin("command line")),
-            (table.options, self._origin(section)),
+            *((table.options, self._origin(name)) for name, table in tables),
             (self.options, self._origin("")),
-        )
+        ]
         for setting in COMPILE_SETTINGS:
             stated = ((getattr(layer, setting.key), origin) for layer, origin in layers)
             default = (setting.default, Origin("default"))
@@ -174,10 +226,27 @@ class Config:
             yield InForce("sources", sources, self._origin(""), is_path=True)
         if self.out is not None:
             yield InForce("out", str(self.out), self._origin(""), is_path=True)
-        for part, texts_of in (("run", table.run), ("campaign", table.campaign)):
-            for key, texts in texts_of.items():
-                origin, is_path = self._origin(f"{section}.{part}"), key in _RUN_PATHS
-                yield InForce(f"{part}.{key}", list(texts), origin, is_path)
+        if self.map_paths:
+            yield InForce("map_paths", self.map_paths, self._origin(""), is_path=True)
+        seen: set[str] = set()
+        for part in ("run", "campaign"):
+            for name, table in tables:
+                for key, texts in getattr(table, part).items():
+                    if f"{part}.{key}" not in seen:
+                        seen.add(f"{part}.{key}")
+                        origin, is_path = self._origin(f"{name}.{part}"), key in _RUN_PATHS
+                        yield InForce(f"{part}.{key}", list(texts), origin, is_path)
+        for name, table in tables:
+            if table.ignore:
+                yield InForce("ignore", list(table.ignore), self._origin(name))
 
     def _origin(self, table: str) -> Origin:
         return Origin(".".join(part for part in (self.prefix, table) if part), self.path)
+
+
+@lru_cache(maxsize=256)
+def _pattern(written: str) -> re.Pattern[str]:
+    """Return the regular expression of a pattern of paths."""
+    parts = re.split(r"(\*\*/|\*\*|\*|\?)", written)
+    meanings = {"**/": "(?:.*/)?", "**": ".*", "*": "[^/]*", "?": "[^/]"}
+    return re.compile("".join(meanings.get(part, re.escape(part)) for part in parts), re.DOTALL)

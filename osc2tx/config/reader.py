@@ -10,11 +10,13 @@ from osc2tx.config.model import Config, ConfigError, GivenOptions, ScenarioConfi
 from osc2tx.config.settings import (
     CAMPAIGN_SETTINGS,
     COMPILE_SETTINGS,
+    FILES_SETTINGS,
     PROJECT_SETTINGS,
     RUN_SETTINGS,
     TABLES,
     Setting,
 )
+from osc2tx.diagnostics import CODES, Severity
 from osc2tx.diagnostics.suggestions import did_you_mean
 from osc2tx.support.paths import real_path
 
@@ -61,6 +63,7 @@ class _Reader:
         keys = [setting.key for setting in (*COMPILE_SETTINGS, *PROJECT_SETTINGS)]
         checked = self._table(table, (), (*keys, *TABLES))
         scenarios = self._table(checked.get("scenarios", {}), ("scenarios",), None)
+        files = self._table(checked.get("files", {}), ("files",), None)
         project = self._texts(checked, PROJECT_SETTINGS, ())
         sources = tuple(map(Path, project.get("sources", ())))
         folders = (path.parent if path.suffix == ".osc" else path for path in sources)
@@ -68,15 +71,24 @@ class _Reader:
             path=self.path,
             prefix=self.prefix,
             options=self._options(checked, ()),
-            scenarios={name: self._scenario(name, value) for name, value in scenarios.items()},
+            scenarios={
+                name: self._scenario(("scenarios", name), value)
+                for name, value in scenarios.items()
+            },
+            files={
+                pattern: self._scenario(("files", f'"{pattern}"'), value, FILES_SETTINGS)
+                for pattern, value in files.items()
+            },
             sources=sources,
             source_folders=tuple(dict.fromkeys(map(real_path, folders))),
             out=Path(project["out"][0]) if "out" in project else None,
+            map_paths=project.get("map_paths", ()),
         )
 
-    def _scenario(self, name: str, table: object) -> ScenarioConfig:
-        where = ("scenarios", name)
-        keys = [setting.key for setting in COMPILE_SETTINGS]
+    def _scenario(
+        self, where: tuple[str, ...], table: object, more: Sequence[Setting] = ()
+    ) -> ScenarioConfig:
+        keys = [setting.key for setting in (*COMPILE_SETTINGS, *more)]
         checked = self._table(table, where, (*keys, "run", "campaign"))
         inner = (*where, "run")
         settings = {item.key: item for item in RUN_SETTINGS}
@@ -89,7 +101,17 @@ class _Reader:
             self._options(checked, where),
             {key: texts[key] for key in run},
             self._campaign(checked.get("campaign", {}), (*where, "campaign")),
+            self._ignored(self._texts(checked, more, where).get("ignore", ()), where),
         )
+
+    def _ignored(self, codes: tuple[str, ...], where: tuple[str, ...]) -> tuple[str, ...]:
+        for code in codes:
+            if code not in CODES:
+                remedy = did_you_mean(code, CODES) or "`osc2tx explain` lists all"
+                raise self._error(where, f"`ignore`: there is no code `{code}`; {remedy}")
+            if CODES[code].severity is Severity.ERROR:
+                raise self._error(where, f"`ignore`: `{code}` is an error: only warnings can be")
+        return codes
 
     def _campaign(self, table: object, where: tuple[str, ...]) -> dict[str, tuple[str, ...]]:
         checked = self._table(table, where, [setting.key for setting in CAMPAIGN_SETTINGS])

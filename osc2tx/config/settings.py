@@ -68,6 +68,11 @@ COMPILE_SETTINGS = (
 PROJECT_SETTINGS = (
     Setting("sources", "Files and folders to build.", is_list=True, is_path=True),
     Setting("out", "Folder of the outputs.", is_path=True),
+    Setting("map_paths", "Folders with maps, for all commands.", is_list=True, is_path=True),
+)
+# In the table of a pattern of files, besides those of a scenario.
+FILES_SETTINGS = (
+    Setting("ignore", "Codes of warnings that are not reported in these files.", is_list=True),
 )
 # Options of `osc2tx run` for one file, by their names on the command line.
 RUN_SETTINGS = (
@@ -100,4 +105,4 @@ CAMPAIGN_SETTINGS = (
     Setting("engine", "Where rows are run.", is_single=True),
     Setting("digests", "Make each trace, and store its digest.", is_flag=True),
 )
-TABLES = ("scenarios",)  # of tables, one for each scenario file
+TABLES = ("scenarios", "files")  # of tables, one for each scenario file or pattern of files

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
 from pathlib import Path
 
 from osc2tx.diagnostics.model import Diagnostic, Severity
 from osc2tx.diagnostics.source import SourceFile
 from osc2tx.support.paths import real_path
-from osc2tx_shared.classes import dataclass
+from osc2tx_shared.classes import dataclass, replace
+
+MOST_FILES_APART = 5  # with the same diagnostic; of more, it is shown once
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +24,23 @@ class ScenarioEntry:
     level: str
     open: tuple[str, ...]
     summary: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class FileFault:
+    """What is wrong with a file as a whole, such as an output that is stale.
+
+    Attributes:
+        file: The file, as somebody in the folder would write it.
+        rule: What finds it: `stale-output`, `changed-output` or `not-formatted`.
+        message: What is wrong.
+        diff: How it would change, if that is asked for.
+    """
+
+    file: str
+    rule: str
+    message: str
+    diff: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +57,7 @@ class Report:
         folder: Where the reader works; files below it are cited relative to it.
         scenarios: The scenarios of these files, with how far each is worked out.
         failure: Why osc2tx did not begin, if it did not.
+        faults: What is wrong with files as a whole.
     """
 
     diagnostics: tuple[Diagnostic, ...] = ()
@@ -49,6 +69,7 @@ class Report:
     folder: Path | None = None
     scenarios: tuple[ScenarioEntry, ...] = ()
     failure: str | None = None
+    faults: tuple[FileFault, ...] = ()
 
 
 def make_report(
@@ -58,6 +79,7 @@ def make_report(
     suppressed: int = 0,
     folder: Path | None = None,
     most_shown: int = 0,
+    is_for_readers: bool = False,
 ) -> Report:
     """Order diagnostics and keep the first of each file.
 
@@ -67,6 +89,7 @@ def make_report(
         suppressed: How many warnings are kept back.
         folder: Where the reader works.
         most_shown: How many diagnostics of one file are shown; 0 shows all.
+        is_for_readers: Whether a diagnostic that many files have is shown once.
     """
     names: dict[SourceFile, str] = {}
 
@@ -83,8 +106,9 @@ def make_report(
 
     ordered = sorted(found, key=place)
     counts: Counter[str] = Counter()
-    shown = []
-    for diagnostic in ordered:
+    shown: list[Diagnostic] = []
+    candidates = _with_one_cause(ordered, file_of) if is_for_readers else ordered
+    for diagnostic in candidates:
         file = file_of(diagnostic)
         counts[file] += 1
         if not most_shown or counts[file] <= most_shown:
@@ -103,6 +127,25 @@ def make_report(
         suppressed=suppressed,
         folder=folder,
     )
+
+
+def _with_one_cause(
+    ordered: Sequence[Diagnostic], file_of: Callable[[Diagnostic], str]
+) -> Iterator[Diagnostic]:
+    """Yield diagnostics; one that many files have comes once, with the first places of others."""
+    groups: dict[tuple[str, str], list[Diagnostic]] = {}
+    for diagnostic in ordered:
+        groups.setdefault((diagnostic.code, diagnostic.message), []).append(diagnostic)
+    for diagnostic in ordered:
+        group = groups[diagnostic.code, diagnostic.message]
+        files = dict.fromkeys(map(file_of, group))
+        if len(files) <= MOST_FILES_APART:
+            yield diagnostic
+        elif diagnostic is group[0]:
+            places = [f"{file_of(d)}:{d.primary.line}" for d in group[1:] if d.primary is not None]
+            first = ", ".join(places[:MOST_FILES_APART])
+            note = f"the same {len(group)} times in {len(files)} files: also {first}, …"
+            yield replace(diagnostic, notes=(*diagnostic.notes, note))
 
 
 def display_name(source: SourceFile, folder: Path | None) -> str:

@@ -32,7 +32,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "backends": {"catalogue", "diagnostics", "ir", "options", "resources", "support"},
     # what runs them
     "formatter": {"diagnostics", "syntax"},
-    "config": {"diagnostics.suggestions", "options", "support"},
+    "config": {"diagnostics", "options", "support"},
     "compilation": {"syntax", "semantics", "analysis", "ir", "lowering", "backends"}
     | {"diagnostics", "formatter", "options", "support"},
     "building": {"compilation", "config"}

@@ -109,6 +109,15 @@ ROWS = [
     Row("comments_attach", 1.0),
     Row("duration_given_to_a_free_change", 7.0, "done@7", seeds=3),
     Row("durations_choose_starts_and_draws", 13.0, "m@2 first@5 second@10 done@13", seeds=5),
+    Row("global_fixed_by_a_scenario", 0.0, "done@0"),
+    Row("range_that_is_no_literal", options=("--std", "2.2"), seeds=3),
+    Row("sample_seen_by_its_own_event", 2.0, "now@1 seen@1"),
+    Row(
+        "scenario_derived_by_condition",
+        4.0,
+        "a@1 done@4",
+        options=("--scenario", "scenario_derived_by_condition"),
+    ),
     Row("constraint_of_constants", code=3, found=("6 OSC421", "7 OSC421")),
     Row("conversion_without_a_member", code=3, found=("6 OSC426", "7 OSC426")),
     Row("enum_value_of_another", 0.0, options=("--std", "2.2")),
@@ -155,12 +164,8 @@ OPEN = {
     "enters_in_the_second_phase",
     "event_of_an_element",
     "field_added_to_vehicle",
-    "global_fixed_by_a_scenario",
     "modifier_with_an_on",
-    "range_that_is_no_literal",
     "recursion_with_a_way_out",
-    "sample_seen_by_its_own_event",
-    "scenario_derived_by_condition",
 }
 
 

@@ -91,7 +91,7 @@ def test_run_keys_are_options_of_the_runtime() -> None:
         (
             "zzz = 1",
             "unknown key `zzz`; known keys: std, dialect, one_of, target, xml_version, xml_profile,"
-            " allow_approx, import_paths, sources, out, scenarios",
+            " allow_approx, import_paths, sources, out, map_paths, scenarios, files",
         ),
         ("allow_approx = 1", "`allow_approx` is 1: write true or false"),
         ("std = 2.1", '`std` is 2.1: write "2.1" or "2.2"'),
@@ -181,3 +181,73 @@ def test_the_reference_is_up_to_date() -> None:
     tool = runpy.run_path(str(REPOSITORY / "tools/make_config_doc.py"))
     page = (REPOSITORY / "docs/config.md").read_text(encoding="utf-8")
     assert page == tool["render"](), "run `make docs-config`"
+
+
+PATTERNS = """
+sources = ["scenarios"]
+map_paths = ["maps"]
+std = "2.1"
+[files."highway/**"]
+std = "2.2"
+target = "py"
+ignore = ["OSC437"]
+run = {seed = 3, max-time = 9}
+[files."**/cut_*.osc"]
+target = "xosc"
+run = {seed = 4, map-path = ["more"]}
+[scenarios.cut_in]
+one_of = "first"
+"""
+
+
+def test_tables_by_pattern(tmp_path: Path) -> None:
+    write(tmp_path / "osc2tx.toml", PATTERNS)
+    highway, urban = tmp_path / "scenarios/highway", tmp_path / "scenarios/urban"
+    for folder in (highway, urban):
+        folder.mkdir(parents=True)
+
+    def of(source: Path) -> tuple[str, str, str]:
+        found = options(source)
+        return found.standard, found.target, found.one_of
+
+    assert of(highway / "cut_in.osc") == ("2.2", "xosc", "first")  # the later pattern goes before
+    assert of(highway / "evade.osc") == ("2.2", "py", "race")
+    assert of(urban / "cut_out.osc") == ("2.1", "xosc", "race")
+    assert of(urban / "evade.osc") == ("2.1", "all", "race")
+    given = GivenOptions(target="all")
+    assert options(highway / "cut_in.osc", given).target == "all"
+    config = ConfigFiles().for_source(highway / "cut_in.osc")
+    maps, more = str(tmp_path / "maps"), str(tmp_path / "more")
+    run = config.run_settings(highway / "cut_in.osc")
+    assert run == {"seed": ("4",), "max-time": ("9",), "map-path": (more, maps)}
+    assert options(highway / "cut_in.osc").xml.map_path == (more, maps)
+    assert options(urban / "evade.osc").xml.map_path == (maps,)
+    assert config.ignored(highway / "evade.osc") == {"OSC437"}
+    assert config.ignored(urban / "evade.osc") == frozenset()
+
+
+@pytest.mark.parametrize(
+    "pattern, name, fits",
+    [
+        ("highway/**", "highway/a/b.osc", True),
+        ("highway/*", "highway/a/b.osc", False),
+        ("**/b.osc", "b.osc", True),
+        ("*.osc", "a/b.osc", False),
+        ("scenarios/**/b.osc", "a/b.osc", True),  # from the settings file
+        ("h?ghway/[x].osc", "highway/[x].osc", True),
+    ],
+)
+def test_patterns(tmp_path: Path, pattern: str, name: str, fits: bool) -> None:
+    write(tmp_path / "osc2tx.toml", 'sources = ["scenarios"]\n')
+    source = write(tmp_path / "scenarios" / name, "")
+    assert ConfigFiles().for_source(source).matches(pattern, source) is fits
+
+
+@pytest.mark.parametrize(
+    "code, message",
+    [("OSC999", "there is no code `OSC999`"), ("OSC205", "`OSC205` is an error: only warnings")],
+)
+def test_what_cannot_be_ignored(tmp_path: Path, code: str, message: str) -> None:
+    write(tmp_path / "osc2tx.toml", f'[files."**"]\nignore = ["{code}"]\n')
+    with pytest.raises(ConfigError, match=message):
+        ConfigFiles().for_folder(tmp_path)

@@ -7,7 +7,7 @@ GitHub's workflows). Each is a function of the report alone: same report, same b
 """
 
 from osc2tx.diagnostics.render.explanation import explanation_data, render_explanation
-from osc2tx.diagnostics.render.github import render_github, render_remark
+from osc2tx.diagnostics.render.github import render_github
 from osc2tx.diagnostics.render.json_report import render_json
 from osc2tx.diagnostics.render.sarif import render_sarif
 from osc2tx.diagnostics.render.text import render_all, render_text
@@ -20,7 +20,6 @@ __all__ = [
     "render_explanation",
     "render_github",
     "render_json",
-    "render_remark",
     "render_sarif",
     "render_text",
 ]

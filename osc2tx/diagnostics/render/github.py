@@ -11,6 +11,8 @@ from osc2tx.diagnostics.model import Diagnostic
 from osc2tx.diagnostics.report import Report, display_name
 from osc2tx_shared.text import visible, without_commands
 
+MOST_COMMANDS = 200  # the runner shows fewer, and a log is read
+
 
 def render_github(report: Report) -> str:
     """Return a command for each diagnostic, and one for each file of which some are not shown."""
@@ -19,14 +21,17 @@ def render_github(report: Report) -> str:
         f"::notice {_properties({'file': file})}::{_data(f'{count} more not shown')}"
         for file, count in report.hidden.items()
     ]
+    commands += [
+        f"::error {_properties({'file': fault.file, 'title': f'osc2tx {fault.rule}'})}"
+        f"::{_data(fault.message)}"
+        for fault in report.faults
+    ]
+    if len(commands) > MOST_COMMANDS:
+        more = f"{len(commands) - MOST_COMMANDS} more annotations not shown: see the log"
+        commands[MOST_COMMANDS:] = [f"::notice {_properties({'title': 'osc2tx'})}::{_data(more)}"]
     if report.failure is not None:
         commands.append(f"::error {_properties({'title': 'osc2tx'})}::{_data(report.failure)}")
     return "".join(f"{command}\n" for command in commands)
-
-
-def render_remark(file: str, title: str, message: str) -> str:
-    """Return the command for an error that concerns a file as a whole."""
-    return f"::error {_properties({'file': file, 'title': title})}::{_data(message)}\n"
 
 
 def _command(diagnostic: Diagnostic, report: Report) -> str:

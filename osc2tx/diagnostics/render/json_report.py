@@ -12,7 +12,7 @@ from typing import Any
 
 from osc2tx.diagnostics.codes import CODES
 from osc2tx.diagnostics.model import Diagnostic
-from osc2tx.diagnostics.report import Report, display_name
+from osc2tx.diagnostics.report import FileFault, Report, display_name
 from osc2tx.diagnostics.source import Span
 from osc2tx_shared.text import in_json
 
@@ -47,9 +47,16 @@ def render_json(report: Report, *, version: str) -> str:
             "suppressed": report.suppressed,
         },
     }
+    if report.faults:
+        document["files"] = [_fault(fault) for fault in report.faults]
     if report.failure is not None:
         document["failure"] = report.failure
     return in_json(json.dumps(document, indent=2)) + "\n"
+
+
+def _fault(fault: FileFault) -> dict[str, str]:
+    found = {"file": fault.file, "rule": fault.rule, "message": fault.message}
+    return found if fault.diff is None else {**found, "diff": fault.diff}
 
 
 def _diagnostic(diagnostic: Diagnostic, folder: Path | None) -> dict[str, Any]:

@@ -18,7 +18,7 @@ from urllib.parse import quote
 from osc2tx.diagnostics.codes import CODES, Code
 from osc2tx.diagnostics.model import Diagnostic
 from osc2tx.diagnostics.render.explanation import code_block
-from osc2tx.diagnostics.report import Report, display_name
+from osc2tx.diagnostics.report import FileFault, Report, display_name
 from osc2tx.diagnostics.source import SourceFile, Span
 from osc2tx_shared.text import in_json, visible
 
@@ -40,7 +40,7 @@ def render_sarif(
         docs_url: Where the documentation is published; each rule links to its page there.
     """
     codes = sorted({diagnostic.code for diagnostic in report.diagnostics})
-    driver = {
+    driver: dict[str, Any] = {
         "name": "osc2tx",
         "version": version,
         "rules": [_rule(CODES[code], docs_url) for code in codes],
@@ -54,6 +54,9 @@ def render_sarif(
             report.diagnostics, _fingerprints(report.diagnostics, report.folder), strict=True
         )
     ]
+    rules = sorted({fault.rule for fault in report.faults})
+    driver["rules"] = [*driver["rules"], *map(_file_rule, rules)]
+    results += [_fault(fault, len(codes) + rules.index(fault.rule)) for fault in report.faults]
     invocation: dict[str, Any] = {"executionSuccessful": not failed}
     if report.failure is not None:
         notification = {"level": "error", "message": {"text": _escape(report.failure)}}
@@ -66,6 +69,23 @@ def render_sarif(
     }
     document = {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
     return in_json(json.dumps(document, indent=2)) + "\n"
+
+
+def _file_rule(rule: str) -> dict[str, Any]:
+    text = rule.replace("-", " ").capitalize() + "."
+    return {"id": rule, "shortDescription": {"text": text}}
+
+
+def _fault(fault: FileFault, index: int) -> dict[str, Any]:
+    artifact = {"uri": quote(fault.file)}
+    return {
+        "ruleId": fault.rule,
+        "ruleIndex": index,
+        "level": "error",
+        "message": {"text": _escape(f"{fault.file}: {fault.message}")},
+        "locations": [{"physicalLocation": {"artifactLocation": artifact}}],
+        "partialFingerprints": {FINGERPRINT: sha256(repr(fault).encode()).hexdigest()[:32]},
+    }
 
 
 def _fingerprints(diagnostics: Sequence[Diagnostic], folder: Path | None) -> Iterator[str]:

@@ -33,6 +33,7 @@ ANSWERS: Mapping[str, Any] = {
     "state": ActorState,
     "take_notes": Sequence[tuple[str, Mapping[str, Any]]],
     "trailer_of": str | None,
+    "unsteady": Collection[str],
     "warnings": Sequence[str],
 }
 

@@ -36,12 +36,14 @@ class RecordedRun:
         states: `state` lines of each step, by actor.
         nodes: Nodes of the tree, with their runs.
         failed: Time and name of actions that failed because a condition did not hold.
+        overridden: Time and name of nodes that another one has ended.
     """
 
     header: Line
     states: list[dict[str, Line]]
     nodes: list[Line]
     failed: frozenset[tuple[float, str]]
+    overridden: frozenset[tuple[float, str]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,9 +97,14 @@ def recorded_run(lines: Sequence[Line]) -> RecordedRun:
             states[step][str(line["actor"])] = line
     nodes = [node for line in rest if line["kind"] == "tree" for node in line["nodes"]]
     failed = frozenset((line["t"], line["name"]) for line in rest if _is_failure(line))
-    if not nodes or not states:
+    overridden = frozenset(
+        (line["t"], line["name"])
+        for line in rest
+        if line["kind"] == "override" and line["what"] == "ended"
+    )
+    if not nodes:
         raise ValueError("it is not whole: it has no tree")
-    return RecordedRun(header, states, nodes, failed)
+    return RecordedRun(header, states, nodes, failed, overridden)
 
 
 def _is_failure(line: Line) -> bool:
@@ -141,14 +148,21 @@ def verify(
         context.begin_step(step)
         for action, outcome in ends.get(step, ()):
             phases += 1
-            judged = outcome == "success" or (round(time, 6), action.action_name) in run.failed
-            (monitors.ends if judged else monitors.leaves)(action)
+            is_judged = _is_judged(run, round(time, 6), action, outcome)
+            (monitors.ends if is_judged else monitors.leaves)(action)
         if jumps:
             _show(world, states, time)
         for action in begins.get(step, ()):
             monitors.begins(action)
         monitors.observe()
     return Verification(phases, tuple(monitors.violations))
+
+
+def _is_judged(run: RecordedRun, time: float, action: Action, outcome: str) -> bool:
+    """Whether the phase of an action counts: it ended, and nothing cut it short."""
+    if (time, action.name) in run.overridden:
+        return False
+    return outcome == "success" or (time, action.action_name) in run.failed
 
 
 def _show(world: RecordedWorld, states: Mapping[str, Line], time: float) -> None:

@@ -77,6 +77,7 @@ class EmbeddedWorld:
         self._members: tuple[CommandedActor, ...] = ()
         self._changes: dict[str, StateChange] = {}
         self._changed: Sequence[str] = ()
+        self._unsteady: Sequence[str] = ()
         self._outside: tuple[CommandedActor, ...] = ()  # driven by somebody else
         self._couplings = Couplings()
         self._lights = Lights()
@@ -209,6 +210,10 @@ class EmbeddedWorld:
     def changed(self) -> Sequence[str]:
         """Actors of which the progress of a command may have changed in the last step."""
         return self._changed
+
+    def unsteady(self) -> Collection[str]:
+        """Actors whose speed, lane or offset may have changed since the step before."""
+        return (*self._unsteady, *self._changes) if self._changes else self._unsteady
 
     def reference(self, actor: str) -> ActorState:
         """State that commands start from: as it was wished, abreast of where the actor is."""
@@ -366,6 +371,7 @@ class EmbeddedWorld:
         for member in self._outside:
             member.observe(self)
         self._changed = [member.spec.id for member in others if member.has_news()]
+        self._unsteady = ids if found or coupled else [member.spec.id for member in others]
         self._surroundings.step()
         if self._surroundings.sky is not None:
             self._lights.follow(self._surroundings.automatic_light)

@@ -185,6 +185,9 @@ class World(Protocol):
     def changed(self) -> Collection[str]:
         """Actors of which the progress of a command may have changed in the last step."""
 
+    def unsteady(self) -> Collection[str]:
+        """Actors whose speed, lane or offset may have changed since the step before."""
+
     def assign(
         self,
         actor: str,

@@ -32,6 +32,10 @@ class RecordedWorld(EmbeddedWorld):
         """Who moved an actor."""
         return self._controls.get(actor, "exact")
 
+    def unsteady(self) -> tuple[str, ...]:
+        """Any of them may have changed."""
+        return self._ids
+
     def show(self, lines: Mapping[str, Mapping[str, Any]]) -> None:
         """Take the states of an instant: `state` lines of the trace, by actor.
 

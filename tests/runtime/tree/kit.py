@@ -89,6 +89,9 @@ class FakeWorld:
     def changed(self) -> tuple[()]:
         return ()
 
+    def unsteady(self) -> tuple[()]:
+        return ()
+
 
 class Drive(Action):
     """Open-ended, claims the longitudinal slot."""

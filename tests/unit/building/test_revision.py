@@ -136,3 +136,26 @@ def test_the_repository_is_left_as_it_was(project: Project) -> None:
     before = contents(project.folder)
     compared(project)
     assert contents(project.folder) == before
+
+
+def test_what_is_known_is_not_compiled_again(
+    project: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from osc2tx.building import compare as module
+
+    compiled: list[str] = []
+    compile_jobs = module.compile_jobs
+
+    def watched(jobs, *args):  # type: ignore[no-untyped-def]
+        compiled.extend(job.name for job in jobs)
+        return compile_jobs(jobs, *args)
+
+    monkeypatch.setattr(module, "compile_jobs", watched)
+    assert compared(project).differences == ()
+    first = list(compiled)
+    assert sorted(first) == sorted(set(first))  # what both states have is compiled once
+    name = min(first)
+    project.drive(name, speed=77)
+    compiled.clear()
+    assert compared(project).differences
+    assert compiled == [name]

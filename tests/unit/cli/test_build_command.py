@@ -85,7 +85,7 @@ def test_check_in_a_workflow_of_github(shell: Shell) -> None:
     ended = build(shell, "--check", "--output-format", "github")
     assert ended.code == 1
     assert ended.out.splitlines() == [
-        "::error file=out/a.py,title=osc2tx build --check::is missing",
+        "::error file=out/a.py,title=osc2tx stale-output::is missing",
     ]
 
 

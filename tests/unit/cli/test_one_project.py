@@ -9,6 +9,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from osc2tx_shared.map_files import SHIPPED
 from tests.end_to_end.test_imported_modules import imports_in
 from tests.unit.building.projects import contents, listing
 from tests.unit.cli.shell import Shell
@@ -175,3 +176,34 @@ def test_no_link_leads_out_of_a_project(
     ended = project("check", "scenarios")
     assert (ended.code, "password" in ended.err) == (4, False)
     assert "is a link to a file outside of the folder" in ended.err
+
+
+# --- Settings for many files ----------------------------------------------------------------------
+
+
+def test_warnings_are_ignored_by_pattern(project: Shell) -> None:
+    for name in ("urban/unused", "rural/unused"):
+        text = CUT_IN.format(name="unused").replace("    mine:", "    spare: speeds\n    mine:")
+        project.write(f"scenarios/{name}.osc", text)
+    assert project("check").err.count("OSC437") == 3  # with the line that explains it
+    settings = (project.folder / "osc2tx.toml").read_text(encoding="utf-8")
+    project.write("osc2tx.toml", settings + '[files."urban/**"]\nignore = ["OSC437"]\n')
+    for command in ("check", "build"):
+        err = project(command).err
+        assert ("rural/unused" in err, "urban/unused" in err) == (True, False)
+    project.write("osc2tx.toml", settings + '[files."town/*"]\nstd = "2.2"\n')
+    assert 'osc2tx.toml: [files."town/*"] is for no file' in project("check").err
+
+
+def test_maps_of_the_project(project: Shell) -> None:
+    text = CUT_IN.format(name="cut_in").replace(
+        "    ego:", '    road: map with:\n        keep(it.map_file == "town.xodr")\n    ego:', 1
+    )
+    project.write(FILE, text)
+    assert "OSC443" in project("check", FILE).err
+    shipped = (SHIPPED / "highway.xodr").read_text(encoding="utf-8")
+    project.write("maps/town.xodr", shipped)
+    settings = (project.folder / "osc2tx.toml").read_text(encoding="utf-8")
+    project.write("osc2tx.toml", 'map_paths = ["maps"]\n' + settings)
+    assert project("check", FILE).err == ""
+    assert project("run", FILE, "--max-time", "5").code == 0

@@ -52,6 +52,36 @@ def test_it_finds_what_the_run_found(name: str, tmp_path: Path, shell: Shell) ->
     assert done.code == 0
 
 
+OVERRIDDEN = """import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario top:
+    road: map with:
+        keep(it.map_file == "highway.xodr")
+    ego: vehicle
+    do parallel:
+        slow: ego.drive(duration: 3s) with:
+            lane(1, at: start)
+            position(100m, at: start)
+            speed(10mps, at: start)
+            lane(2, at: end)
+        serial:
+            wait elapsed(1s)
+            quick: ego.change_speed(15mps)
+    with:
+        override(slow, quick)
+"""
+
+
+def test_what_is_overridden_is_not_judged(tmp_path: Path, shell: Shell) -> None:
+    """Neither in the run nor from its trace: after 1 s of 3 s it is still in lane 1."""
+    source, trace = shell.write("overridden.osc", OVERRIDDEN), tmp_path / "run.jsonl"
+    assert shell("run", source, "--trace", trace).code == 0
+    verified = shell("verify", trace)
+    assert (verified.code, verified.out) == (0, "top: success: 2 phases, 0 failures, 0 warnings\n")
+
+
 def test_a_failure_has_exit_code_5(tmp_path: Path, shell: Shell) -> None:
     source, trace = shell.write("never.osc", NEVER), tmp_path / "run.jsonl"
     ended = shell("run", source, "--trace", trace)

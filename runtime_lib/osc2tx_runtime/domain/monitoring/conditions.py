@@ -25,6 +25,7 @@ class Condition:
         at: When it has to hold.
         measure: Reads it at the present step; None while it cannot be measured.
         text: Says what was found, where numbers alone tell nobody; takes a reading.
+        is_steady: It reads nothing but speed, acceleration, lane and offset of the actor itself.
         is_target: It is the target of an action (DSL 8.8.2.2), and no modifier.
     """
 
@@ -34,4 +35,5 @@ class Condition:
     at: At
     measure: Callable[[], Reading | None]
     text: Callable[[Reading], str] | None = None
+    is_steady: bool = False
     is_target: bool = False

@@ -39,7 +39,8 @@ def lane(modifier: Lane, phase: Phase) -> Iterator[Condition]:
         measure, where = _beside(modifier, phase), f"the lane of {modifier.reference.id}"
         if modifier.side_of is not None:
             where = f"lane {modifier.number} {_side(modifier.side)} of {modifier.reference.id}"
-    yield Condition("lane", "its lane", "lane", modifier.at, measure, lanes_text(phase, where))
+    text, steady = lanes_text(phase, where), modifier.reference is None
+    yield Condition("lane", "its lane", "lane", modifier.at, measure, text, is_steady=steady)
 
 
 def _side(side: Late[SideLeftRight] | None) -> SideLeftRight | None:
@@ -153,7 +154,7 @@ def keep_lane(modifier: object, phase: Phase) -> Iterator[Condition]:
         return None if found is None else (found, 0.0, 0.0)
 
     text = lanes_text(phase, "its lane at the start")
-    yield Condition("keep_lane", "its lane", "lane", "all", measure, text)
+    yield Condition("keep_lane", "its lane", "lane", "all", measure, text, is_steady=True)
 
 
 @monitors("change_lane")
@@ -200,7 +201,8 @@ def lateral(modifier: Lateral, phase: Phase) -> Iterator[Condition]:
             return (0.0 - to_left, *modifier.offsets(here.width, there.width))
 
         what = f"its distance left of {modifier.side_of.id}"
-    yield Condition("lateral", what, "lateral position", modifier.at, measure)
+    steady = modifier.side_of is None and now(modifier.measure_by) == "center_to_center"
+    yield Condition("lateral", what, "lateral position", modifier.at, measure, is_steady=steady)
 
 
 def _lane_of_offset(phase: Phase, leaves: bool) -> Callable[[], LanePosition | None]:

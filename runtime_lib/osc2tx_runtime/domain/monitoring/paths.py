@@ -22,9 +22,11 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.actions.movement.path_following import _OnPath, _OnTrajectory
     from osc2tx_runtime.domain.map.roads_and_lanes import Route
     from osc2tx_runtime.domain.monitoring.phase import Phase
+    from osc2tx_runtime.world.geometry.curve import Curve
 
 __all__: list[str] = []
 
+_NEAR = 0.05  # m from a path that are on it
 _REACH = 5.0  # m around its last place on a curve in which an actor is looked for
 
 
@@ -60,17 +62,35 @@ def _on_route(route: Route, phase: Phase) -> Callable[[], Reading]:
 def _on_path(path: Path, offsets: tuple[float, float], phase: Phase) -> Callable[[], Reading]:
     """How far from a path it is, which it goes along from its start to its end."""
     curve = path_in_world(phase.world.map, path).curve
-    begin, end = interval_between_offsets(curve, *offsets)
-    me, last = phase.me, begin
+    low, high = map(curve.at_length, interval_between_offsets(curve, *offsets))
+    me, at = phase.me, low
 
     def measure() -> Reading:
-        nonlocal last
+        nonlocal at
         here = me()
-        found = curve.nearest(here.x, here.y, last, _REACH)
-        last = min(max(found, begin), end)
-        return curve.distance_to(here.x, here.y, last), 0.0, 0.0
+        before, at = at, min(max(_foot(curve, at, here.x, here.y), low), high)
+        x, y, _ = curve.point(at)
+        away = math.hypot(here.x - x, here.y - y)
+        if away > _NEAR:  # or at a corner, where the tangent leads astray
+            along = curve.nearest(here.x, here.y, curve.length_at(before), _REACH)
+            at = min(max(curve.at_length(along), low), high)
+            x, y, _ = curve.point(at)
+            away = math.hypot(here.x - x, here.y - y)
+        return away, 0.0, 0.0
 
     return measure
+
+
+def _foot(curve: Curve, at: float, x: float, y: float) -> float:
+    """The parameter of the point of a curve that is nearest to a place, from one close to it."""
+    for _ in range(2):
+        px, py, _ = curve.point(at)
+        dx, dy, _ = curve.rate(at)
+        square = dx * dx + dy * dy
+        if square < 1e-9:
+            break
+        at += ((x - px) * dx + (y - py) * dy) / square
+    return at
 
 
 @monitors("along_trajectory")

@@ -10,6 +10,7 @@ from osc2tx_runtime.domain.modifiers import PhysicalMovement
 from osc2tx_runtime.domain.monitoring.conditions import Condition, Reading
 from osc2tx_runtime.domain.monitoring.tolerances import QUANTITIES
 from osc2tx_runtime.errors import NOT_MET, PARTLY_MET, ScenarioError
+from osc2tx_runtime.opendrive import MapError
 from osc2tx_runtime.world.measuring.projected_motion import projected
 from osc2tx_runtime.world.plant.plant import EXACT
 from osc2tx_runtime.world.protocol import EXTERNAL
@@ -20,7 +21,10 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.protocol import World
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["Phase", "Severity", "Violation"]
+__all__ = ["UNMEASURABLE", "Phase", "Severity", "Violation"]
+
+UNMEASURABLE = (ScenarioError, MapError)
+"""What keeps a condition from being measured."""
 
 Severity = Literal["failure", "warning"]
 
@@ -142,6 +146,7 @@ class Phase:
         if physical is not None:
             self._option = physical.option
         self._control = world.control(self.actor)
+        self._is_steady = self._holds = False
         self._lasting: list[tuple[Condition, float]] = []
         self._last: list[tuple[Condition, float]] = []
 
@@ -161,9 +166,15 @@ class Phase:
                     self._last.append(entry)
                 case _:
                     self._lasting.append(entry)
+        self._is_steady = not self._steps and all(c.is_steady for c, _ in self._lasting)
         if self._option != "prefer_non_physical":  # a jump: the instant belongs to both phases
             self.observe(now)
         return bool(self._lasting) or self._steps
+
+    @property
+    def rests(self) -> bool:
+        """Whether all conditions hold, and go on to do so while the actor goes on as it does."""
+        return self._is_steady and self._holds
 
     # --- what monitors read -------------------------------------------------------------------
 
@@ -200,8 +211,10 @@ class Phase:
     def observe(self, time: float) -> None:
         """Check what has to hold all the time."""
         self._go_to(time)
+        holds = True
         for condition, tolerance in self._lasting:
-            self._check(condition, tolerance, time)
+            holds = self._check(condition, tolerance, time) and holds
+        self._holds = holds
 
     def end(self, time: float) -> None:
         """Check what has to hold at the last state.
@@ -226,17 +239,19 @@ class Phase:
         quantity = QUANTITIES[condition.quantity]
         return quantity.exact if self._control == EXACT else quantity.measured
 
-    def _check(self, condition: Condition, tolerance: float, time: float) -> None:
+    def _check(self, condition: Condition, tolerance: float, time: float) -> bool:
+        """Return whether a condition holds, and note it if it does not."""
         try:
             reading = condition.measure()
-        except ScenarioError:  # there is no such place here: planning says so
-            return
+        except UNMEASURABLE:  # there is no such place here: planning says so
+            return True
         if reading is None:
-            return
+            return True
         value, low, high = reading
         if low - tolerance <= value <= high + tolerance:
-            return
+            return True
         self._note(condition, reading, time)
+        return False
 
     def _note(self, condition: Condition, reading: Reading, time: float) -> None:
         value, low, high = reading

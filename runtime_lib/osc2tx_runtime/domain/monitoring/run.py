@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.monitoring.phase import Phase, Violation
+from osc2tx_runtime.domain.monitoring.phase import UNMEASURABLE, Phase, Violation
 from osc2tx_runtime.domain.monitoring.registry import conditions_of
 from osc2tx_runtime.language.actions.action import Action
 
@@ -30,6 +31,8 @@ class Monitors:
         self._begun: list[Action] = []
         self._phases: dict[Action, Phase] = {}
         self._watched: list[Phase] = []
+        self._resting: dict[str, list[Phase]] = {}  # by actor
+        self._unsteady: Collection[str] = ()  # actors, up to the step before
         self.violations: list[Violation] = []
 
     def begins(self, action: BaseAction) -> None:
@@ -38,15 +41,31 @@ class Monitors:
             self._begun.append(action)
 
     def observe(self) -> None:
-        """Look at the states of a settled instant."""
-        time = self._context.time
-        for phase in self._watched:
-            phase.observe(time)
+        """Look at the states of a settled instant; phases whose actors go on as before rest."""
+        context = self._context
+        time, unsteady = context.time, context.world.unsteady()
+        if self._resting and (unsteady or self._unsteady):
+            for actor in (*unsteady, *self._unsteady):
+                self._watched += self._resting.pop(actor, ())
+        self._unsteady = unsteady
+        if self._watched:
+            watched = []
+            for phase in self._watched:
+                phase.observe(time)
+                if phase.rests:
+                    self._resting.setdefault(phase.actor, []).append(phase)
+                else:
+                    watched.append(phase)
+            self._watched = watched
         if self._begun:
             for action in self._begun:
-                phase = Phase(action, self._context.world, time, self._context.dt)
+                phase = Phase(action, context.world, time, context.dt)
+                try:
+                    is_watched = phase.begin(conditions_of(phase))
+                except UNMEASURABLE:  # a value that there is not: planning says so
+                    continue
                 self._phases[action] = phase
-                if phase.begin(conditions_of(phase)):
+                if is_watched:
                     self._watched.append(phase)
             self._begun.clear()
 
@@ -73,6 +92,9 @@ class Monitors:
         if action in self._begun:
             self._begun.remove(action)
         phase = self._phases.pop(action, None)
-        if phase in self._watched:
-            self._watched.remove(phase)
+        if phase is None:
+            return None
+        for phases in (self._watched, self._resting.get(phase.actor, [])):
+            if phase in phases:
+                phases.remove(phase)
         return phase

@@ -28,7 +28,8 @@ def speed(modifier: Speed, phase: Phase) -> Iterator[Condition]:
     if modifier.reference is not None:
         measure = _relative(modifier, phase, low, high, across)
         what += f", with {modifier.reference.id} as the reference,"
-    yield Condition("speed", what, "speed", modifier.at, measure)
+    steady = modifier.reference is None
+    yield Condition("speed", what, "speed", modifier.at, measure, is_steady=steady)
 
 
 def _absolute(phase: Phase, low: float, high: float, across: bool) -> Callable[[], Reading]:
@@ -68,7 +69,7 @@ def keep_speed(modifier: object, phase: Phase) -> Iterator[Condition]:
     """The speed at the start, all the time."""
     start = phase.first.v
     measure = _absolute(phase, start, start, across=False)
-    yield Condition("keep_speed", "its speed", "speed", "all", measure)
+    yield Condition("keep_speed", "its speed", "speed", "all", measure, is_steady=True)
 
 
 @monitors("acceleration")
