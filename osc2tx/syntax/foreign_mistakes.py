@@ -128,3 +128,92 @@ def other_operators(place: Place) -> Advice | None:
     if place.kind() == _DOUBLE_COLON:
         return Advice("unexpected `::`", "a qualified name has no blanks: `namespace::name`")
     return None
+
+
+def other_strength(place: Place) -> Advice | None:
+    """`keep(soft a == 3)`."""
+    if place.table.text(place.line) != "keep" or place.at - 3 != place.line:
+        return None
+    word = place.text(-1)
+    if word not in ("soft", "weak", "strong"):
+        return None
+    help_ = "write `keep(default …)`: it holds unless a later constraint replaces it"
+    return Advice(f"there is no constraint of strength `{word}`", help_, place.at - 1)
+
+
+def not_in(place: Place) -> Advice | None:
+    """`a not in l`."""
+    if place.text() != "not" or place.text(1) != "in":
+        return None
+    return Advice("`not in` is no operator", f"write `not {place.text(-1)} in {place.text(2)}`")
+
+
+def several_events(place: Place) -> Advice | None:
+    """`wait @a or @b`."""
+    if place.kind() != _AT or place.text(-1) not in ("or", "and"):
+        return None
+    if place.text(-1) == "or":
+        help_ = "wait for each in a member of `one_of`; several `until` are an or"
+    else:
+        help_ = "wait for each in a member of `parallel`"
+    return Advice("an event specification names one event", help_, place.at - 1)
+
+
+def condition_alone(place: Place) -> Advice | None:
+    """`wait if n > 2`."""
+    if place.text(-1) != "if" or place.at - 2 != place.line or place.kind() not in t.WORDS:
+        return None
+    word = place.table.text(place.line)
+    if word not in ("wait", "until", "on"):
+        return None
+    help_ = f"a condition stands alone: `{word} {place.text()} …`; `if` follows an `@event`"
+    return Advice(f"unexpected `if` after `{word}`", help_, place.at - 1)
+
+
+def type_with_brackets(place: Place) -> Advice | None:
+    """`l: int[]`."""
+    if place.text() != "]" or place.text(-1) != "[" or place.text(-3) != ":":
+        return None
+    help_ = f"write `list of {place.text(-2)}`"
+    return Advice("a list type has no brackets", help_, place.at - 1)
+
+
+def namespace_block(place: Place) -> Advice | None:
+    """`namespace a:`."""
+    if place.kind() != _COLON or place.table.text(place.line) != "namespace":
+        return None
+    help_ = "leave out the `:`; it holds for all that follows, up to the next `namespace`"
+    return Advice("a namespace has no block", help_)
+
+
+def import_as(place: Place) -> Advice | None:
+    """`import a.b as c`."""
+    if place.text() != "as" or place.table.text(place.line) != "import":
+        return None
+    help_ = "names of an imported file are reached by its namespaces: `namespace mine use theirs`"
+    return Advice("an import has no other name", help_)
+
+
+def sum_with_unit(place: Place) -> Advice | None:
+    """`(20 + 10)kph`."""
+    if place.kind(-1) != _RPAREN or place.kind() != t.ID or place.at == place.line:
+        return None
+    opened = Place(place.table, place.at - 1, place.line).open_bracket()
+    if opened is None or place.table.types[opened - 1] == t.ID:
+        return None  # a call
+    inner = place.table.types[opened + 1 : place.at - 1]
+    if not any(kind in NUMBERS for kind in inner):
+        return None
+    texts = []
+    for index in range(opened, place.at):
+        is_number = place.table.types[index] in NUMBERS
+        texts.append(place.table.text(index) + (place.text() if is_number else ""))
+    written = " ".join(texts).replace("( ", "(").replace(" )", ")")
+    return Advice("a unit belongs to a number", f"write `{written}`")
+
+
+def list_goes_on(place: Place) -> Advice | None:
+    """`export a,` with nothing behind."""
+    if place.kind() != t.NEWLINE or place.text(-1) != ",":
+        return None
+    return Advice("a name is missing behind the last `,`", "leave the comma out")

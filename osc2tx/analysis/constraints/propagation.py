@@ -227,7 +227,7 @@ def _analyse_objects(
         (key, condition.type)
         for key, declared in collector.objects.items()
         for condition in types_below(conditions, declared, special.get(key, ()))
-        if is_possible(found.domains.get((*key, condition.field)), condition)
+        if is_possible(found.domains.get((*key, condition.field)), condition.determinant)
     )
     return replace(found, special=special, undecided=undecided)
 

@@ -17,6 +17,15 @@ from osc2tx.syntax import ast
 from osc2tx_shared.classes import dataclass
 
 Special = sym.ActorSymbol | sym.StructSymbol
+Behavior = sym.ScenarioSymbol | sym.ActionSymbol
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Determinant:
+    """A field whose value decides whether something is of a conditional type (§7.3.8.2)."""
+
+    field: sym.FieldSymbol
+    value: Value
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,21 +33,26 @@ class Condition:
     """A type that objects have if a field has a value."""
 
     type: Special
-    field: sym.FieldSymbol
-    value: Value
+    determinant: Determinant
+
+    @property
+    def field(self) -> sym.FieldSymbol:
+        """The field."""
+        return self.determinant.field
 
 
 def conditions_of(model: SemanticModel) -> tuple[Condition, ...]:
-    """Return the types of a program with conditional inheritance."""
+    """Return the types of objects of a program with conditional inheritance."""
     return tuple(
-        condition
+        Condition(symbol, determinant)
         for symbol in model.symbols
         if isinstance(symbol, sym.ActorSymbol | sym.StructSymbol)
-        and (condition := _condition(model, symbol)) is not None
+        and (determinant := determinant_of(model, symbol)) is not None
     )
 
 
-def _condition(model: SemanticModel, symbol: Special) -> Condition | None:
+def determinant_of(model: SemanticModel, symbol: Special | Behavior) -> Determinant | None:
+    """Return what decides whether something of the base type is of a type."""
     condition = symbol.condition
     if condition is None:
         return None
@@ -46,9 +60,9 @@ def _condition(model: SemanticModel, symbol: Special) -> Condition | None:
     if not isinstance(field, sym.FieldSymbol):
         return None
     if isinstance(value, sym.EnumMemberSymbol):
-        return Condition(symbol, field, value.value)
+        return Determinant(field, value.value)
     if isinstance(condition.value, ast.BoolLiteral):
-        return Condition(symbol, field, condition.value.value)
+        return Determinant(field, condition.value.value)
     return None
 
 
@@ -67,14 +81,14 @@ def is_certain(domain: Domain | None, value: Value) -> bool:
     return isinstance(domain, Choice) and domain.is_point and value in domain.values
 
 
-def is_possible(domain: Domain | None, condition: Condition) -> bool:
+def is_possible(domain: Domain | None, determinant: Determinant) -> bool:
     """Whether a field may have the value of a condition.
 
     What nothing is said of in the library is as the world makes it, which is asked at run time.
     """
     if not isinstance(domain, Choice):
-        return condition.field.origin == "user"
-    return (condition.value in domain.values) is not domain.excluded
+        return determinant.field.origin == "user"
+    return (determinant.value in domain.values) is not domain.excluded
 
 
 def specialised(
@@ -87,6 +101,6 @@ def specialised(
     found = dict(special)
     for key, declared in objects.items():
         for condition in types_below(conditions, declared, found.get(key, ())):
-            if is_certain(domains.get((*key, condition.field)), condition.value):
+            if is_certain(domains.get((*key, condition.field)), condition.determinant.value):
                 found[key] = (*found.get(key, ()), condition.type)
     return found

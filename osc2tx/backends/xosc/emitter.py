@@ -70,16 +70,32 @@ def emit(
     stem = PurePosixPath(module.source).stem if stem is None else stem
     return tuple(
         _Emission(scenario, module, options, folder).run(f"{stem}{infix}", infix)
-        for scenario, infix in zip(scenarios, _infixes(scenarios), strict=True)
+        for scenario, infix in zip(scenarios, _infixes(scenarios, stem), strict=True)
     )
 
 
-def _infixes(scenarios: Sequence[ir.Scenario]) -> list[str]:
-    """Return what tells the documents of several scenarios of a file apart, even without case."""
-    if len(scenarios) == 1:
-        return [""]
+def _infixes(scenarios: Sequence[ir.Scenario], stem: str) -> list[str]:
+    """Return what tells the documents of several scenarios of a file apart, even without case.
+
+    One of them has the name of the file alone, and keeps it when others come: the one called as
+    the file is, else `top` or `main`, else the first one.
+    """
+    ranks = [_rank(scenario.name, stem) for scenario in scenarios]
+    alone = ranks.index(min(ranks)) if ranks else 0
     names = Names(folds_case=True)
-    return [f".{names.new(scenario.name)}" for scenario in scenarios]
+    return [
+        "" if number == alone else f".{names.new(scenario.name)}"
+        for number, scenario in enumerate(scenarios)
+    ]
+
+
+def _rank(name: str, stem: str) -> int:
+    """Return how far a scenario is from being the one that its file is about."""
+    if name == stem:
+        return 0
+    if stem.endswith(f"_{name}"):
+        return 1
+    return 2 if name in ("top", "main") else 3
 
 
 class _Emission:

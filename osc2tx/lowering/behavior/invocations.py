@@ -4,14 +4,25 @@ from __future__ import annotations
 
 from osc2tx import ir
 from osc2tx.analysis.constraints.operation_list import Key
+from osc2tx.analysis.constraints.specialisation import (
+    Behavior,
+    determinant_of,
+    is_certain,
+    is_possible,
+)
 from osc2tx.ir.source_text import statement_name
 from osc2tx.lowering.behavior.composed_behaviors import (
     Composed,
     actor_type_of,
     has_behavior,
     is_composed,
+    lineage_of,
 )
-from osc2tx.lowering.behavior.durations import leaves_duration_open, with_open_duration
+from osc2tx.lowering.behavior.durations import (
+    leaves_duration_open,
+    with_bounds,
+    with_open_duration,
+)
 from osc2tx.lowering.behavior.node_names import invocation_name
 from osc2tx.lowering.behavior.triggers import lower_until
 from osc2tx.lowering.behavior.user_actions import default_arguments, is_user_defined
@@ -54,7 +65,7 @@ class InvocationLowering:
         callee = binding.callee
         actor = self._actor(node, binding)
         if is_composed(callee):
-            return self._scenario(node, callee, actor, comments)
+            return self._scenario(node, self._specialised(node, callee), actor, comments)
         assert isinstance(callee, sym.ActionSymbol)
         self._ctx.actions.append(callee)
         arguments = self._arguments(node, actor)
@@ -81,6 +92,38 @@ class InvocationLowering:
         )
         name = f"{name_of_member(node)}.duration"
         return start_on_path(with_open_duration(self._ctx, invocation, name))
+
+    def _specialised(self, node: ast.Invocation, callee: Composed) -> Composed:
+        """Return the scenario that an invocation is by its values (§7.3.8.2.2).
+
+        What it is must be known when compiling.
+        """
+        certain: list[Composed] = []
+        for symbol in self._ctx.model.symbols:
+            if not isinstance(symbol, Behavior) or symbol.base is not callee:
+                continue
+            condition = determinant_of(self._ctx.model, symbol)
+            if condition is None or not is_composed(symbol):
+                continue
+            domain = self._constraints.found.domains.get((node, condition.field))
+            if is_certain(domain, condition.value):
+                certain.append(symbol)
+            elif is_possible(domain, condition):
+                self._ctx.unsupported(
+                    "OSC501",
+                    node.span,
+                    f"whether this is a `{symbol.qualified_name}` is open until the run",
+                    help=f"fix what it depends on: `{condition.field.name}: …`",
+                )
+        if len(certain) > 1:
+            names = " and ".join(f"`{each.qualified_name}`" for each in certain)
+            self._ctx.unsupported("OSC501", node.span, f"this is both {names}")
+        return self._specialised(node, certain[0]) if certain else callee
+
+    def _conditions(self, callee: Composed) -> set[str]:
+        """Return the parameters that a scenario has a value of as it is of a conditional type."""
+        found = (determinant_of(self._ctx.model, each) for each in lineage_of(callee))
+        return {condition.field.name for condition in found if condition is not None}
 
     def _actor(self, node: ast.Invocation, binding: Binding) -> ir.Expression | None:
         """Return who acts; without an expression it is the actor of the scenario (§5.5)."""
@@ -139,8 +182,10 @@ class InvocationLowering:
             scenario=callee.qualified_name,
             key=f"{span.source.name}:{span.start}",
             actor=actor,
-            arguments=tuple(a for a in arguments if a.parameter != "duration"),
-            duration=duration,
+            arguments=tuple(
+                a for a in arguments if a.parameter not in ("duration", *self._conditions(callee))
+            ),
+            duration=duration if duration is None else with_bounds(duration),
             until=lower_until(self._ctx, node.with_members),
         )
 

@@ -80,8 +80,7 @@ class TimeSystem:
             case ir.Invoke() | ir.InvokeScenario() if node.until:
                 return node, None
             case ir.Invoke() | ir.InvokeScenario() if node.duration is not None:
-                is_range = isinstance(node.duration, ir.RangeValue)
-                return node, None if is_range else _Known((node.duration,))
+                return node, None if _is_range(node.duration) else _Known((node.duration,))
             case _ if is_instant(node):
                 return node, INSTANT
             case _ if is_open_ended(node):
@@ -92,6 +91,8 @@ class TimeSystem:
     def _composition(self, node: Composition) -> tuple[ir.Behavior, _Length]:
         solved = [self._member(member) for member in node.members]
         node = replace(node, members=tuple(member for member, _ in solved))
+        if _is_range(node.duration) and not isinstance(node.duration, ir.RangeValue):
+            return node, None  # which range it is shows in the run
         lengths = [length for _, length in solved]
         length: _Length = None
         match node:
@@ -101,7 +102,7 @@ class TimeSystem:
                 node, length = self._serial(node, lengths)
             case ir.Parallel():
                 node, length = self._parallel(node, lengths)
-        if node.duration is not None and not isinstance(node.duration, ir.RangeValue):
+        if node.duration is not None and not _is_range(node.duration):
             length = _Known((node.duration,))
         return node, length
 
@@ -140,7 +141,11 @@ class TimeSystem:
     # --- parallel ---
 
     def _parallel(self, node: ir.Parallel, lengths: list[_Length]) -> tuple[ir.Parallel, _Length]:
-        lasting = [i for i, length in enumerate(lengths) if length is not INSTANT]
+        lasting = [
+            index
+            for index, length in enumerate(lengths)
+            if not isinstance(length, _Known) or length.terms
+        ]
         overlap = node.overlap or "start"
         is_plain = node.start_to_start is None and node.end_to_end is None
         if not lasting or not is_plain or overlap not in ("equal", "start"):
@@ -392,6 +397,10 @@ class TimeSystem:
             if isinstance(each, ir.Parameter) and each.domain is not None
         }
         return bool(drawn & _names(terms))
+
+
+def _is_range(duration: ir.Expression | None) -> bool:
+    return duration is not None and duration.type.kind is ir.Kind.RANGE
 
 
 def _lies_within(found: Times | None, wanted: Times | None) -> bool:

@@ -7,6 +7,7 @@ from typing import assert_never
 
 from osc2tx import ir
 from osc2tx.lowering.behavior.composed_behaviors import is_composed
+from osc2tx.lowering.behavior.durations import with_bounds
 from osc2tx.lowering.context import LoweringContext, Receiver, present, statement_comments
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.lowering.values.expressions import lower_expression
@@ -205,6 +206,7 @@ def _lower_condition(ctx: LoweringContext, node: ast.EventCondition) -> ir.Condi
             rising = isinstance(node, ast.RiseCondition)
             return ir.Edge(span=node.span, rising=rising, expression=main)
         case ast.ElapsedCondition():
+            main = with_bounds(main)
             main = (
                 ctx.draw("wait time", main, main.lower.type)
                 if isinstance(main, ir.RangeValue)

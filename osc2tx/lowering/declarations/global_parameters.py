@@ -53,9 +53,12 @@ class GlobalLowering:
         return tuple(sorted(found, key=lambda d: (d.span.source.name, d.span.start)))
 
     def _is_constrained(self, symbol: sym.FieldSymbol) -> bool:
-        """Whether the scenario says something of a member of a global object."""
-        keys = self._own.found.by_key
-        return any(key[0] is symbol and len(key) > 1 for key in keys)
+        """Whether the scenario sets a global parameter, or says something of a member of one."""
+        found = self._own.found.by_key
+        return any(key[0] is symbol and len(key) > 1 for key in found) or any(
+            each.subject == (symbol,) and each.place.owner is not None
+            for each in found.get((symbol,), ())
+        )
 
     def _declarations(
         self, name: str, symbol: sym.FieldSymbol

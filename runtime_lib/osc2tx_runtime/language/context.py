@@ -148,6 +148,7 @@ class ExecutionContext:
         self._left: dict[str, str] = {}  # actors to behavioral models of this instant
         self._posted: dict[PostedEvent, list[Mapping[str, Any]]] = {}
         self._assigned: dict[AssignedVariable, Any] = {}
+        self.samplers: list[Callable[[], None]] = []
         self._pass_wanted = False
         self._settling_wanted = False
 
@@ -241,14 +242,21 @@ class ExecutionContext:
         posted, self._posted = self._posted, {}
         for event, arguments in posted.items():
             event.occur(self.tick, self.step, arguments)
+        self._assign()
+        for sampler in self.samplers:
+            sampler()
+        self._assign()
+        self._pass_wanted = self._settling_wanted = False
+        self.resting.begin_pass()
+
+    def _assign(self) -> None:
+        """Give variables the values that were assigned."""
         if self._assigned:
             self.snapshot += 1
             for variable, value in self._assigned.items():
                 variable.value = value
                 self.trace.variable(variable.name, value)
             self._assigned.clear()
-        self._pass_wanted = self._settling_wanted = False
-        self.resting.begin_pass()
 
     def has_news(self) -> bool:
         """Return whether events or values want another pass of this instant."""

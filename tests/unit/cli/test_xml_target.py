@@ -191,10 +191,10 @@ def test_several_scenarios_have_a_document_each(shell: Shell) -> None:
     )
     shell("build", "in", "-o", "out", "--target", "xosc")
     assert [name for name in made(shell) if name.endswith(".xosc")] == [
-        "two_lanes.Left_2.xosc",
-        "two_lanes.left.xosc",
+        "two_lanes.Left.xosc",
         "two_lanes.logical.params.xosc",
         "two_lanes.logical.xosc",
+        "two_lanes.xosc",
     ]
     text = (shell.folder / "out/two_lanes.logical.params.xosc").read_text()
     assert '<ScenarioFile filepath="two_lanes.logical.xosc"/>' in text
@@ -274,3 +274,25 @@ def test_what_only_a_dialect_has_is_refused(shell: Shell) -> None:
     assert ended.code == 3
     assert "internal error" not in ended.err
     assert "set_color" in ended.err
+
+
+@pytest.mark.parametrize(
+    ("scenarios", "alone"),
+    [
+        (("left",), "left"),
+        (("left", "right"), "left"),
+        (("right", "left", "lanes"), "lanes"),
+        (("right", "two_lanes", "lanes"), "two_lanes"),
+        (("left", "top"), "top"),
+    ],
+)
+def test_one_scenario_has_the_name_of_the_file(
+    shell: Shell, scenarios: tuple[str, ...], alone: str
+) -> None:
+    """So a scenario that comes below it renames no document."""
+    shell.write("in/two-lanes.osc", HEAD + "\n".join(DRIVE.format(name=n) for n in scenarios))
+    shell("build", "in", "-o", "out", "--target", "xosc")
+    others = {f"two_lanes.{name}.xosc" for name in scenarios if name != alone}
+    assert {name for name in made(shell) if name.endswith(".xosc")} == {"two_lanes.xosc", *others}
+    text = (shell.folder / "out/two_lanes.xosc").read_text()
+    assert f'description="{alone}"' in text

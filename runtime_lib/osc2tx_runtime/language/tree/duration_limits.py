@@ -15,10 +15,17 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
     from osc2tx_runtime.language.tree.base import Node
 
-__all__ = ["Duration", "DurationLimits"]
+__all__ = ["Duration", "DurationLimits", "bounds_of"]
 
 Duration = float | tuple[float, float]
 """Seconds, or the least and the most seconds, which may be without end."""
+
+
+def bounds_of(duration: Duration) -> tuple[float, float]:
+    """Return the least and the most seconds; bounds come in either order."""
+    given = duration if isinstance(duration, tuple) else (duration, duration)
+    return min(given), max(given)
+
 
 ENDLESS = sys.maxsize
 """Steps of a duration without upper bound."""
@@ -43,8 +50,7 @@ class DurationLimits:
     """
 
     def __init__(self, node: Node, duration: Duration) -> None:
-        given = duration if isinstance(duration, tuple) else (duration, duration)
-        low, high = min(given), max(given)  # bounds of a range come in either order
+        low, high = bounds_of(duration)
         if not low >= 0:
             raise ScenarioError(f"{node.name}: a duration of {low:g} s is negative")
         self._node = node

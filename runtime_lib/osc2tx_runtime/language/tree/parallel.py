@@ -25,7 +25,7 @@ from osc2tx_runtime.language.tree.compositions import (
     is_service,
     length_of,
 )
-from osc2tx_runtime.language.tree.duration_limits import Duration
+from osc2tx_runtime.language.tree.duration_limits import Duration, bounds_of
 from osc2tx_runtime.language.tree.parallel_execution import Course
 from osc2tx_runtime.language.tree.parallel_schedule import (
     Overlap,
@@ -173,17 +173,16 @@ class Parallel(Composition, ParallelComposite):
     def _span(self, offset: Duration | None) -> Span | None:
         if offset is None:
             return None
-        low, high = offset if isinstance(offset, tuple) else (offset, offset)
-        return Span(self.context.steps(min(low, high)), self.context.steps(max(low, high)))
+        low, high = bounds_of(offset)
+        return Span(self.context.steps(low), self.context.steps(high))
 
     def _arguments(self) -> str:
         texts = [f"overlap: {self.overlap}"]
         for name in ("start_to_start", "end_to_end"):
             offset = getattr(self, name)
-            if isinstance(offset, tuple):
-                texts.append(f"{name}: {offset[0]:g} s to {offset[1]:g} s")
-            elif offset is not None:
-                texts.append(f"{name}: {offset:g} s")
+            if offset is not None:
+                low, high = bounds_of(offset)
+                texts.append(f"{name}: {low:g} s" + ("" if low == high else f" to {high:g} s"))
         return ", ".join(texts)
 
     def _is_open(self) -> bool:

@@ -65,7 +65,9 @@ class Sampled:
 class Sampling(Leaf):
     """Samples the variables of a scenario for as long as that runs.
 
-    A sample of one pass is visible from the next pass on, so no order shows.
+    What an event samples is known to all that it starts (§7.3.10): it is sampled before the nodes
+    of the pass in which the event is visible. What a condition samples is visible from the next
+    pass on, so no order shows.
     """
 
     open_ended = True
@@ -90,17 +92,28 @@ class Sampling(Leaf):
         ]
         self._sampled = {}
         self._is_over = False
+        self.context.samplers.append(self._sample_at_events)
+
+    def terminate(self, new_status: Status) -> None:
+        """Sample no more."""
+        self.context.samplers.remove(self._sample_at_events)
 
     def update(self) -> Status:
         """Sample what is due."""
         for variable, happened in zip(self._variables, self._watches, strict=True):
-            if happened():
+            if not isinstance(happened, Occurrences) and happened():
                 self._sample(variable, happened)
         if self._tree.status is SUCCESS and not self._is_over:
             self._is_over = True
             for variable in self._at_end:
                 sample(variable, self.context)
         return RUNNING
+
+    def _sample_at_events(self) -> None:
+        """Sample what the events sample that are visible now."""
+        for variable, happened in zip(self._variables, self._watches, strict=True):
+            if isinstance(happened, Occurrences) and happened():
+                self._sample(variable, happened)
 
     def _sample(self, variable: Sampled, happened: Watch) -> None:
         occurrences: Sequence[Mapping[str, Any]] = ()
