@@ -9,7 +9,7 @@ ifneq ($(wildcard ../shared),)
 export OSC2TX_TEST_DATA ?= $(abspath ../shared)
 endif
 
-.PHONY: coverage docs docs-diagnostics docs-config demo demo-carla compiled test test-carla test-cluster test-slow lint goldens parser tables clean
+.PHONY: coverage docs docs-diagnostics docs-config demo demo-carla dist compiled test test-carla test-cluster test-slow lint goldens parser tables clean
 
 demo: $(STAMP)
 	$(BIN)/osc2tx build scenarios/ -o generated/ --quiet
@@ -46,6 +46,19 @@ $(VENV)/.carla: $(STAMP)
 
 $(VENV)/.dask: $(STAMP)
 	$(INSTALL) -e ".[dask]"
+	touch $@
+
+# What would be published, in dist/: source distributions and wheels of both distributions, and the
+# compiled wheel of the runtime for this platform, with which its tests pass.
+dist: $(VENV)/.dist
+	rm -rf dist
+	$(BIN)/python -m build --outdir dist runtime_lib
+	$(BIN)/python -m build --outdir dist .
+	$(MAKE) compiled
+	$(BIN)/twine check --strict dist/*
+
+$(VENV)/.dist: $(STAMP)
+	$(INSTALL) -e ".[dist]"
 	touch $@
 
 # The wheel of the runtime with its hot paths compiled, in dist/, and its traces beside those of the

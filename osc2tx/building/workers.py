@@ -1,14 +1,14 @@
 """Compiles or checks many files, in several processes if that is worth it.
 
 Results come in the order of the jobs, whoever makes them. A process that dies, as by an overflow of
-its stack, costs the file that killed it and no other.
+its stack, costs the file that killed it and no other. What starts processes is imported only then:
+most commands compile one file.
 """
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -117,6 +117,8 @@ def with_siblings(
 
 def _work_in_pool(work: Work, jobs: Sequence[Job], workers: int, done: Finished) -> None:
     """Do the work in processes, until all is done or a process has died."""
+    from concurrent.futures import BrokenExecutor, as_completed
+
     told: set[Job] = set()
     with _pool(min(workers, len(jobs))) as pool:
         futures = {pool.executor.submit(_work_in_worker, work, job): job for job in jobs}
@@ -136,6 +138,8 @@ def _work_in_worker(work: Work, job: Job) -> FileResult:
 
 def _work_alone(work: Work, job: Job) -> FileResult:
     """Do the work on a file in a process of its own, so that it harms no other."""
+    from concurrent.futures import BrokenExecutor
+
     with _pool(1) as pool:
         try:
             return pool.executor.submit(_work_in_worker, work, job).result()
@@ -148,6 +152,7 @@ class _Pool:
 
     def __init__(self, workers: int) -> None:
         import multiprocessing
+        from concurrent.futures import ProcessPoolExecutor
 
         methods = multiprocessing.get_all_start_methods()
         context = multiprocessing.get_context("fork" if "fork" in methods else "spawn")

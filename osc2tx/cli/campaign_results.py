@@ -16,7 +16,7 @@ from osc2tx.campaigns.replay import replay_row
 from osc2tx.campaigns.report import render_report
 from osc2tx.campaigns.store import Store
 from osc2tx.campaigns.summary import Results, results_of, summary_of
-from osc2tx.cli.reporting import Exit, count_of
+from osc2tx.cli.reporting import Exit, count_of, quiet_option
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.running.main import verdict
 from osc2tx_shared.text import complain, say
@@ -37,8 +37,14 @@ FILE = click.Path(dir_okay=False, path_type=Path)
     metavar="PATH",
     help="Folder with maps, or the map itself, if it is no longer where it was.",
 )
+@quiet_option
 def replay(
-    store: Path, row: int, trace: Path | None, report: Path | None, map_path: tuple[Path, ...]
+    store: Path,
+    row: int,
+    trace: Path | None,
+    report: Path | None,
+    map_path: tuple[Path, ...],
+    quiet: bool,
 ) -> Exit:
     """Run one row of a campaign again, from what the store knows, and write its files.
 
@@ -55,9 +61,10 @@ def replay(
     except ScenarioError as error:
         complain(f"{error.source or store}: error: {error.message}")
         return Exit(error.exit_code)
-    for line in verdict(f"{name}, row {row}", result):
+    succeeded = result.status == "success"
+    for line in () if quiet and succeeded else verdict(f"{name}, row {row}", result):
         say(line)
-    return Exit.OK if result.status == "success" else Exit.FAILED
+    return Exit.OK if succeeded else Exit.FAILED
 
 
 @click.command()
@@ -74,6 +81,7 @@ def replay(
     type=click.FloatRange(0.0, 100.0),
     help="Exit with 1 if the mean grade of coverage is less.",
 )
+@quiet_option
 def report(
     store: Path,
     page: Path | None,
@@ -81,6 +89,7 @@ def report(
     summary: Path | None,
     junit: Path | None,
     fail_under: float | None,
+    quiet: bool,
 ) -> Exit:
     """Write what came of a campaign as one HTML page that loads nothing.
 
@@ -103,7 +112,7 @@ def report(
     except ScenarioError as error:
         complain(f"{error.source or store}: error: {error.message}")
         return Exit(error.exit_code)
-    for line in _verdict(results, place):
+    for line in () if quiet else _verdict(results, place):
         say(line)
     grade = said["coverage_grade"]
     if fail_under is not None and (grade is None or grade < fail_under):
@@ -141,7 +150,8 @@ def _verdict(results: Results, place: Path) -> Iterator[str]:
 @click.command()
 @click.argument("store", metavar="STORE", type=STORE)
 @click.argument("file", metavar="FILE", type=FILE)
-def export(store: Path, file: Path) -> Exit:
+@quiet_option
+def export(store: Path, file: Path, quiet: bool) -> Exit:
     """Write all rows as a table: FILE.csv, or JSON Lines for FILE.jsonl.
 
     Columns: number, seed, status, reason, seconds of simulated time, `parameter NAME` and
@@ -153,5 +163,6 @@ def export(store: Path, file: Path) -> Exit:
             rows = export_rows(opened, file)
     except CampaignError as error:
         raise click.UsageError(str(error)) from None
-    say(f"{file}: {rows} rows")
+    if not quiet:
+        say(f"{file}: {rows} rows")
     return Exit.OK

@@ -197,6 +197,9 @@ def _address(context: click.Context, parameter: click.Parameter, value: str | No
     return value
 
 
+quiet_option = click.option("-q", "--quiet", is_flag=True, help="Print errors alone.")
+
+
 def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options that say how to report; the command gets a `reporter`."""
 
@@ -221,7 +224,7 @@ def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
             default="text",
             help="Form of diagnostics; all but `text` go to standard output.",
         ),
-        click.option("-q", "--quiet", is_flag=True, help="Print errors alone."),
+        quiet_option,
         click.option("--strict", is_flag=True, help="Exit with 1 if there are warnings."),
         click.option(
             "--max-diagnostics",

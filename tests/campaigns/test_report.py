@@ -132,6 +132,8 @@ def test_the_command(place: Path, tmp_path: Path, capsys: pytest.CaptureFixture[
     assert all(file.stat().st_size for file in files)
     empty = tmp_path / "empty.campaign"
     Store(empty, is_new=True).__exit__(None, None, None)
+    quiet = shell("campaign", "report", place, "-q")
+    assert (quiet.code, quiet.out) == (0, "")
     ended = shell("campaign", "report", empty)
     assert ended.code == 2
     assert "nothing was run yet" in ended.err

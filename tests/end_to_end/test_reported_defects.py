@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx.options import XmlOptions, XmlProfile
 from osc2tx_runtime import RunSettings
 from tests.unit.backends.xosc.checks import schema_errors
 from tests.unit.cli.shell import Shell
@@ -132,6 +133,7 @@ ROWS = [
     Row("first_instant_sees_an_invented_place", 2.0, "done@2"),
     Row("distance_along_the_road", 1.0, "done@1"),
     Row("abreast_in_one_lane", 1.0, options=("--std", "2.2")),
+    Row("back_from_over_the_line", 7.0, "done@7"),
     Row("range_of_accelerations_to_an_end", 4.0, "done@4", options=("--std", "2.2")),
     Row("until_cuts_waits_short", 2.0, "done@2", found=("5 OSC433",)),
 ]
@@ -146,25 +148,24 @@ DOCUMENTS = {
     "xml_start_speed_of_a_later_actor": None,
     "xml_walker_walks_on": None,
     "xml_relative_lane_after_a_junction": None,
+    "xml_follows_a_speed_too_fast": None,
+    "xml_offset_against_s": None,
+    "xml_on_then_wait_for_the_same": None,
+    "xml_position_at_the_end": None,
+    "xml_speed_beyond_performance": None,
+    "xml_walker_sets_out": None,
 }
 REACTS = "xml_on_reacts_each_time"
 
 
 # Known and not yet corrected; each gets a row when it is.
 OPEN = {
-    "back_from_over_the_line",
     "behavior_as_a_field",
     "enters_in_the_second_phase",
     "event_of_an_element",
     "field_added_to_vehicle",
     "modifier_with_an_on",
     "recursion_with_a_way_out",
-    "xml_follows_a_speed_too_fast",
-    "xml_offset_against_s",
-    "xml_on_then_wait_for_the_same",
-    "xml_position_at_the_end",
-    "xml_speed_beyond_performance",
-    "xml_walker_sets_out",
 }
 
 
@@ -213,9 +214,11 @@ def test_outcome(row: Row, folder: Path, shell: Shell) -> None:
             assert header_and_events(Path("trace.jsonl"))[1] == row.events
 
 
+@pytest.mark.parametrize("profile", ["generic", "esmini"])
 @pytest.mark.parametrize("file", DOCUMENTS)
-def test_document(file: str, folder: Path) -> None:
-    given = Given(folder / f"{file}.osc", RunSettings(dt=FINE))
+def test_document(file: str, profile: XmlProfile, folder: Path) -> None:
+    xml = XmlOptions(profile=profile)
+    given = Given(folder / f"{file}.osc", RunSettings(dt=FINE), xml=xml)
     (document,) = scenarios(given)
     reason = DOCUMENTS[file]
     if reason is not None:

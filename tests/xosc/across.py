@@ -54,7 +54,7 @@ class Offsets:
             body.along = -body.along
         start = offset_of(self._scene.map, lane, body.here)
         body.place = lane._replace(offset=start)
-        end = number(node, "targetLaneOffset") * body.along
+        end = number(node, "targetLaneOffset") * self._direction(lane)
         dynamics = node.find("LaneChangeActionDynamics")
         time = number(dynamics, "value")
         match dynamics.get("dynamicsDimension"):
@@ -70,15 +70,18 @@ class Offsets:
         return self._scene.map.travel_direction(place.road, place.lane)
 
     def _to_offset(self, body: Body, node: Node) -> tuple[float, Course]:
-        """Return length and course of a change of the offset, whose acceleration has a peak."""
+        """Return length and course of a change of the offset, whose acceleration has a peak.
+
+        Offsets of the document count along t of the road, those of bodies to the left of travel.
+        """
         place = body.lane(self._scene.map)
         body.place = place._replace(offset=offset_of(self._scene.map, place, body.here))
         target = node.find("LaneOffsetTarget")[0]
         end = number(target, "value")
         if target.tag == "RelativeTargetLaneOffset":
             other = self._scene.bodies[target.get("entityRef")]
-            end += other.place.offset * other.along
-        end *= body.along
+            end += other.place.offset * self._direction(other.place)
+        end *= self._direction(place)
         dynamics = node.find("LaneOffsetActionDynamics")
         shape, peak = dynamics.get("dynamicsShape"), number(dynamics, "maxLateralAcc", math.inf)
         change = abs(end - body.place.offset)

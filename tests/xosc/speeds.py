@@ -112,7 +112,7 @@ class Speeds:
         """Return the next speed of a body; it may need that of another one."""
         if body.name not in self._next:
             self._next[body.name] = body.v  # who follows who follows it
-            self._next[body.name] = self._following(body)
+            self._next[body.name] = _within(self._following(body), body.limits["maxSpeed"])
         return self._next[body.name]
 
     def _following(self, body: Body) -> float:
@@ -137,7 +137,8 @@ class Speeds:
         if node.get("timeGap") is not None:
             wanted = number(node, "timeGap") * (body.v if is_behind else leader.v)
         if limits is None and node.get("continuous") == "true":
-            return self._rigid(body, leader, gap, number(node, "timeGap"), is_behind=is_behind)
+            time = number(node, "timeGap")
+            return self._possible(body, self._rigid(body, leader, gap, time, is_behind=is_behind))
         if node.get("freespace") == "true":
             wanted += body.front + leader.rear if is_behind else body.rear + leader.front
         error = gap - run.side * wanted
@@ -149,7 +150,16 @@ class Speeds:
             run.done = True
             return body.v
         rate = 2.0 * error + 2.0 * math.sqrt(2.0) * (leader.v - body.v) * body.along * leader.along
-        return body.v + min(max(rate, -low), high) * self._scene.dt
+        fastest = math.inf if limits is None else number(limits, "maxSpeed", math.inf)
+        wanted = body.v + min(max(rate, -low), high) * self._scene.dt
+        return self._possible(body, _within(wanted, fastest))
+
+    def _possible(self, body: Body, speed: float) -> float:
+        """Return the speed nearest to one that the performance of a body lets it reach."""
+        low, high = (
+            body.limits[name] * self._scene.dt for name in ("maxDeceleration", "maxAcceleration")
+        )
+        return min(max(speed, body.v - low), body.v + high)
 
     def _nearing(self, body: Body, action: Node) -> float:
         """Return the next speed of an entity that keeps one relative to that of another one.
@@ -179,3 +189,8 @@ class Speeds:
     def _is_between_ends(body: Body) -> bool:
         run = body.actions[LONGITUDINAL]
         return run.gap is not None and run.gap.get("freespace") == "true"
+
+
+def _within(value: float, most: float) -> float:
+    """Return a value, or the nearest one whose size a limit allows."""
+    return min(max(value, -most), most)

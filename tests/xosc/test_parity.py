@@ -60,7 +60,6 @@ IN_WORDS = {
     "C17_light_bulbs": "nobody brakes for others",
     "C17_traffic_signals": "nobody brakes for others",
     "C18_sudden_ice": "what ice does is up to the tool",
-    "C19_speed_modifier": "how far the other one changes its speed only the run shows",
     "care": "nobody brakes for others",
     "choice_that_decides_what_happens": "the document has one choice of several",
     "gap_beside_another": "tools close gaps as they like",

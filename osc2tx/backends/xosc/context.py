@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from math import inf
 from pathlib import Path
 
 from osc2tx import ir
@@ -13,16 +14,30 @@ from osc2tx.backends.xosc.facts.maps import Pose, Roads, roads_of
 from osc2tx.backends.xosc.logical.parameter_choices import NOTHING_OPEN, Choosing
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, LossReport, Remedy
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
-from osc2tx.backends.xosc.state import ActorState
+from osc2tx.backends.xosc.state import ActorState, Demand
 from osc2tx.backends.xosc.values.folding import Values
 from osc2tx.backends.xosc.xml.names import Names
 from osc2tx.backends.xosc.xml.profiles import PROFILES, ToolProfile
 from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions, XmlVersion
+from osc2tx_shared.classes import dataclass
 from osc2tx_shared.map_files import places_in_project
 
 _NUMBERS = {"false": "0", "true": "1"}
+
+
+@dataclass(frozen=True, slots=True)
+class Outlook:
+    """What the whole of a scenario asks for, parts of which stand before the others.
+
+    Attributes:
+        demands: Of the motion of actors, by name.
+        speeds_read: The actors at whose speed a condition looks.
+    """
+
+    demands: Mapping[str, Demand]
+    speeds_read: frozenset[str]
 
 
 class Context:
@@ -50,7 +65,10 @@ class Context:
         automatic_lights: What shines of vehicles whose lights follow the weather, by name.
         segments: Where declared roads and lanes are on the map, once they have been looked for.
         init_globals: Actions of `Init` that concern no entity.
-        demands: Greatest acceleration (m/s^2) that the scenario asks of an actor, by name.
+        demands: What the scenario asks of the motion of an actor, by name.
+        outlook: What the whole scenario asks for; `None` while it is written down first.
+        asks_outlook: Something that is written down depends on that.
+        followed: Whose motion an actor has to be able to take over, by name.
         weather: What the scenario has said about it up to the present place of the tree.
         monitors: Value at the start of monitors, by name.
         variables: Type and value at the start of variables, by name.
@@ -67,6 +85,7 @@ class Context:
         options: XmlOptions,
         folder: Path | None,
         choosing: Choosing = NOTHING_OPEN,
+        outlook: Outlook | None = None,
     ) -> None:
         """Take the scenario.
 
@@ -76,6 +95,7 @@ class Context:
             options: What was chosen.
             folder: Where the source lies, if it has a folder.
             choosing: Its open parameters, and what stands for them.
+            outlook: What it asks for, if that is known from writing it down before.
         """
         self.scenario = scenario
         self.module = module
@@ -95,7 +115,10 @@ class Context:
         self.states: dict[str, ActorState] = {}
         self.at_start: dict[str, ActorState] = {}
         self.start_poses: dict[str, Pose] = {}
-        self.demands: dict[str, float] = {}
+        self.demands: dict[str, Demand] = {}
+        self.outlook = outlook
+        self.asks_outlook = False
+        self.followed: dict[str, set[str]] = {}
         self.monitors: dict[str, bool] = {}
         self.weather: dict[str, float] = {}
         self.init_globals: list[Element] = []
@@ -183,6 +206,32 @@ class Context:
     def can(self, feature: str, since: XmlVersion) -> bool:
         """Whether version and tool have a feature."""
         return self.version >= since and feature not in self.profile.unsupported
+
+    # --- motion ---------------------------------------------------------------------------------
+
+    def demand(self, actor: str, demand: Demand) -> None:
+        """Note what an actor has to be able to."""
+        self.demands[actor] = self.demands.get(actor, Demand()).over(demand)
+
+    def demand_on(self, actor: str) -> Demand:
+        """Return what the whole scenario asks of an actor; the most while that is not known."""
+        self.asks_outlook = True
+        if self.outlook is None:
+            return Demand(inf, inf, inf, True)
+        return self.outlook.demands.get(actor, Demand())
+
+    def is_speed_read(self, actor: str) -> bool:
+        """Whether a condition looks at the speed of an actor."""
+        self.asks_outlook = True
+        return self.outlook is not None and actor in self.outlook.speeds_read
+
+    def whole_demand(self, actor: str) -> Demand:
+        """Return what is asked of an actor, and of all those whose motion it takes over."""
+        found, seen = Demand(), [actor]
+        for name in seen:
+            found = found.over(self.demands.get(name, Demand()))
+            seen += sorted(self.followed.get(name, set()).difference(seen))
+        return found
 
     # --- variables ------------------------------------------------------------------------------
 

@@ -9,7 +9,8 @@ from pkgutil import walk_packages
 
 from osc2tx import ir
 from osc2tx.backends.xosc import actions
-from osc2tx.backends.xosc.context import Context
+from osc2tx.backends.xosc.conditions.comparisons import speeds_read
+from osc2tx.backends.xosc.context import Context, Outlook
 from osc2tx.backends.xosc.document import entry_scenarios, make_document
 from osc2tx.backends.xosc.facts.run_options import read_signal, read_spawn
 from osc2tx.backends.xosc.logical.distributions import document as values_document
@@ -137,8 +138,17 @@ class _Emission:
 
     def _write(self, choosing: Choosing) -> tuple[Context, Element | None]:
         """Return the document for a choice of open parameters; `None` if there cannot be one."""
+        ctx, document = self._write_with(choosing, None)
+        if document is None or not ctx.asks_outlook:
+            return ctx, document
+        return self._write_with(choosing, Outlook(ctx.demands, speeds_read(document)))
+
+    def _write_with(
+        self, choosing: Choosing, outlook: Outlook | None
+    ) -> tuple[Context, Element | None]:
+        """Return the same, given what the whole scenario asks for, as far as that is known."""
         options = self._options
-        ctx = Context(self._scenario, self._module, options, self._folder, choosing)
+        ctx = Context(self._scenario, self._module, options, self._folder, choosing, outlook)
         if options.version not in ctx.profile.versions:
             known = ", ".join(ctx.profile.versions)
             reason = f"{ctx.profile.name} reads OpenSCENARIO XML {known} only"

@@ -40,6 +40,31 @@ CENTRE = Interval(0.0, 0.0)
 """Of a lane."""
 
 
+class Demand(NamedTuple):
+    """The most that a scenario asks of the motion of an actor.
+
+    Attributes:
+        speed: m/s.
+        acceleration: m/s^2.
+        deceleration: m/s^2.
+        jumps: Its speed may change in no time, too.
+    """
+
+    speed: float = 0.0
+    acceleration: float = 0.0
+    deceleration: float = 0.0
+    jumps: bool = False
+
+    def over(self, other: Demand) -> Demand:
+        """Return what covers both."""
+        return Demand(
+            max(self.speed, other.speed),
+            max(self.acceleration, other.acceleration),
+            max(self.deceleration, other.deceleration),
+            self.jumps or other.jumps,
+        )
+
+
 @dataclass(frozen=True, slots=True)
 class ActorState:
     """What is known about an actor.

@@ -6,15 +6,15 @@ domain (longitudinal, lateral) that it controls.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Literal, TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.facts.actors import Course, Limits, held_by, road_condition
+from osc2tx.backends.xosc.facts.actors import Course, Limits, held_by, road_condition, steepest
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.state import ActorState
+from osc2tx.backends.xosc.state import LONGITUDINAL, ActorState, Demand
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
 from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx_shared.classes import dataclass
@@ -200,9 +200,26 @@ class Leaf:
         return held_by(self.member.limits, road_condition(self.ctx.weather))
 
     def demand(self, rate: float) -> None:
-        """Note an acceleration (m/s^2) that the actor has to be able to."""
-        demands, name = self.ctx.demands, self.member.name
-        demands[name] = max(demands.get(name, 0.0), rate)
+        """Note an acceleration (m/s^2), either way, that the actor has to be able to."""
+        self.ctx.demand(self.member.name, Demand(0.0, rate, rate))
+
+    def follow(self, reference: CastMember, *, rigid: bool) -> None:
+        """Note that the speed depends on that of another actor: within limits, or at once."""
+        limits = self.limits
+        own = Demand(0.0, limits.acceleration, limits.deceleration)
+        self.ctx.demand(self.member.name, own)
+        if rigid:
+            self.ctx.followed.setdefault(self.member.name, set()).add(reference.name)
+
+    def demand_of(self, changes: Sequence[Change]) -> None:
+        """Note what changes ask of the motion of the actor."""
+        name = self.member.name
+        if self.course is not None:
+            self.ctx.demand(name, Demand(0.0, *steepest(self.course)))
+        for change in changes:
+            for speed in (change.during.speed, change.after.speed):
+                if change.domain == LONGITUDINAL and speed is not None:
+                    self.ctx.demand(name, Demand(max(map(abs, speed))))
 
     @property
     def construct(self) -> str:

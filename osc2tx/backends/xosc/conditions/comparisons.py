@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple, TypeAlias
 
 from osc2tx import ir
@@ -88,3 +88,32 @@ MIRRORED = {
     "notEqualTo": "notEqualTo",
 }
 """Rule for `-a ? -b` instead of `a ? b`."""
+
+READ_SPEEDS = frozenset(
+    {
+        "AccelerationCondition",
+        "RelativeSpeedCondition",
+        "SpeedCondition",
+        "TimeHeadwayCondition",
+        "TimeToCollisionCondition",
+    }
+)
+"""Conditions that look at the speed of the triggering entities and of the one that they name."""
+
+
+def speeds_read(part: Element) -> frozenset[str]:
+    """Return the actors at whose speed a condition below an element looks."""
+    if part.name != "ByEntityCondition":
+        return frozenset[str]().union(*map(speeds_read, part.children))
+    triggering, condition = part.children
+    if condition.children[0].name not in READ_SPEEDS:
+        return frozenset()
+    return frozenset(_references(triggering)) | frozenset(_references(condition))
+
+
+def _references(part: Element) -> Iterator[str]:
+    name = part.get("entityRef")
+    if name is not None:
+        yield name
+    for child in part.children:
+        yield from _references(child)

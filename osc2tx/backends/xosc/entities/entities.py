@@ -138,16 +138,16 @@ def _scenario_object(ctx: Context, member: CastMember) -> Element:
 def _vehicle(ctx: Context, member: CastMember) -> Element:
     _note_origin(ctx, member)
     limits = member.limits
-    demand = round(ctx.demands.get(member.name, 0.0), 6)
+    demand = ctx.whole_demand(member.name)
     jerk = limits.jerk if ctx.version >= "1.2" else None
     return element(
         "Vehicle",
         _bounding_box(ctx, member),
         element(
             "Performance",
-            maxSpeed=TOP_SPEED,
-            maxAcceleration=max(limits.acceleration, demand),
-            maxDeceleration=max(limits.deceleration, demand),
+            maxSpeed=max(TOP_SPEED, round(demand.speed, 6)),
+            maxAcceleration=max(limits.acceleration, demand.acceleration),
+            maxDeceleration=max(limits.deceleration, demand.deceleration),
             maxAccelerationRate=jerk,
             maxDecelerationRate=jerk,
         ),

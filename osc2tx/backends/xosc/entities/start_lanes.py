@@ -25,7 +25,8 @@ def in_lane(ctx: Context, start: Start, place: LanePosition) -> tuple[Element, A
         heading, pitch, roll = turned(ctx, start, pose.h)
         there = Pose(round(pose.x, 6), round(pose.y, 6), round(pose.z, 6), round(heading, 9))
         return at_pose(there, pitch, roll)
-    sign = 1.0 if place.lane < 0 else -1.0
+    right_hand = 1 if place.lane < 0 else -1  # where there is no map to ask
+    sign = right_hand if ctx.roads is None else ctx.roads.leftwards(place) or right_hand
     element_ = element(
         "LanePosition",
         orientation_in_lane(ctx, start, place),

@@ -7,6 +7,7 @@ set of formulas for profiles and one reader of OpenDRIVE.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import pairwise
 from math import sqrt
 from typing import Protocol
 
@@ -71,6 +72,7 @@ __all__ = [
     "lost_across",
     "road_condition",
     "shape_of",
+    "steepest",
     "way_between",
     "way_by_acceleration",
 ]
@@ -191,6 +193,25 @@ def lost_across(course: Profile, speed: float) -> float:
     step = course.duration / STEPS
     rates = (course.rate((index + 0.5) * step) for index in range(STEPS))
     return sum(step * (speed - sqrt(max(speed**2 - rate**2, 0.0))) for rate in rates)
+
+
+def steepest(course: Course) -> tuple[float, float]:
+    """Return the greatest acceleration and deceleration (m/s^2) of a course of the speed."""
+    step = course.duration / STEPS
+    if step <= 0.0:
+        return 0.0, 0.0
+    if isinstance(course, Linear | Cosine | Quintic | SCurve):
+        rates = [course.rate(index * step) for index in range(STEPS + 1)]
+    else:
+        speeds = [course.value(index * step) for index in range(STEPS + 1)]
+        rates = [(after - before) / step for before, after in pairwise(speeds)]
+    if course.value(0.5 * course.duration) < 0.0:  # backwards
+        rates = [-rate for rate in rates]
+    faster, slower = max(rates), -min(rates)
+    return (
+        round(faster, 6) if faster > 0.0 else 0.0,
+        round(slower, 6) if slower > 0.0 else 0.0,
+    )
 
 
 def fastest(course: Profile) -> float:

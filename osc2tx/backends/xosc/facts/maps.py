@@ -134,6 +134,26 @@ class Roads:
         near = self.map.pose(road)
         return Pose(x, y, near.z + altitude, near.h)
 
+    def leftwards(self, lane: LanePosition | None) -> int | None:
+        """Return the sign, along t, of what is to the left of travel in a lane.
+
+        Args:
+            lane: The lane; `None` if it is unknown: then it is that of all lanes, if they agree.
+        """
+        if lane is not None:
+            return self.map.travel_direction(lane.road, lane.lane)
+        return next(iter(self._directions)) if len(self._directions) == 1 else None
+
+    @cached_property
+    def _directions(self) -> frozenset[int]:
+        """The directions of travel of all driving lanes: 1 along s, -1 against it."""
+        return frozenset(
+            lane.direction
+            for road in self.map.roads.values()
+            for section in road.sections
+            for lane in section.lanes.values()
+        )
+
     def offset_from(self, lane: LanePosition, pose: Pose) -> float:
         """Return how far (m) a place is to the left of the centre of a lane."""
         return offset_from(self.map, lane, pose.x, pose.y)

@@ -209,15 +209,27 @@ def _lane_of_offset(phase: Phase, leaves: bool) -> Callable[[], LanePosition | N
     """Return what gives the lane that an offset counts from, beside the actor.
 
     That is the lane at the start, which a large offset may leave; where a modifier or the action
-    states another lane, it is the present one.
+    states another lane, it is the present one. Who only reaches over a line at the start is still
+    in its own lane.
     """
     road_map, me, lanes = phase.world.map, phase.me, lanes_from_start(phase)
+
+    def only_reaches_over() -> bool:
+        first = phase.first.lane_position
+        if first is None or abs(first.offset) <= _WITHIN:
+            return False
+        centre = road_map.pose(actual_lane(road_map, first))
+        return (
+            abs(offset_from(road_map, first._replace(offset=0.0), centre.x, centre.y))
+            - abs(first.offset)
+            > _WITHIN
+        )
 
     def lane_of_it() -> LanePosition | None:
         place = me().lane_position
         if place is None:
             return None
-        left = 0.0 if leaves else lanes() or 0.0
+        left = 0.0 if leaves or only_reaches_over() else lanes() or 0.0
         if left == 0.0 and abs(place.offset) <= _WITHIN:
             return place._replace(offset=0.0)
         here = actual_lane(road_map, place)

@@ -86,9 +86,17 @@ class Lateral(Protocol):
 
 
 class HoldOffset:
-    """Stays where it is in the lane."""
+    """Stays where it is in the lane.
 
-    __slots__ = ()
+    Attributes:
+        centre: Offset (m) of the centre of the lane that it came to, which may be one of oncoming
+            traffic; None if no change of the offset brought it there.
+    """
+
+    __slots__ = ("centre",)
+
+    def __init__(self, centre: float | None = None) -> None:
+        self.centre = centre
 
     def offset_after(
         self, offset: float, path: float, me: ActorState, inputs: StepInputs
@@ -107,6 +115,7 @@ class Impossible(HoldOffset):
     __slots__ = ("_reason",)
 
     def __init__(self, reason: str) -> None:
+        super().__init__()
         self._reason = reason
 
     def progress(self) -> Progress:
@@ -231,7 +240,8 @@ def lateral_of(
     match command:
         case LaneChange() | LaneOffset():
             lanes = command.lanes if isinstance(command, LaneChange) else 0
-            target = lane_beside(road_map, physical, lanes)
+            place = _in_own_lane(physical, bound, before) if lanes == 0 else physical
+            target = lane_beside(road_map, place, lanes)
             if target is None:
                 return bound, Impossible(_no_lane(road_map, physical, lanes))
             start, end = offset_from(road_map, target, x, y), command.offset
@@ -248,9 +258,11 @@ def lateral_of(
             target, start = lane, offset_from(road_map, lane, x, y)
             end = start + _RUN_OUT * rate
         case None | KeepLane():
+            if isinstance(before, HoldOffset):
+                return bound, HoldOffset(before.centre)
             if not isinstance(before, Shift) or before.progress().done:
-                return bound, HoldOffset()
-            target = lane_beside(road_map, physical, 0) or lane
+                return bound, HoldOffset(before.centre if isinstance(before, Shift) else None)
+            target = lane_beside(road_map, _in_own_lane(physical, bound, before), 0) or lane
             is_there = (bound.road, bound.lane) == (target.road, target.lane)
             if is_there and abs(before.centre - target.offset) < _SAME_LANE:
                 return bound, before  # cut short in the lane it was to end in: let it end
@@ -269,6 +281,16 @@ def lateral_of(
         course = shift_profile(centre + start, centre + end, rate, said, limits)
     here = LanePosition(target.road, target.lane, target.s, centre + start)
     return here, Shift(course, centre + end, centre)
+
+
+def _in_own_lane(physical: LanePosition, bound: LanePosition, before: Lateral) -> LanePosition:
+    """A place, on the centre of its lane if the actor never went to one of oncoming traffic.
+
+    Who only reaches over the line is still in its own lane, wherever its reference point is.
+    """
+    centre = before.centre if isinstance(before, Shift | HoldOffset) else None
+    same = (physical.road, physical.lane) == (bound.road, bound.lane)
+    return physical._replace(offset=0.0) if centre == 0.0 and same else physical
 
 
 def excessive_shift(

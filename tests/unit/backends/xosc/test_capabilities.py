@@ -42,7 +42,7 @@ LIMITS: dict[str, tuple[XmlVersion, ...]] = {
     "C18_sudden_ice": NOTHING,  # what becomes of an action that has begun
     "C19_change_speed": ("1.2", "1.3", "1.4"),  # limited jerk
     "C19_own_shape": NOTHING,  # a shape of its own
-    "C19_speed_modifier": NOTHING,  # how a relative speed is taken up
+    "C19_speed_modifier": ("1.2", "1.3", "1.4"),  # limited jerk
     "C20_acceleration_shape": ("1.2", "1.3", "1.4"),
     "C21_position_modifier": ("1.2", "1.3", "1.4"),  # a course of the speed
     "C21_position_shape": NOTHING,  # a course of the place

@@ -144,12 +144,36 @@ def lane_change(
             "LaneChangeAction",
             _dynamics(leaf, shape, time),
             element("LaneChangeTarget", goal),
-            targetLaneOffset=offset or None,
+            targetLaneOffset=along_t(leaf, offset, target) or None,
         )
     )
     drift = 0.0 if jumps else fastest(course)
     during = replace(after, lane=None, offset=None, drift=drift)
     return Change(LATERAL, (action,), time, during, after)
+
+
+def along_t(leaf: Leaf, offset: float, lane: LanePosition | None = None) -> float:
+    """Return an offset (m) to the left of travel as the XML counts it: along t of the road.
+
+    Args:
+        leaf: The invocation.
+        offset: Metres.
+        lane: In which lane; `None`: in that of the actor, as far as it is known.
+    """
+    roads = leaf.ctx.roads
+    sign = None if roads is None else roads.leftwards(lane or leaf.state.lane)
+    if offset == 0.0 or sign == 1:
+        return offset
+    if sign is None:
+        leaf.ctx.report.approximate(
+            leaf.construct,
+            leaf.node.span,
+            "the XML counts an offset along t of the road, and whether its lane leads along the"
+            " road or against it is only known during the run",
+            Metres(2.0 * abs(offset), "to the other side where its lane leads against s"),
+        )
+        return offset
+    return -offset
 
 
 def _number_among_oncoming(

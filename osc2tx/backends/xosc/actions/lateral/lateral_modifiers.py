@@ -104,7 +104,8 @@ def _lateral(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[C
     profile, peak = _shape(leaf, arguments)
     if leaf.state.offset == known(offset):
         return ()
-    return (offset_change(leaf, offset, profile, peak),)
+    in_time = call.at == "end" and profile != "asap" and peak is None
+    return (offset_change(leaf, offset, profile, peak, leaf.duration if in_time else None),)
 
 
 def _beside_another(

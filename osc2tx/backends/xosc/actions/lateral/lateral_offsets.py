@@ -6,6 +6,7 @@ import math
 
 from osc2tx.backends.xosc.actions.lateral.lanes import (
     NO_ONE_SIDE,
+    along_t,
     lanes_to_segment,
     lateral,
     note_drift,
@@ -45,18 +46,29 @@ def _follow_lane(leaf: Leaf) -> Performance:
     return Performance((offset_change(leaf, offset, profile, peak), *changes), "open")
 
 
-def offset_change(leaf: Leaf, offset: float, profile: str, peak: float | None) -> Change:
+def offset_change(
+    leaf: Leaf, offset: float, profile: str, peak: float | None, duration: float | None = None
+) -> Change:
     """Return the change of the place in the lane.
 
+    Args:
+        leaf: The invocation.
+        offset: Metres to the left of the centre.
+        profile: Of the change (§8.8.2.18).
+        peak: Of its speed (m/s).
+        duration: Seconds that it takes; `None`: as the profile has it.
+
     Raises:
-        Inexpressible: It is in a lane of oncoming traffic.
+        Inexpressible: It is in a lane of oncoming traffic, or reaches over the line to one.
     """
     roads, lane = leaf.ctx.roads, leaf.state.lane
-    if roads is not None and lane is not None and is_oncoming(roads.map, lane):
-        raise Inexpressible(NO_ONE_SIDE, leaf.node.span)
+    if roads is not None and lane is not None:
+        reached = lane._replace(offset=lane.offset + offset_of(leaf.state))
+        if is_oncoming(roads.map, lane) or is_oncoming(roads.map, reached):
+            raise Inexpressible(NO_ONE_SIDE, leaf.node.span)
     way = abs(offset - offset_of(leaf.state))
-    course = course_of_shift(way, profile, peak, None, leaf.limits)
-    note_drift(leaf, way, (profile, peak, None), course)
+    course = course_of_shift(way, profile, peak, duration, leaf.limits)
+    note_drift(leaf, way, (profile, peak, duration), course)
     note_slow(leaf, way, course)
     shape = shape_of(leaf, course, profile)
     if isinstance(course, Linear):
@@ -78,7 +90,9 @@ def offset_change(leaf: Leaf, offset: float, profile: str, peak: float | None) -
                 dynamicsShape=shape,
                 maxLateralAcc=round(peak_rate, 6),
             ),
-            element("LaneOffsetTarget", element("AbsoluteTargetLaneOffset", value=offset)),
+            element(
+                "LaneOffsetTarget", element("AbsoluteTargetLaneOffset", value=along_t(leaf, offset))
+            ),
             continuous=False,
         )
     )

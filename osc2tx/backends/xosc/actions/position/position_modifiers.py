@@ -84,7 +84,7 @@ def _along_road(leaf: Leaf, call: ir.ModifierCall, distance: float) -> tuple[Cha
         roadId=place.road,
         laneId=place.lane,
         s=round(place.s, 6),
-        offset=round(place.offset, 6),
+        offset=round(place.offset * (roads.leftwards(place) or 1), 6) or 0.0,
     )
     there = at_place(leaf.ctx, goal, place, f"modifier {call.name}", call.span)
     leaf.reached = tuple(map(leaf.on_me, there))

@@ -24,6 +24,9 @@ from osc2tx_shared.classes import replace
 SAMPLES = 20
 """Points of a change of the speed, before those that are not needed are left out."""
 
+READ = 0.02
+"""Seconds between the points of a change of a speed at which a condition looks."""
+
 LONG = 3600.0
 """Seconds of the last stretch of a trajectory; something else ends it."""
 
@@ -91,10 +94,15 @@ def _straight_on(leaf: Leaf, start: Pose, course: Profile) -> Element:
 
 
 def _trajectory(leaf: Leaf, start: Pose, course: Profile) -> Element:
-    """Return the way of a walker; its last stretch is long."""
+    """Return the way of a walker; its last stretch is long.
+
+    Its speed is even between two points, so those of a speed that is read are close together.
+    """
+    is_read = leaf.ctx.is_speed_read(leaf.member.name)
+    samples = max(SAMPLES, math.ceil(course.duration / READ)) if is_read else SAMPLES
     times = [0.0]
     if course.duration > 0.0:
-        times += [course.duration * index / SAMPLES for index in range(1, SAMPLES + 1)]
+        times += [course.duration * index / samples for index in range(1, samples + 1)]
     times.append(times[-1] + LONG)
     places = ((time, _ahead(start, _covered(course, time))) for time in times)
     points = [Waypoint(time, place.x, place.y, place.z, place.h) for time, place in places]
@@ -109,7 +117,7 @@ def _trajectory(leaf: Leaf, start: Pose, course: Profile) -> Element:
                 h=round(start.h, 9),
             ),
         )
-        for point in thinned(points, is_timed=True)
+        for point in (points if is_read else thinned(points, is_timed=True))
     ]
     return follow(leaf, vertices, is_timed=True, is_exact=True)
 

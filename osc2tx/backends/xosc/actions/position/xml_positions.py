@@ -6,7 +6,7 @@ import math
 
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.values.constants import Constant, MethodResult, Named
 from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx.diagnostics import Span
@@ -62,9 +62,10 @@ def at_place(
         construct: What is reported where they say it nearly only.
         span: Where that stands.
     """
-    before = None if lane is None or ctx.roads is None else ctx.roads.ahead(lane, -BEFORE)
-    if before is None or ctx.profile.latches_conditions:
-        bound = f"it counts as there at most {REACHED:g} m before the place"
+    roads = ctx.roads
+    before = None if lane is None or roads is None else roads.ahead(lane, -BEFORE)
+    if before is None or lane is None or roads is None or ctx.profile.latches_conditions:
+        bound = Metres(REACHED, "before the place, where it counts as there")
         ctx.report.approximate(construct, span, "a place is a circle about a point", bound)
         return (_distance(ctx, place, REACHED, "lessThan"),)
     there = element(
@@ -72,11 +73,12 @@ def at_place(
         roadId=before.road,
         laneId=before.lane,
         s=round(before.s, 6),
-        offset=round(before.offset, 6) or 0.0,
+        offset=round(before.offset * (roads.leftwards(before) or 1), 6) or 0.0,
     )
+    apart = math.dist(roads.pose(before)[:3], roads.pose(lane)[:3])  # less in a bend than on it
     return (
         _distance(ctx, place, BEFORE, "lessThan"),
-        _distance(ctx, there, BEFORE - SURE, "greaterThan"),
+        _distance(ctx, there, round(apart - SURE, 6), "greaterThan"),
     )
 
 

@@ -6,6 +6,7 @@ speed, one that changes is a course through points.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 
 from osc2tx import ir
@@ -31,7 +32,7 @@ from osc2tx.backends.xosc.facts.actors import (
 )
 from osc2tx.backends.xosc.flattening.tree_queries import follower
 from osc2tx.backends.xosc.report import Inexpressible, Metres
-from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
+from osc2tx.backends.xosc.state import LONGITUDINAL, Demand, Interval, known
 from osc2tx.backends.xosc.values.constants import Member, Named
 from osc2tx.backends.xosc.xml.tree import Element
 from osc2tx_shared.classes import dataclass, replace
@@ -125,9 +126,14 @@ def accelerated(leaf: Leaf, rate: float) -> Change:
     state, duration = leaf.state, leaf.duration
     if rate == 0.0:
         return Change(LONGITUDINAL, (), 0.0, state, state)
+    if duration is None:
+        duration = _time_over_distance(leaf, rate)
     goal = TOP_SPEED if rate > 0.0 else 0.0
+    leaf.ctx.demand(leaf.member.name, Demand(0.0, max(rate, 0.0), max(-rate, 0.0)))
     if duration is None or state.speed is None or not state.speed.is_known:
         # Whatever ends it cuts the change short.
+        if state.speed is not None and state.speed.is_known:
+            leaf.course = Linear(state.speed.low, goal, (goal - state.speed.low) / rate)
         speed = None if state.speed is None else state.speed.over(known(goal))
         during = replace(state.finished(LONGITUDINAL), speed=speed, rate=rate)
         after = replace(during, speed=known(goal), rate=0.0)
@@ -144,6 +150,20 @@ def accelerated(leaf: Leaf, rate: float) -> Change:
     return Change(
         LONGITUDINAL, (speed_action(end, "linear", "time", duration),), duration, during, after
     )
+
+
+def _time_over_distance(leaf: Leaf, rate: float) -> float | None:
+    """Return after how many seconds of an acceleration (m/s^2) the distance of a drive is covered.
+
+    `None`: no distance ends it, or it comes to a stand before, or the speed is not known.
+    """
+    speed = leaf.state.speed
+    call = next((call for call in leaf.node.modifiers if call.name == "distance"), None)
+    if call is None or speed is None or not speed.is_known:
+        return None
+    distance = Arguments(leaf.ctx, call.arguments, call).number("distance")
+    square = 0.0 if distance is None else speed.low**2 + 2.0 * rate * distance
+    return round((math.sqrt(square) - speed.low) / rate, 9) if square > 0.0 else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -112,6 +112,7 @@ def hold(
     newer = leaf.ctx.version >= "1.1"
     _require_side(leaf, gap)
     is_rigid = _is_rigid(leaf, gap, keeps=keeps, missing=missing)
+    leaf.follow(gap.reference, rigid=is_rigid)
     limits = leaf.limits
     constraints = element(
         "DynamicConstraints",
@@ -157,6 +158,7 @@ def _keep_speed_of(leaf: Leaf, reference: str) -> Change:
         "off by the way that it takes to change its speed",
         GENERIC,
     )
+    leaf.ctx.followed.setdefault(leaf.member.name, set()).add(reference)
     action = relative_speed(reference, continuous=True)
     during = replace(leaf.state, speed=None).finished(LONGITUDINAL)
     return Change(LONGITUDINAL, (action,), inf, during, during)

@@ -27,10 +27,9 @@ from osc2tx.backends.xosc.facts.actors import (
     Linear,
     Profile,
     course_of_speed,
-    fastest,
 )
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
-from osc2tx.backends.xosc.state import LONGITUDINAL, ActorState, Interval, known
+from osc2tx.backends.xosc.state import LONGITUDINAL, ActorState, Demand, Interval, known
 from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx_shared.classes import replace
 
@@ -71,7 +70,6 @@ def change_speed(
             refuse_contradiction(leaf, peak, own, duration)
         course = course_of_speed(start, target, profile, peak, duration, leaf.limits)
         leaf.course = course
-        leaf.demand(fastest(course))
         lasting = leaf.duration if duration is None else None
         action = _from_known(leaf, course, target, profile, peak, lasting)
         return Change(LONGITUDINAL, (action,), course.duration, during, after)
@@ -92,6 +90,7 @@ def _steepest(leaf: Leaf, target: float, duration: float) -> float:
 def jump_to(leaf: Leaf, target: float) -> Change:
     """Return the change of the speed in no time."""
     after = replace(leaf.state, speed=known(target)).finished(LONGITUDINAL)
+    leaf.ctx.demand(leaf.member.name, Demand(jumps=leaf.state.speed != known(target)))
     return Change(LONGITUDINAL, (speed_action(target, "step", "time", 0.0),), 0.0, after, after)
 
 

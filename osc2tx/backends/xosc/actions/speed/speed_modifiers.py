@@ -10,14 +10,19 @@ from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed.acceleration import shape_of
 from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to
 from osc2tx.backends.xosc.actions.speed.speed_elements import relative_speed, speed_action
-from osc2tx.backends.xosc.actions.speed.steady_speeds import steady_speed
 from osc2tx.backends.xosc.actions.speed.user_shapes import speed_by, user_shape
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import COMFORT, Course
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
-from osc2tx.backends.xosc.state import LONGITUDINAL, known
+from osc2tx.backends.xosc.state import LONGITUDINAL, Demand, known
 from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx_shared.classes import replace
+
+SAME = 1e-6
+"""m/s between speeds that count as one."""
+
+SHAPED = ("shape", "rate_profile", "rate_peak")
+"""Arguments that give a change a course."""
 
 RELATIVE = {"faster_than": 1.0, "slower_than": -1.0, "same_as": 1.0}
 """Argument that names a reference -> sign of the difference to its speed."""
@@ -147,13 +152,19 @@ def _relative(
         raise Inexpressible("a factor and a difference at once", call.span)
     if factor == 1.0:
         factor = None
-    follows = call.at != "end"
-    time = inf if follows else leaf.duration
+    leaf.follow(reference, rigid=False)
     shape, dimension = "linear", "rate"
     length = _rate_towards(leaf, call, reference, factor, difference)
-    if not follows and leaf.duration is not None:
-        dimension, length = "time", leaf.duration
-    elif follows and "SpeedActionDynamics/rate" in leaf.ctx.profile.unsupported:
+    if any(name in arguments for name in SHAPED):
+        leaf.ctx.report.approximate(
+            f"modifier {call.name}",
+            call.span,
+            "the difference to the speed of another actor has a course of its own in the world, and"
+            " a rate in the XML",
+            "until the speed is reached; the speed itself is exact",
+            Remedy(instead="`speed` with the speed itself is exact", asks=("SpeedActionDynamics",)),
+        )
+    if "SpeedActionDynamics/rate" in leaf.ctx.profile.unsupported:
         shape, dimension, length = "step", "time", 0.0
         leaf.ctx.report.approximate(
             f"modifier {call.name}",
@@ -166,13 +177,13 @@ def _relative(
         reference.name,
         difference if factor is None else factor,
         "delta" if factor is None else "factor",
-        continuous=follows,
+        continuous=True,
         shape=shape,
         dimension=dimension,
         length=length,
     )
     after = replace(leaf.state, speed=None).finished(LONGITUDINAL)
-    return Change(LONGITUDINAL, (action,), time, after, after)
+    return Change(LONGITUDINAL, (action,), inf, after, after)
 
 
 def _rate_towards(
@@ -180,8 +191,8 @@ def _rate_towards(
 ) -> float:
     """Return the rate (m/s^2) of the way to a speed relative to another one.
 
-    The world speeds up and brakes at different rates, the XML has one: that of the first change,
-    which has to do for what the other one does later.
+    The world speeds up and brakes at different rates, the XML has one. That is exact where it is
+    the one of the world whenever the other actor is faster than that.
     """
     limits, mine = leaf.limits, leaf.state.speed
     faster, slower = COMFORT * limits.acceleration, COMFORT * limits.deceleration
@@ -191,11 +202,18 @@ def _rate_towards(
         bound = "until the speed is reached; the speed itself is exact"
     else:
         missing = (theirs.low * factor if factor is not None else theirs.low + more) - mine.low
-        steady = steady_speed(leaf, reference)
-        if abs(missing) < 1e-6 and steady is None:
-            return max(faster, slower)
-        if steady is not None:
-            return faster if missing > 0.0 else slower
+        demand, share = leaf.ctx.demand_on(reference.name), 1.0 if factor is None else abs(factor)
+        rises, falls = (
+            inf if demand.jumps else share * rate
+            for rate in (demand.acceleration, demand.deceleration)
+        )
+        if not demand.jumps:
+            leaf.ctx.demand(leaf.member.name, Demand(share * demand.speed + abs(more)))
+        for rate in (max(faster, slower), faster, slower):
+            is_up = rate == faster or (missing <= SAME and rises <= min(rate, faster))
+            is_down = rate == slower or (missing >= -SAME and falls <= min(rate, slower))
+            if is_up and is_down:
+                return rate
         bound = f"until the speed is reached, from which {abs(missing):.2g} m/s are missing"
     leaf.ctx.report.approximate(
         f"modifier {call.name}",

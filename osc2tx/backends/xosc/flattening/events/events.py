@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.early_triggers import early_triggers, triggers_of
 from osc2tx.backends.xosc.conditions.expressions import condition_flow
-from osc2tx.backends.xosc.conditions.flow import Flow, Test, at_time, single
+from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Test, at_time, single
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.run_options import read_signal
 from osc2tx.backends.xosc.flattening.storyboard.storyboard import Event
@@ -149,7 +149,64 @@ class EventTable:
             return condition_flow(self._ctx, trigger.condition)
         if name not in self._emitted and self._scope.prefix + name not in self._signals:
             return self._from_outside(name, at, is_early=is_early)
+        if not is_early and self._lasts(name):
+            return self._while_it_lasts(name, at)
         return self._is_set(self.variable(name), is_early=is_early)
+
+    def _reactions_with(self, name: str) -> list[ir.On]:
+        """Return the members that react with an event."""
+        nodes = ir.walk_behaviors(self._scope.scenario.body)
+        return [
+            node
+            for node in nodes
+            if isinstance(node, ir.On)
+            and any(isinstance(r, ir.Emit) and r.event.name == name for r in node.reactions)
+        ]
+
+    def _lasts(self, name: str, seen: frozenset[str] = frozenset()) -> bool:
+        """Whether an event occurs at each instant at which some condition holds."""
+        return name not in seen and any(
+            self._is_level(node.trigger, seen | {name}) for node in self._reactions_with(name)
+        )
+
+    def _is_level(self, trigger: ir.Trigger, seen: frozenset[str]) -> bool:
+        if trigger.event is None:
+            return isinstance(trigger.condition, ir.Level)
+        if not isinstance(trigger.event, ir.EventRef):
+            return False
+        declared = self._declared[trigger.event.name].trigger
+        if declared is not None:
+            return self._is_level(declared, seen)
+        return self._lasts(trigger.event.name, seen)
+
+    def _while_it_lasts(self, name: str, at: ir.EventRef | ir.InnerEvent) -> Flow:
+        """Return the tests for an event that occurs for as long as the reactions see reasons.
+
+        Who begins to wait then does not wait for the next time at which such a time begins.
+        """
+        reactions = self._reactions_with(name)
+        always = {id(node) for node in _always_there(self._scope.scenario.body)}
+        emissions = sum(
+            isinstance(r, ir.Emit) and r.event.name == name
+            for node in reactions
+            for r in node.reactions
+        )
+        if emissions < self._emitted.count(name) or any(id(n) not in always for n in reactions):
+            raise Inexpressible(
+                "whether the reaction to a condition that holds is still there is only known"
+                " during the run",
+                at.span,
+            )
+        flow = NEVER
+        for node in reactions:
+            condition, event = node.trigger.condition, node.trigger.event
+            if isinstance(event, ir.EventRef) and condition is None:
+                flow = flow | self.of_event(event.name, event, is_early=False)
+            elif event is None and isinstance(condition, ir.Level):
+                flow = flow | condition_flow(self._ctx, condition)
+            else:
+                raise Inexpressible("a reaction to an event under a condition", at.span)
+        return flow
 
     def _of_followed(self, name: str, followed: ir.Trigger) -> Flow:
         """Return the tests for the event that another one, `name`, follows."""
@@ -189,6 +246,15 @@ class EventTable:
         variable = self._ctx.variable_name(self._scope.prefix + name)
         self._ctx.declare(variable, "boolean", "false")
         return variable
+
+
+def _always_there(node: ir.Behavior) -> Iterator[ir.Behavior]:
+    """Yield the members that begin with the run and that only its end ends."""
+    yield node
+    if isinstance(node, ir.Parallel) and not node.until and node.duration is None:
+        for index, member in enumerate(node.members):
+            if index == 0 or (node.start_to_start is None and node.overlap in (None, "start")):
+                yield from _always_there(member)
 
 
 def _emissions(body: ir.Behavior) -> Iterator[ir.Emit]:

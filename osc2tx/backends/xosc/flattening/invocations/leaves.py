@@ -53,6 +53,7 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
         except ArithmeticError as error:
             raise Inexpressible("its values are no movement: they divide by zero") from error
         leaf.arguments.finish()
+    leaf.demand_of(performance.changes)
     actions = tuple(action for change in performance.changes for action in change.actions)
     goal = start
     is_cut = bool(node.until or overriding or builder.is_race)
