@@ -51,7 +51,6 @@ class CutIn(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "cut_in",
             self.ego.drive("ego_drives", speed(self.v_ego)),

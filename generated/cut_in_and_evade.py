@@ -74,7 +74,6 @@ class CutInAndEvade(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "cut_in_and_evade",
             # Twilight

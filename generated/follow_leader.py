@@ -46,7 +46,6 @@ class FollowLeader(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "follow_leader",
             self.lead(),

@@ -79,7 +79,6 @@ class HelloWorld(Scenario):
         self.place(self.obstacle, position(x=478.93, y=-14.07, z=0.0, h=-1.57 * rad, frame="carla"))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "hello_world",
             self._env_then_hero(),

@@ -54,7 +54,6 @@ class PedestrianCrossing(Scenario):
         self.place(self.ego, lane(1), position(120 * m), speed(self.v_ego))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "pedestrian_crossing",
             self.walker_part(),

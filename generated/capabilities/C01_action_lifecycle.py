@@ -39,7 +39,6 @@ class ActionLifecycle(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "action_lifecycle",
             # Ends by itself: 4 m/s at 2 m/s^2

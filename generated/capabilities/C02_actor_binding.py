@@ -35,7 +35,6 @@ class GainSpeed(Scenario):
         self.target = self.parameter("target", 15 * mps, unit="mps")
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "gain_speed",
             self.actor.change_speed(
@@ -63,7 +62,6 @@ class ActorBinding(Scenario):
         self.place(self.third, lane(3), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "actor_binding",
             self.settle(),

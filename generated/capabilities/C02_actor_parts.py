@@ -97,7 +97,6 @@ class ActorParts(Scenario):
         self.place(self.load, lane(4), position(100 * m))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "actor_parts",
             self.van.drive(speed(10 * mps)),

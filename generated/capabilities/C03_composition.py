@@ -39,7 +39,6 @@ class Composition(Scenario):
         self.place(self.other, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "composition",
             self.ego_part(),

@@ -39,7 +39,6 @@ class Durations(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "durations",
             # Open-ended: ends after 3 s

@@ -55,7 +55,6 @@ class MoveDriveWalk(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "move_drive_walk",
             self.car.drive(speed(20 * mps)),

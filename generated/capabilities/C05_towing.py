@@ -39,7 +39,6 @@ class Towing(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "towing",
             self.car.drive(speed(15 * mps), duration=16 * s),

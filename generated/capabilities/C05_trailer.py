@@ -41,7 +41,6 @@ class DrivingWithATrailer(Scenario):
         self.place(self.truck, lane(2), position(7 * m, ahead_of=self.load), speed(0 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "driving_with_a_trailer",
             Until(

@@ -43,7 +43,6 @@ class SpeedControl(Scenario):
         self.place(self.hasty, lane(3), position(50 * m), speed(self.v_start))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "speed_control",
             self.even.change_speed(

@@ -36,7 +36,6 @@ class AccelerationControl(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "acceleration_control",
             self.ego.change_acceleration(

@@ -38,7 +38,6 @@ class Stationary(Scenario):
         self.place(self.arriving, lane(2), position(50 * m), speed(16 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "stationary",
             self.parked.remain_stationary(),

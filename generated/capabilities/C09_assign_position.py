@@ -42,7 +42,6 @@ class AssignPosition(Scenario):
         self.place(self.ego, lane(4), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "assign_position",
             self.other.drive(speed(10 * mps)),

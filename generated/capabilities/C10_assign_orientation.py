@@ -47,7 +47,6 @@ class AssignOrientation(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "assign_orientation",
             self.walker.walk("east", speed(1 * mps), duration=5 * s),

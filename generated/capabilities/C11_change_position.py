@@ -49,7 +49,6 @@ class ChangePosition(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "change_position",
             self._car_drive_then_change_position(),

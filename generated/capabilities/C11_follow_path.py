@@ -42,7 +42,6 @@ class PathFollowing(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "path_following",
             self.ego.drive(speed(10 * mps), duration=1 * s),

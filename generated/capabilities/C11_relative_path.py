@@ -52,7 +52,6 @@ class RelativePath(Scenario):
         self.place(self.other, lane(4), position(80 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "relative_path",
             self.begin(),

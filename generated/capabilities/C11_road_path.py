@@ -36,7 +36,6 @@ class RoadPathScenario(Scenario):
         self.place(self.ego, lane(2), position(60 * m), speed(12 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "road_path",
             self.ego.drive(speed(12 * mps), duration=1 * s),

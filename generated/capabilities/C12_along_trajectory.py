@@ -49,7 +49,6 @@ class AlongTrajectory(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "along_trajectory",
             self.ego.drive(speed(10 * mps), duration=1 * s),

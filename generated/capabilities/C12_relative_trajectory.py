@@ -49,7 +49,6 @@ class RelativeTrajectory(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "relative_trajectory",
             self.ego.drive(speed(10 * mps), duration=1 * s),

@@ -39,7 +39,6 @@ class CarefulFollowing(Scenario):
         self.place(self.slower, lane(2), position(150 * m), speed(12 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "careful_following",
             self.ego.drive(speed(25 * mps), avoid_collisions(True)),

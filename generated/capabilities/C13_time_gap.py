@@ -49,7 +49,6 @@ class TimeGap(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "time_gap",
             self._leader_drive_then_slow_down(),

@@ -44,7 +44,6 @@ class GapInTime(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "gap_in_time",
             self.lead.drive(duration=30 * s),

@@ -51,7 +51,6 @@ class SpaceGap(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "space_gap",
             self.leader.drive(speed(20 * mps)),

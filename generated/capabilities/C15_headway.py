@@ -51,7 +51,6 @@ class Headway(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "headway",
             self.leader.drive(speed(18 * mps)),

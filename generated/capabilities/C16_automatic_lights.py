@@ -44,7 +44,6 @@ class AutomaticLights(Scenario):
         self.place(self.dark, lane(1), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "automatic_lights",
             self.ego.drive(speed(20 * mps)),

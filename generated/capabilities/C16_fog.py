@@ -47,7 +47,6 @@ class FogScenario(Scenario):
         self.place(self.late, lane(2), position(280 * m), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "fog",
             self.standing.remain_stationary(),

@@ -41,7 +41,6 @@ class WeatherControl(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "weather_control",
             self.ego.drive(speed(20 * mps), duration=6 * s),

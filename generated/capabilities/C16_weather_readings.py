@@ -67,7 +67,6 @@ class WeatherReadings(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "weather_readings",
             self._ego_drive_then_change_speed(),

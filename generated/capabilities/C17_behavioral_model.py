@@ -51,7 +51,6 @@ class BehavioralModels(Scenario):
         self.place(self.ego, lane(1), position(10 * m), speed(12 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "behavioral_models",
             self.lights.set_semantic_state(traffic_light=self.ahead, state="stop"),

@@ -47,7 +47,6 @@ class CarefulCrossing(Scenario):
         self.place(self.walker, position(at_point=self.curb, project_on_route=False), yaw(90 * deg))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "careful_crossing",
             self.ego.drive(speed(self.v_ego), avoid_collisions(True)),

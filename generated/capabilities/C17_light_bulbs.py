@@ -95,7 +95,6 @@ class LightBulbs(Scenario):
         self.place(self.ego, lane(1), position(20 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "light_bulbs",
             self.lights.play_cycles(cycles=self.road.traffic_light_control),

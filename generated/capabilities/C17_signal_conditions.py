@@ -49,7 +49,6 @@ class SignalConditions(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "signal_conditions",
             self._lights_set_semantic_state_then_set_group_bulb_state(),

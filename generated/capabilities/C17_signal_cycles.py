@@ -54,7 +54,6 @@ class SignalCycles(Scenario):
         self.cycle = self.argument("cycle", TrafficLightCycle(phases=[self.free, self.closed]))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "signal_cycles",
             self.lights.play_cycles("run_by_itself", cycles=[self.cycle], duration=12 * s),

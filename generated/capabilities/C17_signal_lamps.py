@@ -36,7 +36,6 @@ class SignalLamps(Scenario):
         self.main_road = self.argument("main_road", TrafficLightGroup(map_id="1"))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "signal_lamps",
             self.lights.set_state(traffic_light=self.east, state=["is_on", "is_off", "is_off"]),

@@ -45,7 +45,6 @@ class TrafficSignals(Scenario):
         self.place(self.ego, lane(1), position(10 * m), speed(12 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "traffic_signals",
             self._lights_set_semantic_state_then_set_group_semantic_state(),

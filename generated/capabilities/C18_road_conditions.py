@@ -40,7 +40,6 @@ class RoadConditions(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(self.v_full))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "road_conditions",
             self.ego.drive(speed(self.v_full), duration=1 * s),

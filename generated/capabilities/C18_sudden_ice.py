@@ -51,7 +51,6 @@ class SuddenIce(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "sudden_ice",
             self._fast_drive_serial(),

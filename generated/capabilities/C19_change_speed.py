@@ -35,7 +35,6 @@ class RelativeSpeed(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(12 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "relative_speed",
             self.ego.drive(speed(12 * mps), duration=1 * s),

@@ -94,7 +94,6 @@ class OwnShapeScenario(Scenario):
         self.place(self.starting, lane(2), position(50 * m), speed(self.ramp.compute(1 * s)))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "own_shape",
             self.swelling.drive(speed(shape=self.wave), duration=self.wave.duration()),

@@ -43,7 +43,6 @@ class SpeedModifier(Scenario):
         self.place(self.scaled, lane(4), position(100 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "speed_modifier",
             self.pace.drive(speed(self.v_pace)),

@@ -45,7 +45,6 @@ class VelocityProfile(Scenario):
         self.place(self.gentle, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "velocity_profile",
             self.even.drive(speed(18 * mps, shape=self.even_shape)),

@@ -36,7 +36,6 @@ class AccelerationModifier(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(8 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "acceleration_modifier",
             self.ego.drive(speed(8 * mps), duration=1 * s),

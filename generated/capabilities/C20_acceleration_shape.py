@@ -40,7 +40,6 @@ class AccelerationProfile(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "acceleration_profile",
             self.ego.drive(speed(10 * mps), duration=1 * s),

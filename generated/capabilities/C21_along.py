@@ -43,7 +43,6 @@ class AlongAPath(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "along_a_path",
             self.ego.drive(speed(20 * mps), duration=1 * s),

@@ -44,7 +44,6 @@ class Ways(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "ways",
             self._ego_first_leg_then_second_leg(),

@@ -54,7 +54,6 @@ class PositionModifier(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "position_modifier",
             self.ego.drive(speed(15 * mps)),

@@ -67,7 +67,6 @@ class PositionShape(Scenario):
         self.place(self.own, lane(3), speed(10 * mps), position(self.faster.compute(0 * s)))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "position_shape",
             self.stopping.drive(distance(60 * m, shape=self.smoothly)),

@@ -36,7 +36,6 @@ class LaneOffset(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(15 * mps), lateral(distance=0.4 * m))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "lane_offset",
             self.ego.follow_lane("aside", offset=0.4 * m, duration=5 * s),

@@ -48,7 +48,6 @@ class LateralModifiers(Scenario):
         self.place(self.joining, lane(3), position(60 * m, ahead_of=self.ego), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "lateral_modifiers",
             self.ego.drive(speed(15 * mps), keep_lane()),

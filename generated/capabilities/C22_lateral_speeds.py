@@ -78,7 +78,6 @@ class LateralSpeeds(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "lateral_speeds",
             self._drifting_drive_serial(),

@@ -35,7 +35,6 @@ class MapSides(Scenario):
         self.place(self.ego, lane(1, from_="right"), position(10 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "map_sides",
             self.ego.drive(speed(10 * mps), duration=1 * s),

@@ -46,7 +46,6 @@ class Overtaking(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "overtaking",
             self.slow.drive(speed(8 * mps)),

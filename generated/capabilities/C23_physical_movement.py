@@ -38,7 +38,6 @@ class PhysicalMovements(Scenario):
         self.place(self.free, lane(3), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "physical_movements",
             self.bound.change_speed(physical_movement("must_be_physical"), target=20 * mps),

@@ -41,7 +41,6 @@ class TemporalModifiers(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "temporal_modifiers",
             self.ego.drive(speed(10 * mps), duration=1 * s),

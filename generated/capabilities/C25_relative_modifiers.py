@@ -44,7 +44,6 @@ class RelativeModifiers(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "relative_modifiers",
             self._lead_drive_then_lead_changes(),

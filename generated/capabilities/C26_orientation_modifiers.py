@@ -60,7 +60,6 @@ class OrientationModifiers(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "orientation_modifiers",
             self.along.walk(speed(1 * mps)),

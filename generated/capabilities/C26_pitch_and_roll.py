@@ -64,7 +64,6 @@ class PitchAndRoll(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "pitch_and_roll",
             self._car_drive_serial(),

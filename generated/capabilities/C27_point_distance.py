@@ -49,7 +49,6 @@ class PointDistance(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "point_distance",
             Until(

@@ -53,7 +53,6 @@ class WorldCoordinates(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "world_coordinates",
             Until(

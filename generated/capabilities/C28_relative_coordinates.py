@@ -61,7 +61,6 @@ class RelativeCoordinates(Scenario):
         self.place(self.car, lane(1), position(51.5 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "relative_coordinates",
             self.walker.remain_stationary(),

@@ -42,7 +42,6 @@ class AbstractRoute(Scenario):
         self.place(self.ego, along(self.way, start_offset=200 * m), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "abstract_route",
             self.ego.drive(speed(15 * mps), duration=3 * s),

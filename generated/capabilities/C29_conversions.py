@@ -74,7 +74,6 @@ class Conversions(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "conversions",
             self.ego.drive(speed(10 * mps), duration=1 * s),

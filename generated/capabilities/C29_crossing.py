@@ -87,7 +87,6 @@ class CrossingTheStreet(Scenario):
         self.place(self.other, along(self.shortcut), speed(1 * mps), throughout=True)
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "crossing_the_street",
             self.walker.walk(along(self.way), speed(1.5 * mps)),

@@ -44,7 +44,6 @@ class GeodeticPoints(Scenario):
         self.place(self.ego, along(self.way), speed(20 * mps), throughout=True)
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "geodetic_points",
             self.ego.drive(along(self.way), speed(20 * mps)),

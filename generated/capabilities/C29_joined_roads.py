@@ -88,7 +88,6 @@ class JoinedRoads(Scenario):
         self.place(self.ego, along(self.on_ramp, start_offset=20 * m), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "joined_roads",
             self.ego.drive(speed(15 * mps), duration=3 * s),

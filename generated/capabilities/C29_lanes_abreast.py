@@ -50,7 +50,6 @@ class LanesAbreast(Scenario):
         self.place(self.oncoming, along(self.opposite, start_offset=200 * m), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "lanes_abreast",
             self.ego.drive(speed(15 * mps)),

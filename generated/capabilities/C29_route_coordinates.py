@@ -42,7 +42,6 @@ class RouteCoordinates(Scenario):
         self.place(self.ego, speed(15 * mps), throughout=True)
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "route_coordinates",
             self.ego.assign_position(

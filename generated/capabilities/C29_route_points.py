@@ -59,7 +59,6 @@ class RoutePoints(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(16 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "route_points",
             Until(

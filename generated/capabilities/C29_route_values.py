@@ -82,7 +82,6 @@ class RouteValues(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "route_values",
             self.ego.drive(

@@ -37,7 +37,6 @@ class SerialExecution(Scenario):
         self.place(self.ego, lane(1), position(50 * m), speed(12 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "serial_execution",
             self.ego.drive("drive_on", speed(12 * mps), duration=2 * s),

@@ -39,7 +39,6 @@ class Overlaps(Scenario):
         self.place(self.other, lane(3), position(150 * m), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "overlaps",
             self.begin(),

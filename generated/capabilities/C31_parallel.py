@@ -39,7 +39,6 @@ class ParallelExecution(Scenario):
         self.place(self.other, lane(1), position(50 * m), speed(12 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "parallel_execution",
             self.together(),

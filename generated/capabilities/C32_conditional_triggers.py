@@ -53,7 +53,6 @@ class ConditionalTriggers(Scenario):
         self.place(self.other, lane(2), position(150 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "conditional_triggers",
             self._ego_part_and_other_part(),

@@ -65,7 +65,6 @@ class TriggerMeasures(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "trigger_measures",
             self.slow.drive(speed(10 * mps)),

@@ -55,7 +55,6 @@ class MotionReadings(Scenario):
         self.place(self.ego, lane(1), position(50 * m), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "motion_readings",
             Until(

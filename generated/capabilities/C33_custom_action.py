@@ -80,7 +80,6 @@ class CustomAction(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(3 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "custom_action",
             self.ego.drive(speed(3 * mps), duration=1 * s),

@@ -60,7 +60,6 @@ class OwnTypes(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(5 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "own_types",
             self.ego.drive(speed(5 * mps), duration=1 * s),

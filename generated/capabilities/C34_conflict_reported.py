@@ -39,7 +39,6 @@ class ConflictReported(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "conflict_reported",
             self.ego.drive(speed(20 * mps)),

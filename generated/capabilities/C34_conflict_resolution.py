@@ -39,7 +39,6 @@ class ConflictResolution(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "conflict_resolution",
             # Controls the speed, until `evade` wants it

@@ -39,7 +39,6 @@ class Overriding(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(20 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         self.override("cruise", "brake")
         self.override("hurry", "brake", mode="when_active")
         return Parallel(

@@ -54,7 +54,6 @@ class SemanticValidation(Scenario):
         self.place(self.other, lane(2), position(60 * m, ahead_of=self.ego), speed(self.v_other))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "semantic_validation",
             self._ego_approach_then_evade(),

@@ -39,7 +39,6 @@ class OneOfRace(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "one_of_race",
             self.race(),

@@ -44,7 +44,6 @@ class RisingEdge(Scenario):
         self.place(self.ego, lane(2), position(50 * m), speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "rising_edge",
             self._ego_change_speed_serial(),

@@ -45,7 +45,6 @@ class FallingEdge(Scenario):
         self.place(self.ego, lane(1), position(50 * m), speed(15 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "falling_edge",
             self.slow.drive(speed(10 * mps)),

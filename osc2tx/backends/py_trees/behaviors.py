@@ -82,11 +82,11 @@ class BehaviorTreeBuilder:
         """Return `behavior` and the methods it calls, in source order."""
         self._compositions = composition_names(scenario.body)
         self._invocations = invocation_names(scenario.body)
-        self._method(PyName("behavior"), scenario.body, "What happens.")
+        self._method(PyName("behavior"), scenario.body)
         first = replace(self._written[0], statements=tuple(map(_override, scenario.overrides)))
         return (first, *self._written[1:])
 
-    def _method(self, name: PyName, node: ir.Behavior, about: str = "") -> None:
+    def _method(self, name: PyName, node: ir.Behavior) -> None:
         """Write a method; it is listed before those it calls.
 
         A short comment above the phase is its docstring, a longer one stays above.
@@ -97,7 +97,7 @@ class BehaviorTreeBuilder:
         method = MethodView(
             signature=signature(name, (), BEHAVIOUR),
             value=replace(value, comments=(), trailing=None),
-            docstring=tuple(PyDocLine.of(text) for text in (story or about,) if text),
+            docstring=tuple(PyDocLine.of(text) for text in (story,) if text),
             comments=() if story else comments(node.comments),
         )
         self._written.insert(index, method)

@@ -57,7 +57,6 @@ class Calls(Scenario):
         return vehicle.speed > limit
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "calls",
             self._ego_drive_then_now(),

@@ -42,7 +42,6 @@ class CarlaLanes(Scenario):
         self.place(self.cone, position(x=300.0, y=5.25, z=0.0, h=1.57 * rad, frame="carla"))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "carla_lanes",
             Wait(self.go),

@@ -60,7 +60,6 @@ class Top(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "top",
             self.npc.drive(speed(30 * kph)),

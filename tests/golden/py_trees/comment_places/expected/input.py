@@ -67,7 +67,6 @@ class Top(Scenario):
         self.place(self.other, speed(self.v), throughout=True)
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "top",
             self.ego.drive(speed(self.v)),

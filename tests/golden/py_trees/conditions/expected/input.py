@@ -51,7 +51,6 @@ class Conditions(Scenario):
         self.wait_time_2 = self.parameter("wait time 2", within(1 * s, 2 * s), unit="s")
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "conditions",
             self._ego_first_serial(),

@@ -89,7 +89,6 @@ class Constraints(Scenario):
         self.place(self.ego, speed(self.slow), lane(self.lanes))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "constraints",
             Until(

@@ -61,7 +61,6 @@ class Coverage(Scenario):
         self.place(self.ego, speed(10 * kph))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return self.ego.drive(speed(self.target, at="end"), duration=3 * s)
 
 

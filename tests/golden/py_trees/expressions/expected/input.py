@@ -39,7 +39,6 @@ class Expressions(Scenario):
         self.choice = self.v if self.b > 5 and not self.a < 1.0 else 2 * self.v
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "expressions",
             Wait(

@@ -63,7 +63,6 @@ class Commute(Scenario):
         self.place(self.actor, speed(self.habit.pace), throughout=True)
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return self.actor.drive(speed(self.habit.pace), duration=1 * s)
 
 
@@ -95,7 +94,6 @@ class Extensions(Scenario):
         self.keep(self.ego_commute_top < self.fast.pace)
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "extensions",
             self.invoke(Commute, actor=self.ego, habit=self.economical, top=self.ego_commute_top),

@@ -158,7 +158,6 @@ class Fields(Scenario):
         return motion.translational.norm() > self.limit.translational.norm()
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "fields",
             self._ego_drive_then_call(),

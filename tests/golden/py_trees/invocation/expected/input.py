@@ -52,7 +52,6 @@ class Approach(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "approach",
             Until(
@@ -83,7 +82,6 @@ class Top(Scenario):
         self.place(self.car1, lane(2), position(200 * m), speed(50 * kph))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "top",
             self._car1_p1_and_drive(),

@@ -51,7 +51,6 @@ class Lists(Scenario):
         self.place(self.ego, speed(self.cruise), throughout=True)
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "lists",
             self.ego.drive(speed(self.cruise), duration=2 * s),

@@ -148,7 +148,6 @@ class MapValues(Scenario):
         )
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "map_values",
             self.walker.walk(along(self.way), speed(1.5 * mps)),

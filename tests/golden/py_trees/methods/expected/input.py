@@ -48,7 +48,6 @@ class Methods(Scenario):
         return a.speed > b.speed
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "methods",
             self.ego.drive(speed(self.share(self.limit)), duration=2 * s),

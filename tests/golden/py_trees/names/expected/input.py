@@ -44,7 +44,6 @@ class EventScenario(Scenario):
         self.place(self.place_, position(self.name_, ahead_of=self.lambda_))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "event",
             self.class_(),

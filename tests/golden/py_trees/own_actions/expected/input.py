@@ -101,7 +101,6 @@ class OwnActions(Scenario):
         self.other = self.cast("other", Vehicle())
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "own_actions",
             note(text="honking"),

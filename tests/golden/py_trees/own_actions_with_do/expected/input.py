@@ -45,7 +45,6 @@ class Top(Scenario):
         self.seen = Event()
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "top",
             self._ego_quick_then_hurry(),
@@ -77,7 +76,6 @@ class HurryMore(Scenario):
         self.done = Event()
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "hurry_more",
             self.actor.change_speed(target=self.to),
@@ -99,7 +97,6 @@ class Hurry(Scenario):
         self.done = Event()
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "hurry",
             self.actor.change_speed(target=self.to),
@@ -126,7 +123,6 @@ class Platoon(Scenario):
         self.place(self.second, speed(self.pace), throughout=True)
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "platoon",
             self.first.drive(speed(self.pace)),

@@ -57,7 +57,6 @@ class Step(Scenario):
         self.place(self.actor, speed(self.pace), throughout=True)
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "step",
             self.actor.drive("roll", speed(self.pace), duration=1 * s),
@@ -75,7 +74,6 @@ class WalkAround(Scenario):
         self.car = self.cast("car", Vehicle())
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "walk_around",
             self.invoke("inner", Step, actor=self.car),
@@ -105,7 +103,6 @@ class OwnEvents(Scenario):
         self.place(self.ego, speed(10 * mps))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "own_events",
             self._ego_round_serial(),

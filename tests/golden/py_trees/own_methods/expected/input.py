@@ -85,7 +85,6 @@ class OwnMethods(Scenario):
         return self.base * factor
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "own_methods",
             self.ego.drive(speed(self.range_of_speed.middle()), duration=1 * s),

@@ -63,7 +63,6 @@ class Demo(Scenario):
         self.place(self.ego, speed(10 * mps), lane(2), position(50 * m))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         self.override("slow", "quick")
         return Serial(
             "demo",

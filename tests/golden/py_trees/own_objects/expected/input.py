@@ -125,7 +125,6 @@ class Top(Scenario):
         self.keep(self.names[1] in ["second", "third"])
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "top",
             self.invoke(Ride, it_is=self.ego),
@@ -151,7 +150,6 @@ class Ride(Scenario):
         self.place(self.it_is, speed(self.it_is.trip.first.most), throughout=True)
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "ride",
             self.it_is.drive(

@@ -109,7 +109,6 @@ class OwnTypes(Scenario):
         self.place(self.ego, position(at_point=self.start), speed(self.style.v), throughout=True)
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "own_types",
             self.ego.assign_position(position(at_point=self.start), speed(self.style.v)),

@@ -79,7 +79,6 @@ class Top(Scenario):
         self.other = self.cast("other", Lorry(load="empty"))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "top",
             self.invoke(Haul, who=self.ego, hands=2),
@@ -103,7 +102,6 @@ class Haul(Scenario):
         self.place(self.who, speed(self.who.pace()), throughout=True)
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "haul",
             self.who.drive(speed(self.who.pace()), duration=1 * s),

@@ -50,7 +50,6 @@ class Parameters(Scenario):
         self.place(self.ego, lane(self.lanes), speed(self.limit))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return self.ego.drive(speed(self.limit), duration=2 * s)
 
 

@@ -87,7 +87,6 @@ class Paths(Scenario):
         self.place(self.other, along_trajectory(trajectory=self.in_time))
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "paths",
             self._ego_follow_path_then_disconnect_trailer(),

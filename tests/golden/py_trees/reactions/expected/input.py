@@ -38,7 +38,6 @@ class Reactions(Scenario):
         self.reported = Event()
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "reactions",
             self._ego_drive_serial(),

@@ -125,7 +125,6 @@ class Shapes(Scenario):
         self.place(self.walker, speed(self.plain.compute(500 * ms)), throughout=True)
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Parallel(
             "shapes",
             self._ego_drive_serial(),

@@ -40,7 +40,6 @@ class Sky(Scenario):
         self.ego = self.cast("ego", Vehicle())
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "sky",
             self.ego.drive(duration=1 * s),

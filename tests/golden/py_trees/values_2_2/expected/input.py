@@ -47,7 +47,6 @@ class Values(Scenario):
         return value * 2.0
 
     def behavior(self) -> Behaviour:
-        """What happens."""
         return Serial(
             "values",
             self.ego.drive(speed(self.cruise.low), duration=1 * s),
