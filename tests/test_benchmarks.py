@@ -16,6 +16,7 @@ SMALLEST = {
     "build": ["--files", "11"],
     "diffs": ["comment cut_in:"],
     "frontend": ["--no-start", "60"],
+    "growth": ["choices"],
     "opendrive": [str(MAP)],
     "runtime": ["--largest", "10"],
 }

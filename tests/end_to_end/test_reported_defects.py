@@ -66,7 +66,7 @@ ROWS = [
     Row("global_map", 3.0),
     Row("global_actor_placed", 3.0),
     Row("range_in_range_2_2", 0.0, options=("--std", "2.2")),
-    refused("speed_beyond_any_world", "6 OSC516", "no world has such a speed"),
+    refused("speed_beyond_any_world", "6 OSC516", "no world has so large a quantity"),
     Row("override_before_its_base", 1.0),
     Row("until_in_a_range_of_durations", 3.0, "done@3", seeds=10),
     refused("minimum_duration_by_idling", "4 OSC519", "5 s here contradict the 2 s"),

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.calls import comments
-from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr
+from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr, literal
 from osc2tx.backends.py_trees.coverage import render_coverage_model
 from osc2tx.backends.py_trees.environment import environment
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
@@ -33,6 +33,7 @@ from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.user_actions import write_actions
 from osc2tx.backends.py_trees.uses import Uses
 from osc2tx.backends.py_trees.view import (
+    EnumMemberView,
     EnumView,
     ModuleView,
     ScenarioView,
@@ -187,8 +188,11 @@ def _told_enum(view: EnumView, declared: ir.UserEnum | None) -> EnumView:
     if declared is None:
         return view
     told = dict(declared.told)
-    lines = tuple(comments(told.get(member, ())) for member in declared.members)
-    return replace(view, comments=comments(declared.comments), told=lines if told else ())
+    members = tuple(
+        EnumMemberView(literal(member), comments(told.get(member, ())))
+        for member in declared.members
+    )
+    return replace(view, comments=comments(declared.comments), members=members, is_long=bool(told))
 
 
 def _told_units(views: Sequence[UnitView], module: ir.Module) -> tuple[UnitView, ...]:

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from osc2tx import ir
 from osc2tx.backends.py_trees.code import PyName, literal
 from osc2tx.backends.py_trees.naming import NameTable, identifier
-from osc2tx.backends.py_trees.view import EnumView, ImportView, UnitView
+from osc2tx.backends.py_trees.view import EnumMemberView, EnumView, ImportView, UnitView
 
 RUNTIME = "osc2tx_runtime"
 
@@ -106,7 +106,7 @@ class Uses:
     def enums(self) -> tuple[EnumView, ...]:
         """Return the enums that the module defines, by name."""
         return tuple(
-            EnumView(PyName(name), tuple(literal(member) for member in type_.members))
+            EnumView(PyName(name), tuple(EnumMemberView(literal(each)) for each in type_.members))
             for name, type_ in sorted(self._own_enums.items())
         )
 

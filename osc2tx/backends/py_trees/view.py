@@ -98,20 +98,33 @@ class UnitView:
 
 
 @dataclass(frozen=True, slots=True)
+class EnumMemberView:
+    """A member of an enum.
+
+    Attributes:
+        value: Its literal.
+        comments: Those above it.
+    """
+
+    value: PyExpr
+    comments: tuple[PyComment, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class EnumView:
     """An enum that the scenario's own files declare or extend, as a type of the module.
 
     Attributes:
         name: Its name.
         members: Its members.
-        told: The comments above each member; nothing if no member has any.
+        is_long: Each member has a line of its own, since some have comments.
         copied: Why it is a copy, if it is one.
     """
 
     name: PyName
-    members: tuple[PyExpr, ...]
+    members: tuple[EnumMemberView, ...]
     comments: tuple[PyComment, ...] = ()
-    told: tuple[tuple[PyComment, ...], ...] = ()
+    is_long: bool = False
     copied: PyComment | None = None
 
 
