@@ -141,7 +141,7 @@ CASES: dict[str, list[tuple[Act, tuple[float, float]]]] = {
     "keep_space_headway": [(lambda s: braking(s, s.a.keep_space_headway), FEEDBACK)],
     "keep_time_headway": [(lambda s: braking(s, s.a.keep_time_headway), FEEDBACK)],
     "follow_path": [(lambda s: s.a.follow_path(absolute=BEND), FEEDBACK)],
-    "replay_path": [(lambda s: s.a.replay_path(speed(14.0), absolute=BEND), EXACT)],
+    "replay_path": [(lambda s: s.a.replay_path(speed(10.0), absolute=BEND), EXACT)],
     "follow_trajectory": [(lambda s: s.a.follow_trajectory(absolute=TIMED), FEEDBACK)],
     "replay_trajectory": [(lambda s: s.a.replay_trajectory(absolute=TIMED), EXACT)],
     "change_position": [
