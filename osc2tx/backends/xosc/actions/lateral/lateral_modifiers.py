@@ -8,7 +8,7 @@ from osc2tx.backends.xosc.actions.lateral.lateral_offsets import offset_change, 
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
 from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed.gap_elements import Gap, reach
-from osc2tx.backends.xosc.actions.speed.speed_modifiers import may_jump
+from osc2tx.backends.xosc.actions.speed.speed_changes import may_jump
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import known

@@ -20,7 +20,7 @@ from osc2tx.backends.xosc.actions.position.points_and_lines import (
 from osc2tx.backends.xosc.actions.position.routes import assign_route, lane_position
 from osc2tx.backends.xosc.actions.position.xml_positions import at_place
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, modifier
-from osc2tx.backends.xosc.actions.speed.speed_modifiers import may_jump
+from osc2tx.backends.xosc.actions.speed.speed_changes import may_jump
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.facts.curves import Waypoint, sample_curve

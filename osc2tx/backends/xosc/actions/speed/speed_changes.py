@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from osc2tx.backends.xosc.actions.leaf import Change, Leaf
+from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
 from osc2tx.backends.xosc.actions.speed.speed_elements import longitudinal, speed_action
 from osc2tx.backends.xosc.actions.speed.speed_notes import (
     note_acceleration,
@@ -41,6 +41,15 @@ PROFILE_ACTION = "SpeedProfileAction"
 RATE = "SpeedActionDynamics/rate"
 
 
+def may_jump(leaf: Leaf) -> bool:
+    """Whether physics need not hold (§8.9.18)."""
+    for call in leaf.node.modifiers:
+        if call.name == "physical_movement":
+            arguments = Arguments(leaf.ctx, call.arguments, call)
+            return arguments.member("option", "must_be_physical") == "prefer_non_physical"
+    return False
+
+
 def change_speed(
     leaf: Leaf, target: float, profile: str, peak: float | None, duration: float | None
 ) -> Change:
@@ -54,8 +63,11 @@ def change_speed(
         duration: Seconds that it takes.
 
     Where the speed at the start is not known, the scenario leaves the length of the change open,
-    and so does the rate that stands here: it is the one of the embedded world.
+    and so does the rate that stands here: it is the one of the embedded world. What need not be
+    physical takes no time, whatever its profile.
     """
+    if may_jump(leaf):
+        return jump_to(leaf, target)
     state = leaf.state
     after = replace(state, speed=known(target)).finished(LONGITUDINAL)
     if state.speed == known(target) and not _is_changing(state):

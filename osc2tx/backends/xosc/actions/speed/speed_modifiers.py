@@ -8,7 +8,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
 from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed.acceleration import shape_of
-from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to
+from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to, may_jump
 from osc2tx.backends.xosc.actions.speed.speed_elements import relative_speed, speed_action
 from osc2tx.backends.xosc.actions.speed.user_shapes import speed_by, user_shape
 from osc2tx.backends.xosc.entities.cast import CastMember
@@ -26,15 +26,6 @@ SHAPED = ("shape", "rate_profile", "rate_peak")
 
 RELATIVE = {"faster_than": 1.0, "slower_than": -1.0, "same_as": 1.0}
 """Argument that names a reference -> sign of the difference to its speed."""
-
-
-def may_jump(leaf: Leaf) -> bool:
-    """Whether physics need not hold (§8.9.18)."""
-    for call in leaf.node.modifiers:
-        if call.name == "physical_movement":
-            arguments = Arguments(leaf.ctx, call.arguments, call)
-            return arguments.member("option", "must_be_physical") == "prefer_non_physical"
-    return False
 
 
 @modifier("physical_movement")
@@ -69,8 +60,6 @@ def _keep(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Chan
 def _keep_position(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
     if leaf.state.speed == known(0.0):
         return ()
-    if may_jump(leaf):
-        return (jump_to(leaf, 0.0),)
     return (change_speed(leaf, 0.0, "asap", None, None),)
 
 
@@ -104,8 +93,6 @@ def _speed(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Cha
     rate = _rate_beside(leaf)
     if rate is not None:
         profile, peak = "constant", rate
-    if may_jump(leaf):
-        return (jump_to(leaf, target),)
     in_time = call.at == "end" and profile != "asap" and peak is None
     return (change_speed(leaf, target, profile, peak, leaf.duration if in_time else None),)
 
