@@ -79,26 +79,35 @@ MULTILINE = ["a\nb", "a\r\nb", "\n", "\n    import os\n", '"""\nimport os\n"""',
 
 
 def skeleton(python: str) -> list[str]:
-    """Return the shape of a module: what kinds of nodes it has, whatever they are called."""
-    return [type(node).__name__ for node in ast.walk(ast.parse(python))]
+    """Return the shape of a module: what kinds of nodes it has, whatever they are called.
+
+    Docstrings are left out: a comment may be one.
+    """
+    tree = ast.parse(python)
+    left_out = docstrings(tree)
+    return [type(node).__name__ for node in ast.walk(tree) if node not in left_out]
 
 
 def strings(python: str) -> list[str]:
     """Return all strings of a module in order, without the docstrings."""
     tree = ast.parse(python)
-    docstrings = {
-        id(node.body[0].value)
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef)
-        and isinstance(node.body[0], ast.Expr)
-    }
+    left_out = docstrings(tree)
     return [
         node.value
         for node in ast.walk(tree)
-        if isinstance(node, ast.Constant)
-        and isinstance(node.value, str)
-        and id(node) not in docstrings
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and node not in left_out
     ]
+
+
+def docstrings(tree: ast.Module) -> set[ast.AST]:
+    """Return the docstrings of a module: the statements, and their strings."""
+    found: set[ast.AST] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
+            match node.body[0]:
+                case ast.Expr(value=ast.Constant(value=str())) as first:
+                    found |= {first, first.value}
+    return found
 
 
 def quoted(text: str) -> str:
