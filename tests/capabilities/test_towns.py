@@ -115,7 +115,7 @@ def impossible(done: Performance) -> list[str]:
     named: list[str] = done.result.get("warnings", [])
     found = []
     for actor, worst in scan_lines(done.lines).items():
-        told = any(each.startswith(f"{actor} cannot be driven so") for each in named)
+        told = any(each.startswith(f"{actor}: ") and " exceeds the " in each for each in named)
         if worst.jump > JUMP or worst.course > COURSE or worst.along > RATE:
             found.append(f"{actor}: {worst}")
         if worst.across > 9.0 and not told:

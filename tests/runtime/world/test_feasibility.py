@@ -91,7 +91,7 @@ def test_a_wet_road_holds_less(circle: RoadMap, make_spec: Callable[..., Any]) -
     steps(world, 1.0)
     (found,) = world.overloads()
     assert found.limit == ADHESION["wet"] * GRAVITY
-    assert "that the wet road holds" in str(found)
+    assert "on the wet road" in str(found)
 
 
 def test_those_on_foot_have_no_tyres(circle: RoadMap, make_spec: Callable[..., Any]) -> None:
@@ -114,8 +114,9 @@ def test_by_default_the_run_goes_on_with_a_warning() -> None:
     done = run_scenario(scenario(brake), RunSettings())
     assert done.status == "success"
     (warning,) = done.warnings
-    assert warning.startswith("a cannot be driven so: 11.0 m/s^2, 0.0 of them across its way, at ")
-    assert "are more than the 8.8 m/s^2 that the dry road holds (road 1, lane -3, s " in warning
+    limit = "exceeds the grip limit of 8.8 m/s^2 on the dry road, at "
+    assert warning.startswith(f"a: acceleration 11.0 m/s^2 (lateral 0.0 m/s^2) {limit}")
+    assert " m/s (road 1, lane -3, s " in warning
     assert list(verdict("brake", done)) == [
         f"brake: success after {done.time:.2f} s",
         f"  warning: {warning}",
@@ -128,7 +129,7 @@ def test_on_request_it_fails_there_and_then() -> None:
     warned = run_scenario(scenario(brake), RunSettings())
     failed = run_scenario(scenario(brake), RunSettings(physics="fail"))
     assert failed.status == "failure"
-    assert failed.reason.startswith("a cannot be driven so")
+    assert failed.reason.startswith("a: acceleration 11.0 m/s^2")
     assert failed.steps == 1
     assert not failed.warnings
     assert "warnings" not in json.loads(failed.trace_lines[-1])
@@ -172,7 +173,7 @@ def test_what_stands_high_tips_over_before_it_slides(
         assert found.limit == most
         assert f"a radius of {v * v / found.across:.1f} m" in str(found)
         assert v * v / found.across == pytest.approx(LANE, rel=0.01)
-        assert ("tips over" in str(found)) == (category == "bus")
+        assert ("rollover limit" in str(found)) == (category == "bus")
 
 
 def test_a_place_is_named_once(make_spec: Callable[..., Any]) -> None:
@@ -247,14 +248,14 @@ def test_who_must_be_physical_fails(on_a_circle: Callable[..., Any]) -> None:
     failed = on_a_circle(option("must_be_physical"))
     assert failed.status == "failure"
     assert re.search(
-        r"a cannot be driven so: \d+\.\d m/s\^2 across its way at 20\.0 m/s and a radius of"
-        r" \d+\.\d m are more than the 8\.8 m/s\^2 that the dry road holds"
+        r"a: lateral acceleration \d+\.\d m/s\^2 exceeds the grip limit of 8\.8 m/s\^2 on the dry"
+        r" road, at 20\.0 m/s and a radius of \d+\.\d m"
         r" \(road 1, lane -1, s \d+\.\d m; ",
         failed.reason,
     )
     warned = on_a_circle(option("prefer_physical"))
     assert warned.status == "success"
-    assert [w for w in warned.warnings if "cannot be driven so" in w]
+    assert [w for w in warned.warnings if "exceeds the grip limit" in w]
     free = on_a_circle(option("prefer_non_physical"))
     assert free.status == "success"
-    assert not [w for w in free.warnings if "cannot be driven so" in w]
+    assert not [w for w in free.warnings if "exceeds the grip limit" in w]

@@ -49,8 +49,8 @@ class Wheels:
         self.sliding = None
         if left is None:
             self.sliding = (
-                f"it slides: {abs(across):.2f} m/s^2 across its way are more than the"
-                f" {most:.2f} m/s^2 that the road holds"
+                f"it slides: lateral acceleration {abs(across):.2f} m/s^2 exceeds the grip limit of"
+                f" {most:.2f} m/s^2"
             )
             left = 0.0
         speed = min(max(wanted, state.v - left * dt), state.v + left * dt)

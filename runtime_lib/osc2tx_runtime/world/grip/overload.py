@@ -1,4 +1,4 @@
-"""What is said of a motion that no vehicle can drive."""
+"""Motions beyond the grip or rollover limit of a vehicle, as warnings state them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .friction import RoadCondition
 __all__ = ["Excess", "Overload"]
 
 Excess = Literal["slides", "overturns", "jumps"]
-"""More than tyres transmit, than its height allows, or a lateral speed from one step to the next"""
+"""Beyond the grip limit, beyond the rollover limit, or a jump of the lateral speed."""
 
 WORDS: Mapping[RoadCondition, str] = {
     "dry": "dry",
@@ -22,27 +22,28 @@ WORDS: Mapping[RoadCondition, str] = {
     "snow": "snowy",
     "ice": "icy",
 }
-_STRAIGHT = 1e3  # m: radius from which on it is not the bend that asks too much
+_STRAIGHT = 1e3  # m: from this radius on it is not the bend that causes the acceleration
 
 
 @dataclass(slots=True)
 class Overload:
-    """A time in which an actor was to move as it cannot, at one place.
+    """A time in which the motion of an actor exceeds a limit, at one position.
 
     Attributes:
-        actor: Who.
-        time: When it began (s).
-        end: The last instant of it (s).
-        last: The last instant at which it happened there again (s).
-        again: How often it came back there.
-        excess: What is wrong.
-        speed: m/s at its worst instant.
-        along: m/s^2 along the way then.
-        across: m/s^2 across it then; of a jump the change of the lateral speed (m/s).
-        limit: m/s^2 that are possible.
-        road: Its condition.
-        place: Where that was; None off the road.
-        x: World x of that place (m).
+        actor: Its id.
+        time: Its first instant (s).
+        end: Its last instant (s).
+        last: The last instant of a later excess at the same position (s).
+        again: Number of later excesses at the same position.
+        excess: The limit that is exceeded.
+        speed: Speed at the largest excess (m/s).
+        along: Longitudinal acceleration at the largest excess (m/s^2).
+        across: Lateral acceleration at the largest excess (m/s^2); of a jump, the change of the
+            lateral speed (m/s).
+        limit: The limit (m/s^2).
+        road: Condition of the road.
+        place: Position on the road; None off the road.
+        x: World x of that position (m).
         y: World y (m).
     """
 
@@ -63,36 +64,35 @@ class Overload:
 
     @property
     def measure(self) -> float:
-        """How bad it is, among those of its kind."""
+        """The total acceleration (m/s^2), which orders excesses of one kind."""
         return math.hypot(self.along, self.across)
 
     def __str__(self) -> str:
-        """What is wrong, where and when."""
+        """The excess with position and time."""
         place = self.place
         where = f"x {self.x:.1f}, y {self.y:.1f}"
         if place is not None:
             where = f"road {place.road}, lane {place.lane}, s {place.s:.1f} m"
         times = {0: "", 1: ", and once more"}.get(self.again, f", and {self.again} times more")
         return (
-            f"{self.actor} cannot be driven so: {self._figures} ({where}; from"
-            f" {self.time:.2f} s to {self.end:.2f} s{times})"
+            f"{self.actor}: {self._figures} ({where}; from {self.time:.2f} s to"
+            f" {self.end:.2f} s{times})"
         )
 
     @property
     def _figures(self) -> str:
         if self.excess == "jumps":
             return (
-                f"at {self.speed:.1f} m/s its speed across the lane changes by"
-                f" {abs(self.across):.2f} m/s at once"
+                f"lateral speed changes by {abs(self.across):.2f} m/s within a step, at"
+                f" {self.speed:.1f} m/s"
             )
-        how = f"{abs(self.across):.1f} m/s^2 across its way"
+        lateral = f"{abs(self.across):.1f} m/s^2"
+        found = f"lateral acceleration {lateral}"
         if abs(self.along) > 0.5 * self.limit:
-            how = f"{self.measure:.1f} m/s^2, {abs(self.across):.1f} of them across its way,"
+            found = f"acceleration {self.measure:.1f} m/s^2 (lateral {lateral})"
         radius = self.speed * self.speed / max(abs(self.across), 1e-9)
         bend = f" and a radius of {radius:.1f} m" if 0.0 < radius < _STRAIGHT else ""
-        bound = f"that the {WORDS[self.road]} road holds"
+        bound = f"grip limit of {self.limit:.1f} m/s^2 on the {WORDS[self.road]} road"
         if self.excess == "overturns":
-            bound = "at which it tips over"
-        return (
-            f"{how} at {self.speed:.1f} m/s{bend} are more than the {self.limit:.1f} m/s^2 {bound}"
-        )
+            bound = f"rollover limit of {self.limit:.1f} m/s^2"
+        return f"{found} exceeds the {bound}, at {self.speed:.1f} m/s{bend}"

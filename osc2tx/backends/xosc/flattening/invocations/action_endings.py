@@ -19,7 +19,7 @@ from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx_shared.classes import replace
 
 BACK_TO_CENTRE = 1.5
-"""Seconds for the way back after a change of lane that was cut short."""
+"""Seconds for the way back after a lane change that was cut short."""
 
 Claims = frozenset[tuple[str, str]]
 
@@ -114,9 +114,9 @@ def _ending(builder: StoryboardBuilder, actor: str, domain: str, member: ir.Beha
         " without the lateral speed that it has"
     )
     bound = Metres(_beside(builder, actor), "beside, while it returns")
-    construct = "a change of lane that is cut short"
+    construct = "a lane change that is cut short"
     finishing = Remedy(
-        instead="a change of lane that nothing cuts short is exact",
+        instead="an uninterrupted lane change is exact",
         asks=("LaneChangeActionDynamics",),
     )
     builder.ctx.report.approximate(construct, member.span, reason, bound, finishing)
