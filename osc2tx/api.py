@@ -39,7 +39,7 @@ __all__ = ["CompileResult", "compile_file", "compile_text"]
 
 @dataclass(frozen=True, slots=True)
 class CompileResult:
-    """What came of one source.
+    """The outcome of one source.
 
     Attributes:
         name: How diagnostics and generated files call the source.

@@ -1,7 +1,7 @@
 """Scenario `acceleration_modifier`.
 
 C20 Acceleration modifier: a drive with a constant acceleration, then one with a deceleration that
-ends at a stand.
+ends at standstill.
 
 Made by osc2tx from capabilities/C20_acceleration_modifier.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam.

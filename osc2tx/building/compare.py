@@ -193,7 +193,7 @@ class Comparison:
     """The outputs of two states of the sources.
 
     Attributes:
-        results: What came of the sources of today.
+        results: The outcomes of the sources of today.
         differences: The outputs that differ, in order.
         problems: What keeps outputs from being compared, a sentence each.
         bugs: Mistakes of osc2tx itself.

@@ -82,7 +82,7 @@ class ImportedFile:
 
 @dataclass(frozen=True, slots=True)
 class FileResult:
-    """What came of one source file.
+    """The outcome of one source file.
 
     Attributes:
         job: What was to be done.

@@ -95,7 +95,7 @@ def with_siblings(
     """Return results, and those of imported files whose modules they need and that are not there.
 
     Args:
-        results: What came of some files.
+        results: The outcomes of some files.
         compile: Gives the results of jobs.
         configs: The settings files.
     """

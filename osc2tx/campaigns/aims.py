@@ -22,7 +22,7 @@ class Aim:
     Attributes:
         kpi: Name of a value of a measure: `min_ttc`, or `min_ttc(ego,other)` for a pair.
         manner: `min` for its least value, `max` for its greatest.
-        batch: How many rows are chosen together, before it is looked at what came of them.
+        batch: How many rows are chosen together, before their outcomes are looked at.
     """
 
     kpi: str

@@ -40,7 +40,7 @@ class DaskEngine:
         self._address, self._batch, self._patience = address, batch, patience
 
     def run(self, plan: Plan, rows: Iterator[Row | None]) -> Generator[list[RowResult], None, None]:
-        """Yield what came of rows as it comes.
+        """Yield the outcomes of rows as they come.
 
         Raises:
             CampaignError: The cluster is not there, is gone, or cannot run rows.
@@ -93,7 +93,7 @@ class _Flight:
         return self._client.submit(unchanged, self._parcel, pure=False)
 
     def results(self) -> Iterator[list[RowResult]]:
-        """Yield what came of rows as it comes."""
+        """Yield the outcomes of rows as they come."""
         while self._feed():
             found = [result for task in self._landed() for result in self._take(task)]
             if found:
@@ -142,7 +142,7 @@ class _Flight:
         return sorted(waited.done, key=lambda task: self._flying[task][0].number)
 
     def _take(self, task: Any) -> list[RowResult]:
-        """Return what came of the rows of a task that ended."""
+        """Return the outcomes of the rows of a task that ended."""
         rows = self._flying.pop(task)
         try:  # a result can still be lost here, with the worker that has it
             found: list[RowResult] | Refused = task.result()

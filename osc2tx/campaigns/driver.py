@@ -1,4 +1,4 @@
-"""Leads a campaign: chooses rows, has them run, stores what came of them."""
+"""Leads a campaign: chooses rows, has them run, stores their outcomes."""
 
 from __future__ import annotations
 

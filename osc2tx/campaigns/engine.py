@@ -36,7 +36,7 @@ class Engine(Protocol):
     """Runs rows, wherever that is."""
 
     def run(self, plan: Plan, rows: Iterator[Row | None]) -> Generator[list[RowResult], None, None]:
-        """Yield what came of rows, in any order, some at a time; take rows when there is room.
+        """Yield the outcomes of rows, in any order, some at a time; take rows when there is room.
 
         Where `rows` has None there are no more before something else has come of earlier ones.
         """
@@ -68,7 +68,7 @@ class LocalEngine:
         self._stalled = stalled
 
     def run(self, plan: Plan, rows: Iterator[Row | None]) -> Generator[list[RowResult], None, None]:
-        """Yield what came of rows as it comes.
+        """Yield the outcomes of rows as they come.
 
         Raises:
             CampaignError: No worker can be started.
@@ -162,7 +162,7 @@ class _Pool:
         return again + take(self._rows, self._batch - len(again))
 
     def collect(self) -> list[RowResult]:
-        """Wait for what workers tell; return what came of rows."""
+        """Wait for what workers tell; return the outcomes of rows."""
         pipes = {worker.pipe: worker for worker in self._workers}
         begin = time.monotonic()
         wait(list(pipes), timeout=self._patience())
@@ -239,7 +239,7 @@ class _Pool:
 
 
 def crashed(row: Row, attempts: int) -> RowResult:
-    """Return what came of a row that ended its process each time, the same on all engines."""
+    """Return the outcome of a row that ended its process each time, the same on all engines."""
     return RowResult(
         row, {}, CRASHED, "the process of this row ended or stalled, each time", attempts=attempts
     )

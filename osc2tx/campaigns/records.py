@@ -95,7 +95,7 @@ def row_of(run: Mapping[str, Any]) -> Row:
 
 
 def record(result: RowResult) -> Sequence[Any]:
-    """Return what came of a row as a record of the table `run`."""
+    """Return the outcome of a row as a record of the table `run`."""
     row = result.row
     return (
         row.number,

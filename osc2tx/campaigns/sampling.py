@@ -86,11 +86,11 @@ class Findings:
         self.left_out = set(left_out)
 
     def hear(self, results: Iterable[RowResult]) -> None:
-        """Note what came of rows."""
+        """Note the outcomes of rows."""
         self.measures.update((each.row.number, each.measures) for each in results)
 
     def knows(self, number: int) -> bool:
-        """Whether it is known what came of a row."""
+        """Whether the outcome of a row is known."""
         return number in self.measures or number in self.left_out
 
 

@@ -1,4 +1,4 @@
-"""A search: rows that are chosen by what came of earlier rows, to find the worst value of a KPI.
+"""A search: rows that are chosen by the outcomes of earlier rows, to find the worst value of a KPI.
 
 Rows are chosen in batches of a size that is part of the campaign, by what all rows of the batches
 before had. So row 17 is the same whoever runs the rows, in which order, and however often the

@@ -1,4 +1,4 @@
-"""Keeps what came of the rows of a campaign in one SQLite file.
+"""Keeps the outcomes of the rows of a campaign in one SQLite file.
 
 The driver alone writes. A row that arrives twice is stored once, and what was stored before a
 process was killed stays: SQLite's write-ahead log sees to that. The file may be a stranger's or
@@ -247,7 +247,7 @@ class Store:
     # --- rows ---
 
     def add(self, results: Iterable[RowResult], left_out: Iterable[int] = ()) -> None:
-        """Store what came of rows, at once."""
+        """Store the outcomes of rows, at once."""
         results = list(results)
         marks = ", ".join("?" * len(COLUMNS))
         collisions = [

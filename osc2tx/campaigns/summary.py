@@ -1,4 +1,4 @@
-"""What came of a campaign, as plain data: verdicts, failures in groups, measures, coverage."""
+"""The outcome of a campaign, as plain data: verdicts, failures in groups, measures, coverage."""
 
 from __future__ import annotations
 

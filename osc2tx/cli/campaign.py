@@ -10,11 +10,11 @@ from osc2tx.cli.campaign_run import run
 
 @click.group()
 def campaign() -> None:
-    """Run a scenario many times, each time with other values, and look at what came of it.
+    """Run a scenario many times, each time with other values, and look at the outcomes.
 
-    What came of the runs is in one file, the store. A row has a number, and the number one meaning:
-    it depends on the scenario, the sampler and the seed, not on who runs it and when. A campaign
-    that was interrupted goes on with the next call.
+    The outcomes of the runs are in one file, the store. A row has a number, and the number one
+    meaning: it depends on the scenario, the sampler and the seed, not on who runs it and when. A
+    campaign that was interrupted is resumed by the next call.
     """
 
 

@@ -1,4 +1,4 @@
-"""`osc2tx campaign report`, `replay` and `export`: what came of it, one row again, tables."""
+"""`osc2tx campaign report`, `replay` and `export`: its outcome, one row again, tables."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def report(
     fail_under: float | None,
     quiet: bool,
 ) -> Exit:
-    """Write what came of a campaign as one HTML page that loads nothing.
+    """Write the outcome of a campaign as one HTML page that loads nothing.
 
     Coverage holes come first, and are told from what the constraints leave no values for; failures
     are grouped, each group with its shortest row and the command that repeats it. Coverage needs

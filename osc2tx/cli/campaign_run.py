@@ -1,4 +1,4 @@
-"""`osc2tx campaign run`: runs rows and stores what came of them."""
+"""`osc2tx campaign run`: runs rows and stores their outcomes."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def _stated(name: str, texts: tuple[str, ...]) -> str | tuple[str, ...]:
 @click.option(
     "--search",
     metavar="KPI",
-    help="Choose rows by what came of others: look for the worst value of a KPI; `min:KPI` or"
+    help="Choose rows by the outcomes of others: look for the worst value of a KPI; `min:KPI` or"
     " `max:KPI` says which that is.",
 )
 @click.option(

@@ -19,7 +19,7 @@ __all__ = ["Campaign", "CampaignRow", "plan_of", "row_of", "run_campaign"]
 
 @dataclass(frozen=True, slots=True)
 class CampaignRow:
-    """What came of one row.
+    """The outcome of one row.
 
     Attributes:
         number: Of the row.
@@ -55,7 +55,7 @@ class CampaignRow:
 
 @dataclass(frozen=True, slots=True)
 class Campaign:
-    """What came of a campaign, with the questions that tests ask.
+    """The outcome of a campaign, with the questions that tests ask.
 
     Attributes:
         rows: By number.
@@ -230,7 +230,7 @@ def repeat_command(
 
 
 def row_of(path: Path, plan: Plan, result: RowResult, options: Mapping[str, Any]) -> CampaignRow:
-    """Return what came of a row, for a test."""
+    """Return the outcome of a row, for a test."""
     return CampaignRow(
         number=result.row.number,
         status=result.status,

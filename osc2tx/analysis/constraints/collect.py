@@ -94,7 +94,6 @@ class Collector:
         special: Mapping[Key, tuple[Special, ...]] | None = None,
         shared: Shared | None = None,
     ) -> None:
-        """See the class."""
         self._model = model
         self._writer = OperationListBuilder(model)
         self._special = special or {}

@@ -24,7 +24,6 @@ class GivenArguments:
     def __init__(
         self, given: Given, values: Mapping[str, ir.Expression] = MappingProxyType({})
     ) -> None:
-        """See the class."""
         self._given = given
         self._values = values
 

@@ -67,7 +67,6 @@ class BehaviorTreeBuilder:
         source_map: ScenarioMap,
         actions: Iterable[ir.UserAction],
     ) -> None:
-        """See the class."""
         self._actions = {action.qualified_name: action for action in actions}
         self._classes = classes
         self._calls = calls

@@ -45,7 +45,6 @@ class CallCheck:
         expressions: Callable[[Iterable[ir.Expression]], None],
         declarations: Sequence[ir.Declaration],
     ) -> None:
-        """See the class."""
         declared = (d for d in declarations if isinstance(d, ir.Actor | ir.Struct))
         self._lineages = {each.name: each.lineage for each in declared}
         self._values = {d.name: d.value for d in declarations if isinstance(d, ir.Parameter)}

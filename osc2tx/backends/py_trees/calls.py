@@ -54,7 +54,6 @@ class CallWriter:
         use_modifier: Callable[[str], PyName],
         functions: ModifierCalls,
     ) -> None:
-        """See the class."""
         self._functions = functions
         self.expressions = expressions
         self.use_name = use_name

@@ -52,7 +52,6 @@ class CombinationCheck:
         sink: DiagnosticSink,
         lineages: Mapping[str, tuple[str, ...]],
     ) -> None:
-        """See the class."""
         self._rules = {name: entry.combining for name, entry in library.modifiers.items()}
         self._objects = objects
         self._sink = sink

@@ -29,7 +29,6 @@ class CoverageWriter:
     """
 
     def __init__(self, calls: CallWriter) -> None:
-        """See the class."""
         self._calls = calls
 
     def write(self, item: ir.Coverage) -> CallView:

@@ -68,7 +68,6 @@ class ExpressionWriter:
         receiver: str | None = None,
         hidden: Iterable[str] = (),
     ) -> None:
-        """See the class."""
         self._type_methods = type_methods or TypeMethods()
         self._receiver = receiver
         bodies = (method.expression for method in methods)

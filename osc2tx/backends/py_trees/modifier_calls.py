@@ -25,7 +25,6 @@ class ModifierCalls:
     """
 
     def __init__(self, modifiers: Iterable[ir.UserModifier], names: NameTable) -> None:
-        """See the class."""
         self._modifiers = {modifier.key: modifier for modifier in modifiers}
         self._names = names
 

@@ -46,7 +46,6 @@ class ObjectCheck:
     def __init__(
         self, own: Mapping[str, ir.UserType], objects: ObjectTables, sink: DiagnosticSink
     ) -> None:
-        """See the class."""
         self._own = own
         self._tables = objects
         self._sink = sink

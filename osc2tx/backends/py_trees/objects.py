@@ -29,7 +29,6 @@ class ObjectWriter:
     """
 
     def __init__(self, expressions: ExpressionWriter, types: TypeTable) -> None:
-        """See the class."""
         self._expressions = expressions
         self._types = types
 

@@ -77,7 +77,6 @@ class ScenarioWriter:
         uses: Uses,
         actions: Iterable[ir.UserAction] = (),
     ) -> None:
-        """See the class."""
         self._actions = actions
         self._source = scenario.span.source
         self._scenario = scenario

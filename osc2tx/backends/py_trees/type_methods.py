@@ -27,7 +27,6 @@ class TypeMethods:
     def __init__(
         self, types: Iterable[ir.UserType] = (), scenarios: Iterable[ir.Scenario] = ()
     ) -> None:
-        """See the class."""
         types = tuple(types)
         own = {each.name for each in types}
         found = [each for type_ in types for each in type_.methods if has_support(each, types)]

@@ -52,7 +52,6 @@ class TypeTable:
         uses: Uses,
         imported: Container[str] = (),
     ) -> None:
-        """See the class."""
         self._imported = imported
         self._own = {each.name: each for each in own}
         self._lineages = ir.lineages(own)

@@ -276,7 +276,7 @@ class Context:
         return value if self.profile.has_booleans else _NUMBERS.get(value, value)
 
     def mark(self, name: str) -> Element:
-        """Return the action of an event that only keeps that something has come true.
+        """Return the action of an event that only keeps that something has become true.
 
         It sets a variable of its own. Tools see that one step earlier than the state of the event.
         """

@@ -79,7 +79,6 @@ class _SampledTypes:
     """
 
     def __init__(self, special: Iterable[sym.TypeSymbol]) -> None:
-        """See the class."""
         self._below: dict[sym.TypeSymbol, list[sym.TypeSymbol]] = {}
         for each in special:
             for ancestor in tuple(supertypes(each))[1:]:

@@ -37,7 +37,6 @@ class DeclarationLowering:
         statements: tuple[ast.Statement, ...],
         constraints: ConstraintLowering,
     ) -> None:
-        """See the class."""
         self._ctx = ctx
         self._scenario = scenario
         self._statements = statements

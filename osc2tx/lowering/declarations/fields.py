@@ -28,7 +28,6 @@ class FieldLowering:
     """
 
     def __init__(self, ctx: LoweringContext, constraints: ConstraintLowering) -> None:
-        """See the class."""
         self._ctx = ctx
         self._constraints = constraints
         self._objects = ObjectLowering(ctx, constraints)

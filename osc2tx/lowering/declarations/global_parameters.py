@@ -32,7 +32,6 @@ class GlobalLowering:
     def __init__(
         self, ctx: LoweringContext, scenario: Composed, constraints: ConstraintLowering
     ) -> None:
-        """See the class."""
         self._ctx = ctx
         self._own = constraints
         self._lowered: dict[str, tuple[ir.Actor | ir.Struct | ir.Parameter, ...]] = {}

@@ -49,7 +49,6 @@ class ObjectLowering:
     """
 
     def __init__(self, ctx: LoweringContext, constraints: ConstraintLowering) -> None:
-        """See the class."""
         self._ctx = ctx
         self._constraints = constraints
 

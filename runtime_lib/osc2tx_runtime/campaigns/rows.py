@@ -111,7 +111,7 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class RowResult:
-    """What came of a row.
+    """The outcome of a row.
 
     Attributes:
         row: The row.

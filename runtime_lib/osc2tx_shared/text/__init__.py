@@ -1,6 +1,6 @@
 r"""Text from files and arguments on its way out: to terminals, logs and files.
 
-Names, strings, comments, paths and values of options are text of others. Where they are shown,
+Names, strings, comments, paths and values of options are untrusted text. Where they are shown,
 what steers a terminal, turns the direction of writing or begins a line of its own is written as an
 escape (`\x1b`, `\u202e`, `\n`), and what a CI server would obey (`::error::`) is broken up.
 

@@ -209,7 +209,7 @@ def test_a_lateral_speed_at_once_is_named(
     assert len(found) == SIDES[profile]
     for each in found:
         assert abs(each.across) == pytest.approx(1.0, abs=0.02)
-        assert "its speed across the lane changes by 1.00 m/s at once" in str(each)
+        assert "lateral speed changes by 1.00 m/s within a step" in str(each)
 
 
 class OnACircle(TwoCars):

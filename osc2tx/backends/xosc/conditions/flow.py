@@ -31,7 +31,7 @@ class Test:
         edge: Whether only a change counts.
         delay: Seconds for which its value is held back.
         latched: It stays true.
-        reached: The time at which it comes true (s), if it is a point in time.
+        reached: The time at which it becomes true (s), if it is a point in time.
         is_constant: It is the same during the whole run.
         event: The event whose end it is, or the act whose start it is, if it is one.
         follows: Such moments before that one, each with the seconds that surely lie between.
@@ -48,7 +48,7 @@ class Test:
 
     @property
     def since(self) -> tuple[str | None, float]:
-        """After the end of which event it comes true, and how many seconds."""
+        """After the end of which event it becomes true, and how many seconds."""
         return (self.event, self.delay) if self.reached is None else (RUN, self.reached)
 
     def implies(self, other: Test) -> bool:
@@ -57,7 +57,7 @@ class Test:
         return after is not None and after >= -ROUNDING
 
     def after(self, other: Test) -> float | None:
-        """Return how long (s) after the other one it comes true at least; `None` if not known."""
+        """Return how long (s) after the other one it becomes true at least; `None` if not known."""
         event, seconds = other.since
         own, delay = self.since
         if event is None or own is None:
@@ -66,7 +66,7 @@ class Test:
         return None if between is None else between + delay - seconds
 
     def later(self, seconds: float) -> Test:
-        """Return the test that comes true so much later."""
+        """Return the test that becomes true so much later."""
         if self.is_constant:
             return self
         if self.reached is not None:
@@ -79,7 +79,7 @@ Group: TypeAlias = tuple[Test, ...]
 
 @dataclass(frozen=True, slots=True)
 class Flow:
-    """An OR of groups; within a group all tests must hold. Without groups it never comes true."""
+    """An OR of groups; within a group all tests must hold. Without groups it never becomes true."""
 
     groups: tuple[Group, ...]
 
@@ -90,11 +90,11 @@ class Flow:
 
     @property
     def is_never(self) -> bool:
-        """Whether it cannot come true."""
+        """Whether it cannot become true."""
         return not self.groups
 
     def later(self, seconds: float) -> Flow:
-        """Return the flow that comes true so much later; only latched ones can be asked."""
+        """Return the flow that becomes true so much later; only latched ones can be asked."""
         if seconds == 0.0:
             return self
         return Flow(tuple(tuple(test.later(seconds) for test in group) for group in self.groups))
@@ -112,7 +112,7 @@ class Flow:
         return tuple(found.items())
 
     def is_surely_after(self, other: Flow) -> bool:
-        """Whether it comes true later than the other one, if it does."""
+        """Whether it becomes true later than the other one, if it does."""
         if len(other.groups) != 1:
             return False
         delays = (

@@ -50,7 +50,7 @@ class Roads:
         return BendsAhead(self.map).sharpest()
 
     def beside(self, place: LanePosition, lanes: int) -> LanePosition | None:
-        """Return the lane of its direction so many to the left of a place; negative: right."""
+        """Return the lane of its direction that many lanes to the left of a place."""
         if lanes == 0:
             return place
         return self.map.neighbour(place, "left" if lanes > 0 else "right", abs(lanes))

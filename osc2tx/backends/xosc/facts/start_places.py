@@ -94,7 +94,7 @@ def given_place(
 
 
 def lane_beside(roads: Roads, place: LanePosition, lanes: int) -> LanePosition:
-    """Return the lane so many to the left of a place.
+    """Return the lane a number of lanes to the left of a place.
 
     Raises:
         NoPlace: There is no such lane.

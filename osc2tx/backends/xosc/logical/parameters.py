@@ -49,7 +49,7 @@ class OpenParameter:
         range_: Its bounds, if it has any.
         is_whole: It has no fractions.
         node: The `one_of` whose member it chooses.
-        change: The change of the lane whose side it chooses.
+        change: The lane change whose side it chooses.
     """
 
     key: str
@@ -258,7 +258,7 @@ def _branches(scope: Scope, names: Names) -> Iterator[OpenParameter]:
 
 
 def _sides(scope: Scope, names: Names) -> Iterator[OpenParameter]:
-    """Yield the sides of changes of the lane that say none: they are drawn for each run."""
+    """Yield the sides of lane changes that state none: they are drawn for each run."""
     for node in ir.walk_behaviors(scope.scenario.body):
         if not isinstance(node, ir.Invoke):
             continue

@@ -20,7 +20,7 @@ class ToolProfile:
         deviates: Names of those that it carries out in another way, with what it does and how far
             off that is.
         has_edges: It looks at `conditionEdge`, and starts events again.
-        has_delays: `delay` counts from when the condition came true, as in the standard, and a
+        has_delays: `delay` counts from when the condition became true, as in the standard, and a
             condition that is no longer true does not count.
         latches_conditions: Of a group it wants each condition once, not all at one time.
         has_act_stop: It ends acts for good by their stop triggers; one that does not looks at the

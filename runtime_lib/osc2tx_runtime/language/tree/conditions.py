@@ -45,7 +45,7 @@ class Condition:
     Args:
         text: A few words for the name of the node.
         watch: Starts it: takes the context, returns the function to ask.
-        seconds: When it comes true after its start, if that is known.
+        seconds: When it becomes true after its start, if that is known.
     """
 
     def __init__(

@@ -74,7 +74,7 @@ def are_opposed(road_map: RoadMap, place: LanePosition, other: LanePosition) -> 
 
 
 def lane_beside(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosition | None:
-    """Centre of the driving lane so many to the left of that of a place; None without one.
+    """Centre of the driving lane that many lanes to the left of a place; None without one.
 
     An actor in a lane of oncoming traffic goes on in its own direction: that lane is given as an
     offset from the innermost lane of the own direction, in which the actor is then said to be.
@@ -153,7 +153,7 @@ def _side(lanes: int) -> SideLeftRight:
 
 
 def _beside(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosition | None:
-    """Centre of the driving lane so many to the left of the lane of a place, of any direction."""
+    """Centre of the driving lane that many lanes to the left of a place, of any direction."""
     if lanes == 0:
         return LanePosition(place.road, place.lane, place.s)
     return road_map.neighbour(place, _side(lanes), abs(lanes), either_way=True)

@@ -1,7 +1,7 @@
 """Tyre-road friction by weather.
 
-The accelerations of a vehicle stay within the friction circle: the sum of the squares of the one
-along its way and of the one across it is at most (mu g)^2.
+The accelerations of a vehicle stay within the friction circle: the sum of the squares of the
+longitudinal and the lateral one is at most (mu g)^2.
 
 The coefficients are a choice of this runtime, one round number for each kind of road. Published
 ones spread with surface, tyre, speed and depth of the water: R. K. Noon, Engineering Analysis of

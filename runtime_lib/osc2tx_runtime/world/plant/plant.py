@@ -2,7 +2,7 @@
 
 The world turns commands into the states that its actors are to have at the end of a step. A plant
 brings them about, and measures what has become of them: CARLA, another simulator, a vehicle model.
-`Identity` has them come true as they are.
+`Identity` carries them out as they are.
 
 An actor is under one control. `exact`: it is where it is wished. `driven`: a controller has it
 follow the wished states, and it is measured. `external` and `autopilot`: somebody else drives it,

@@ -1,4 +1,4 @@
-"""Changes of the lane and of the lateral position in it (§8.8.3.2, §8.8.3.3)."""
+"""Lane changes, and changes of the lateral position in the lane (§8.8.3.2, §8.8.3.3)."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def lane_change(
     jumps: bool = False,
     is_absolute: bool = False,
 ) -> Change:
-    """Return the change to a lane so many to the left of that of the actor or a reference."""
+    """Return the change to a lane to the left of that of the actor or a reference."""
     state = leaf.state
     if own_lanes is None and reference is None:
         own_lanes = lanes
@@ -227,7 +227,7 @@ def shape_of(leaf: Leaf, course: Profile, profile: str) -> str:
 
 
 def _dynamics(leaf: Leaf, shape: str, time: float) -> Element:
-    """Return the dynamics of a change of the lane, over a distance for tools that ask for it."""
+    """Return the dynamics of a lane change, over a distance for tools that ask for it."""
     dimension, value = "time", time
     speed = leaf.state.speed
     asks = f"LaneChangeActionDynamics/{dimension}" in leaf.ctx.profile.unsupported

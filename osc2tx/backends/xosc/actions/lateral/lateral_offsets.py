@@ -39,7 +39,7 @@ def _follow_lane(leaf: Leaf) -> Performance:
     peak = arguments.number("rate_peak")
     target = segment_of(leaf.ctx, arguments.get("target"))
     if target is not None and lanes_to_segment(leaf, target) != 0:
-        raise Inexpressible("it is in another lane; a change of the lane has to come before")
+        raise Inexpressible("it is in another lane; a lane change has to come before")
     changes = apply_modifiers(leaf)
     if leaf.state.offset == known(offset):
         return Performance(changes, "open")

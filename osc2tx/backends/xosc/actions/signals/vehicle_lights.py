@@ -1,4 +1,4 @@
-"""Lights of vehicles as commands for the simulator."""
+"""Vehicle lights as commands for the simulator."""
 
 from __future__ import annotations
 

@@ -122,7 +122,7 @@ def shape_of(leaf: Leaf, arguments: Arguments) -> tuple[str, float | None, float
 
 
 def accelerated(leaf: Leaf, rate: float) -> Change:
-    """Return a constant acceleration (m/s^2) while the action lasts; it ends at a stand."""
+    """Return a constant acceleration (m/s^2) while the action lasts; it ends at standstill."""
     state, duration = leaf.state, leaf.duration
     if rate == 0.0:
         return Change(LONGITUDINAL, (), 0.0, state, state)

@@ -23,7 +23,7 @@ RUN_START = single(run_start())
 class StoryboardBuilder:
     """The acts of one scenario while they are made.
 
-    A mark is an event that only sets a variable: it keeps that a flow has come true.
+    A mark is an event that only sets a variable: it keeps that a flow has become true.
 
     Attributes:
         ctx: The scenario.

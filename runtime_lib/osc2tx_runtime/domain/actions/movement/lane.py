@@ -68,7 +68,7 @@ class _OnLane(ModifiableAction):
         return peak_of(self._rate_peak, "m/s")
 
     def shift(self, lanes: int, offset: float, duration: Duration | None) -> None:
-        """Commands the way to a lane (so many to the left) and an offset (m) in it.
+        """Commands the way to a lane (a number of lanes to the left) and an offset (m) in it.
 
         Raises:
             Refused: It cannot be.

@@ -92,7 +92,7 @@ def _upwards(node: Behaviour | None) -> Iterator[Behaviour]:
 
 
 def target_of_shift(action: ModifiedMotion, lanes: int) -> LanePosition:
-    """The centre of the lane so many to the left of the present one (`lane_beside`).
+    """The centre of the lane a number of lanes to the left of the present one (`lane_beside`).
 
     Raises:
         Refused: There is no such lane.
@@ -158,7 +158,7 @@ def lanes_wanted(action: MotionAction, lane: Lane) -> int:
 
 
 def lanes_beside(action: MotionAction, reference: str, lanes: int) -> int:
-    """Lanes to the left of the present one of the lane so many to the left of a reference.
+    """Number of lanes from the present one to the lane beside a reference, positive to the left.
 
     What is left of a reference in oncoming traffic is so as it drives.
 
