@@ -28,7 +28,7 @@ __all__ = [
     "why_no_result",
 ]
 
-NO_RESULT = (ArithmeticError, LookupError, ValueError)
+NO_RESULT = (ArithmeticError, LookupError, RecursionError, ValueError)
 """What an expression of a scenario raises that has no result: a division by zero, no such element,
 a conversion to a type that has no such value (§7.4.2.6)."""
 
@@ -101,6 +101,8 @@ def why_no_result(error: Exception) -> str:
     """Say why an expression has no result."""
     if isinstance(error, KeyError) and error.args:
         return f"no member of the enumeration has the value {error.args[0]!r}"
+    if isinstance(error, RecursionError):
+        return "a method calls itself without an end"
     return str(error)
 
 

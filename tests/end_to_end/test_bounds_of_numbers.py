@@ -98,3 +98,16 @@ def test_an_actor_that_is_its_own_reference(shell: Shell, tmp_path: Path, refere
     ended = shell("run", file)
     assert ended.code in (3, 5)
     assert "depend on each other" in ended.err
+
+
+def test_a_method_that_calls_itself_without_an_end(shell: Shell, tmp_path: Path) -> None:
+    """The run ends with the line of the value, not with the recursion limit of Python."""
+    method = "struct steps:\n    def after(n: int) -> int is expression after(n + 1)\n\n"
+    body = "    step: steps\n    last: int = step.after(1)\n    do ego.drive(duration: 1s)\n"
+    place = tmp_path / "top.osc"
+    place.write_text(HEAD.replace("scenario top:", f"{method}scenario top:") + body)
+    ended = shell("run", str(place))
+    assert ended.code == 5
+    line = place.read_text(encoding="utf-8").split("\n").index("    last: int = step.after(1)") + 1
+    assert f"top.osc:{line}:5: error[OSC801]: " in ended.err
+    assert "a method calls itself without an end" in ended.err
