@@ -19,6 +19,7 @@ LATE = {
     "C13_time_gap": 0.6,  # a gap is reached when its speed is, too
     "C15_headway": 0.4,  # so, too
     "C17_behavioral_model": 0.6,  # brakes make the last few cm/s of a stop longer
+    "C23_physical_movement": 2.2,  # a speed that may jump is reached with pedals
     "C32_motion_readings": 0.6,  # what is measured brakes a little after what is commanded
 }
 """Modules that are later, the seconds that they may be, and why."""
