@@ -179,7 +179,7 @@ def test_an_error_of_the_server_goes_to_who_asked(server: StandInProcess) -> Non
     client = ClientProcess(5.0)
     client.ask("connect", "127.0.0.1", server.port, 5.0)
     with pytest.raises(SimulatorError, match="map Atlantis not found"):
-        client.ask("load", "Atlantis")
+        client.ask("load", "Atlantis", 5.0)
     assert client.ask("level")["name"] == "highway"  # it goes on
     client.close()
 

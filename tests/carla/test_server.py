@@ -83,6 +83,6 @@ def test_nothing_is_left(run: Run, address: tuple[str, int]) -> None:
     try:
         assert not client.ask("connect", *address, 60.0)["synchronous"]
         for role in ("ego", "other"):
-            assert client.ask("find", role, 0.0) is None
+            assert client.ask("find", role, 0.0) == []
     finally:
         client.close()

@@ -46,7 +46,10 @@ def test_full_throttle_and_full_brake(world: Any) -> None:
 
 @pytest.mark.parametrize("steer", (-0.1, 0.1))
 def test_the_circle_of_a_steering_angle(world: Any, steer: float) -> None:
-    """Yaw rate = v tan(angle) / wheelbase at the rear axle; to the right is clockwise."""
+    """Yaw rate = v tan(angle) / wheelbase at the rear axle; to the right is clockwise.
+
+    At 60 km/h the curve of the steering leaves three quarters of the lock: less with the speed.
+    """
     actor = spawned(world, CAR)
     actor.apply_control(carla.VehicleControl(steer=steer))
     actor.set_target_velocity(forwards(actor, 5.0))
@@ -55,7 +58,8 @@ def test_the_circle_of_a_steering_angle(world: Any, steer: float) -> None:
     axis = actor.get_transform().get_forward_vector()
     speed = velocity.x * axis.x + velocity.y * axis.y
     wheelbase = 2.0 * BLUEPRINTS[CAR].axle
-    expected = math.degrees(speed * math.tan(steer * MAX_STEER) / wheelbase)
+    share = 1.0 - 0.25 * speed / (60.0 / 3.6)
+    expected = math.degrees(speed * math.tan(steer * share * MAX_STEER) / wheelbase)
     assert turn == pytest.approx(expected, rel=0.01)
     assert math.copysign(1.0, turn) == math.copysign(1.0, steer)
 
