@@ -22,7 +22,7 @@ FLAGS = [
     "--disable-background-networking",
     "--disable-component-update",
     "--window-size=1400,1600",
-    "--virtual-time-budget=3000",
+    "--virtual-time-budget=10000",
     "--dump-dom",
 ]
 
