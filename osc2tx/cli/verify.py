@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -107,8 +107,10 @@ def _verified(
         return Exit(error.exit_code)
 
 
-def _chosen(scenarios: object, run: RecordedRun, source: Path) -> type[Scenario]:
-    return choose_scenario(scenarios, str(run.header.get("scenario")), source)  # type: ignore[arg-type]
+def _chosen(
+    scenarios: Mapping[str, type[Scenario]], run: RecordedRun, source: Path
+) -> type[Scenario]:
+    return choose_scenario(scenarios, str(run.header.get("scenario")), source)
 
 
 def _print_text(name: str, run: RecordedRun, found: Verification, source: Path) -> None:

@@ -31,6 +31,7 @@ from .probe import Finding, Probe, differs, line, ok, unknown
 CAR = "vehicle.tesla.model3"
 TIMED = 50  # steps
 EXACT = 1e-3  # m
+MOVED = 0.5  # m that an exact actor is moved in a step
 KICK, KEPT = 20.0, 19.0  # m/s at the start, and a second later
 PACE, WALK = 10.0, 1.4  # m/s of a car and of a walker
 FAR = 100.0  # m that a car is driven
@@ -103,8 +104,8 @@ def exact(probe: Probe) -> Finding:
         driver.ask("step", [("physics", actor, False)])
         off, speeds = 0.0, []
         for number in range(1, 6):
-            ahead = 0.5 * number * math.cos(math.radians(turn[1]))
-            aside = 0.5 * number * math.sin(math.radians(turn[1]))
+            ahead = MOVED * number * math.cos(math.radians(turn[1]))
+            aside = MOVED * number * math.sin(math.radians(turn[1]))
             pose = (x + ahead, y + aside, z + HIGH, *turn)
             state = _state(driver.ask("step", [("place", actor, *pose)]), actor)
             off = max(off, math.dist(state[:3], pose[:3]))
@@ -113,7 +114,7 @@ def exact(probe: Probe) -> Finding:
         return differs(f"{1e3 * off:.1f} mm from where it was put", "runs refuse that")
     found = f"within {1e3 * off:.2f} mm; others see {max(speeds):.1f} m/s"
     watched = [each for each in probe.request.world.control.values() if each != "exact"]
-    if max(speeds) < 0.5 * probe.request.world.dt and watched:
+    if max(speeds) < 0.5 * MOVED / probe.request.world.dt and watched:
         return differs(found, "a radar, and whoever looks at velocities, sees exact actors stand")
     return ok(found)
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.simulators.carla.client_process import ClientProcess
+from osc2tx_runtime.simulators.carla.connection import TIMEOUT
 from osc2tx_runtime.worlds import CheckRequest, CheckResult
 
 from . import contact, motion, surroundings
@@ -24,7 +25,7 @@ def check(request: CheckRequest) -> Iterator[CheckResult]:
     Raises:
         SimulatorError: CARLA's client library has no version for this system.
     """
-    probe = Probe(request, ClientProcess(request.world.options.get("carla_timeout", 10.0)))
+    probe = Probe(request, ClientProcess(request.world.options.get("carla_timeout", TIMEOUT)))
     lost = False
     try:
         for number in sorted(LINES):
