@@ -17,20 +17,27 @@ from typing import TypeAlias
 from osc2tx import ir
 from osc2tx.diagnostics import Label
 from osc2tx.lowering.behavior.durations import is_free, is_instant, is_open_ended
+from osc2tx.lowering.behavior.time_expressions import (
+    SLACK,
+    Terms,
+    Times,
+    greater_of,
+    is_range,
+    lies_within,
+    names_in,
+    resolved,
+    rest_of,
+    shown,
+    sum_of,
+    time_like,
+    with_duration,
+)
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.value_types import BOOL
 from osc2tx_shared.classes import dataclass, replace
 from osc2tx_shared.overlaps import OFFSETS
 
 __all__ = ["TimeSystem"]
-
-SLACK = 1e-9  # s
-
-Terms: TypeAlias = tuple[ir.Expression, ...]
-"""Times that add up to a length."""
-
-Times: TypeAlias = tuple[float, float]
-"""Least and most seconds."""
 
 Composition: TypeAlias = ir.Serial | ir.Parallel | ir.OneOf
 
@@ -80,7 +87,7 @@ class TimeSystem:
             case ir.Invoke() | ir.InvokeScenario() if node.until:
                 return node, None
             case ir.Invoke() | ir.InvokeScenario() if node.duration is not None:
-                return node, None if _is_range(node.duration) else _Known((node.duration,))
+                return node, None if is_range(node.duration) else _Known((node.duration,))
             case _ if is_instant(node):
                 return node, INSTANT
             case _ if is_open_ended(node):
@@ -91,7 +98,7 @@ class TimeSystem:
     def _composition(self, node: Composition) -> tuple[ir.Behavior, _Length]:
         solved = [self._member(member) for member in node.members]
         node = replace(node, members=tuple(member for member, _ in solved))
-        if _is_range(node.duration) and not isinstance(node.duration, ir.RangeValue):
+        if is_range(node.duration) and not isinstance(node.duration, ir.RangeValue):
             return node, None  # which range it is shows in the run
         lengths = [length for _, length in solved]
         length: _Length = None
@@ -102,7 +109,7 @@ class TimeSystem:
                 node, length = self._serial(node, lengths)
             case ir.Parallel():
                 node, length = self._parallel(node, lengths)
-        if node.duration is not None and not _is_range(node.duration):
+        if node.duration is not None and not is_range(node.duration):
             length = _Known((node.duration,))
         return node, length
 
@@ -135,8 +142,8 @@ class TimeSystem:
             node = replace(node, duration=whole)
         if self._is_impossible(others, whole, at_most=True):
             return node
-        rest = _rest(whole, others)
-        return replace(node, members=_with_duration(node.members, index, rest))
+        rest = rest_of(whole, others)
+        return replace(node, members=with_duration(node.members, index, rest))
 
     # --- parallel ---
 
@@ -178,7 +185,7 @@ class TimeSystem:
             high = min(starts[1], first[1], ends[1] + first[1] - own[0])
             if low > high + SLACK:
                 message = (
-                    f"members of {_text(first)} and {_text(own)} cannot overlap as this asks for"
+                    f"members of {shown(first)} and {shown(own)} cannot overlap as this asks for"
                 )
                 labels = [Label(term.span, "one of them") for term in other.terms]
                 self.ctx.sink.report("OSC519", node.span, message, labels=labels)
@@ -200,11 +207,11 @@ class TimeSystem:
             return node, None
         for length in known:
             if length.terms != whole:
-                self._relate(length.terms, _sum(whole))
+                self._relate(length.terms, sum_of(whole))
         members = node.members
         for index in lasting:
             if lengths[index] is FREE:
-                members = _with_duration(members, index, _sum(whole))
+                members = with_duration(members, index, sum_of(whole))
         return replace(node, members=members), _Known(whole)
 
     def _started_together(
@@ -222,7 +229,7 @@ class TimeSystem:
         if whole is None:
             return node, _Known(self._longest(known)) if known and not free else None
         if len(free) == 1 and not isinstance(whole, ir.RangeValue):
-            node = replace(node, members=_with_duration(node.members, free[0], whole))
+            node = replace(node, members=with_duration(node.members, free[0], whole))
         for length in known if len(known) > 1 or free else ():
             self._bound(length.terms, whole)
         if not free and len(known) == 1:
@@ -250,13 +257,13 @@ class TimeSystem:
         """Return the greatest of several lengths."""
         if len(members) == 1:
             return members[0].terms
-        sums = [_sum(each.terms) for each in members]
+        sums = [sum_of(each.terms) for each in members]
         ranges = [self._bounds((each,)) for each in sums]
         for one, found in zip(sums, ranges, strict=True):
             others = [other for each, other in zip(sums, ranges, strict=True) if each is not one]
             if found is not None and all(o is not None and o[1] <= found[0] for o in others):
                 return (one,)
-        return (reduce(_greater, sums),)
+        return (reduce(greater_of, sums),)
 
     # --- equations and bounds ---
 
@@ -266,15 +273,15 @@ class TimeSystem:
             return
         self._narrow(terms, whole)
         if terms and not isinstance(whole, ir.RangeValue):
-            self._narrow((whole,), _sum(terms))
+            self._narrow((whole,), sum_of(terms))
         if isinstance(whole, ir.RangeValue):
             self._demand(terms, whole)
             return
         for term in reversed(terms):
             others = tuple(other for other in terms if other is not term)
             parameter = self._parameter(term)
-            if parameter is not None and parameter.name not in _names((*others, whole)):
-                self._set(parameter, _rest(whole, others))
+            if parameter is not None and parameter.name not in names_in((*others, whole)):
+                self._set(parameter, rest_of(whole, others))
                 return
 
     def _bound(self, terms: Terms, whole: ir.Expression) -> None:
@@ -290,8 +297,8 @@ class TimeSystem:
     def _demand(self, terms: Terms, whole: ir.RangeValue) -> None:
         """Have a bound checked before the run, unless it always holds."""
         found, wanted = self._bounds(terms), self._bounds((whole,))
-        if not _lies_within(found, wanted) and self._is_variable(terms):
-            self._check(_sum(terms), whole)
+        if not lies_within(found, wanted) and self._is_variable(terms):
+            self._check(sum_of(terms), whole)
 
     def _check(self, value: ir.Expression, within: ir.RangeValue) -> None:
         expression = ir.Binary(span=within.span, type=BOOL, operator="in", left=value, right=within)
@@ -304,7 +311,7 @@ class TimeSystem:
         self.ctx.drawn.remove(parameter)
         name = ir.FieldRef(span=parameter.span, type=parameter.type, name=parameter.name)
         self.ctx.drawn.append(replace(parameter, value=value, domain=None, is_fixed=True))
-        if not _lies_within(found, wanted):
+        if not lies_within(found, wanted):
             self._check(name, parameter.domain)
 
     def _is_impossible(self, terms: Terms, whole: ir.Expression, at_most: bool = False) -> bool:
@@ -315,8 +322,8 @@ class TimeSystem:
         is_longer = found[0] > wanted[1] + SLACK
         if not is_longer and (at_most or found[1] >= wanted[0] - SLACK):
             return False
-        labels = [Label(term.span, f"this takes {_text(self._bounds((term,)))}") for term in terms]
-        what = f"{_text(wanted)} here contradict the {_text(found)} that members take"
+        labels = [Label(term.span, f"this takes {shown(self._bounds((term,)))}") for term in terms]
+        what = f"{shown(wanted)} here contradict the {shown(found)} that members take"
         self.ctx.sink.report(
             "OSC519",
             whole.span,
@@ -345,7 +352,7 @@ class TimeSystem:
             ends = [term]
             if isinstance(term, ir.RangeValue):
                 ends = [term.lower, term.upper]
-            found = [ir.bounds(_resolved(end, values), values) for end in ends]
+            found = [ir.bounds(resolved(end, values), values) for end in ends]
             known = [each for each in found if each is not None]
             if len(known) < len(found):
                 return None
@@ -380,11 +387,11 @@ class TimeSystem:
             if low <= had[0] + SLACK and high >= had[1] - SLACK:
                 continue
             position = self.ctx.drawn.index(parameter)
-            lower = _time(low, parameter.domain.lower)
+            lower = time_like(low, parameter.domain.lower)
             if high - low <= SLACK:
                 narrowed = replace(parameter, value=lower, domain=None, is_fixed=True)
             else:
-                upper = _time(high, parameter.domain.upper)
+                upper = time_like(high, parameter.domain.upper)
                 domain = replace(parameter.domain, lower=lower, upper=upper)
                 narrowed = replace(parameter, domain=domain)
             self.ctx.drawn[position] = narrowed
@@ -396,75 +403,4 @@ class TimeSystem:
             for each in (*self.ctx.drawn, *self.declared)
             if isinstance(each, ir.Parameter) and each.domain is not None
         }
-        return bool(drawn & _names(terms))
-
-
-def _is_range(duration: ir.Expression | None) -> bool:
-    return duration is not None and duration.type.kind is ir.Kind.RANGE
-
-
-def _lies_within(found: Times | None, wanted: Times | None) -> bool:
-    if found is None or wanted is None:
-        return False
-    return wanted[0] - SLACK <= found[0] and found[1] <= wanted[1] + SLACK
-
-
-def _resolved(
-    expression: ir.Expression, values: dict[str, ir.Expression], depth: int = 0
-) -> ir.Expression:
-    """Return an expression with computed parameters replaced by what computes them."""
-
-    def computed(part: ir.Expression) -> ir.Expression | None:
-        value = values.get(part.name) if isinstance(part, ir.FieldRef) else None
-        if value is None or isinstance(value, ir.RangeValue | ir.HalfRange | ir.Choices):
-            return None
-        return _resolved(value, values, depth + 1) if depth < len(values) else None
-
-    return ir.rewrite(expression, computed)
-
-
-def _names(terms: Terms) -> set[str]:
-    parts = [part for term in terms for part in ir.walk(term)]
-    return {part.name for part in parts if isinstance(part, ir.FieldRef)}
-
-
-def _sum(terms: Terms) -> ir.Expression:
-    return reduce(lambda left, right: _binary("+", left, right), terms)
-
-
-def _rest(whole: ir.Expression, others: Terms) -> ir.Expression:
-    return reduce(lambda left, right: _binary("-", left, right), others, whole)
-
-
-def _binary(operator: str, left: ir.Expression, right: ir.Expression) -> ir.Binary:
-    return ir.Binary(span=left.span, type=left.type, operator=operator, left=left, right=right)
-
-
-def _greater(one: ir.Expression, other: ir.Expression) -> ir.Expression:
-    test = ir.Binary(span=one.span, type=BOOL, operator=">=", left=one, right=other)
-    return ir.Conditional(
-        span=one.span, type=one.type, condition=test, when_true=one, when_false=other
-    )
-
-
-def _with_duration(
-    members: tuple[ir.Behavior, ...], index: int, duration: ir.Expression
-) -> tuple[ir.Behavior, ...]:
-    member = members[index]
-    assert isinstance(member, ir.Invoke | ir.Serial | ir.Parallel | ir.OneOf)
-    return (*members[:index], replace(member, duration=duration), *members[index + 1 :])
-
-
-def _time(seconds: float, like: ir.Expression) -> ir.Expression:
-    """Return a time, in the unit of another one."""
-    if isinstance(like, ir.Quantity) and not like.unit.offset:
-        value = round(seconds / like.unit.factor, 12)
-        return replace(like, value=value)
-    return ir.Literal(span=like.span, type=like.type, value=seconds)
-
-
-def _text(times: Times | None) -> str:
-    if times is None:
-        return "a time"
-    low, high = times
-    return f"{low:g} s" if low == high else f"{low:g} s to {high:g} s"
+        return bool(drawn & names_in(terms))

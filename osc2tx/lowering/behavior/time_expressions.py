@@ -1,0 +1,97 @@
+"""Arithmetic on the times of a `do` tree: sums, rests, bounds, and how messages show them."""
+
+from __future__ import annotations
+
+from functools import reduce
+from typing import TypeAlias
+
+from osc2tx import ir
+from osc2tx.lowering.value_types import BOOL
+from osc2tx_shared.classes import replace
+
+SLACK = 1e-9  # s
+
+Terms: TypeAlias = tuple[ir.Expression, ...]
+"""Times that add up to a length."""
+
+Times: TypeAlias = tuple[float, float]
+"""Least and most seconds."""
+
+
+def is_range(duration: ir.Expression | None) -> bool:
+    """Return whether a duration is a range."""
+    return duration is not None and duration.type.kind is ir.Kind.RANGE
+
+
+def lies_within(found: Times | None, wanted: Times | None) -> bool:
+    """Return whether times are known to lie within others."""
+    if found is None or wanted is None:
+        return False
+    return wanted[0] - SLACK <= found[0] and found[1] <= wanted[1] + SLACK
+
+
+def resolved(
+    expression: ir.Expression, values: dict[str, ir.Expression], depth: int = 0
+) -> ir.Expression:
+    """Return an expression with computed parameters replaced by what computes them."""
+
+    def computed(part: ir.Expression) -> ir.Expression | None:
+        value = values.get(part.name) if isinstance(part, ir.FieldRef) else None
+        if value is None or isinstance(value, ir.RangeValue | ir.HalfRange | ir.Choices):
+            return None
+        return resolved(value, values, depth + 1) if depth < len(values) else None
+
+    return ir.rewrite(expression, computed)
+
+
+def names_in(terms: Terms) -> set[str]:
+    """Return the names of the fields that terms read."""
+    parts = [part for term in terms for part in ir.walk(term)]
+    return {part.name for part in parts if isinstance(part, ir.FieldRef)}
+
+
+def sum_of(terms: Terms) -> ir.Expression:
+    """Return the sum of times."""
+    return reduce(lambda left, right: _binary("+", left, right), terms)
+
+
+def rest_of(whole: ir.Expression, others: Terms) -> ir.Expression:
+    """Return what other times leave of a whole."""
+    return reduce(lambda left, right: _binary("-", left, right), others, whole)
+
+
+def _binary(operator: str, left: ir.Expression, right: ir.Expression) -> ir.Binary:
+    return ir.Binary(span=left.span, type=left.type, operator=operator, left=left, right=right)
+
+
+def greater_of(one: ir.Expression, other: ir.Expression) -> ir.Expression:
+    """Return the greater one of two times."""
+    test = ir.Binary(span=one.span, type=BOOL, operator=">=", left=one, right=other)
+    return ir.Conditional(
+        span=one.span, type=one.type, condition=test, when_true=one, when_false=other
+    )
+
+
+def with_duration(
+    members: tuple[ir.Behavior, ...], index: int, duration: ir.Expression
+) -> tuple[ir.Behavior, ...]:
+    """Return members of which one has another duration."""
+    member = members[index]
+    assert isinstance(member, ir.Invoke | ir.Serial | ir.Parallel | ir.OneOf)
+    return (*members[:index], replace(member, duration=duration), *members[index + 1 :])
+
+
+def time_like(seconds: float, like: ir.Expression) -> ir.Expression:
+    """Return a time, in the unit of another one."""
+    if isinstance(like, ir.Quantity) and not like.unit.offset:
+        value = round(seconds / like.unit.factor, 12)
+        return replace(like, value=value)
+    return ir.Literal(span=like.span, type=like.type, value=seconds)
+
+
+def shown(times: Times | None) -> str:
+    """Return times as messages show them."""
+    if times is None:
+        return "a time"
+    low, high = times
+    return f"{low:g} s" if low == high else f"{low:g} s to {high:g} s"
