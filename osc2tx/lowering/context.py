@@ -160,6 +160,7 @@ class LoweringContext:
             drawn=[],
             methods=dict(self.methods),
             object_events=dict(self.object_events),
+            constants={},
         )
 
     def draw(

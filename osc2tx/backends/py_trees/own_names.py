@@ -20,7 +20,9 @@ from osc2tx.backends.py_trees.type_table import class_key, enum_key
 from osc2tx.backends.py_trees.user_actions import action_key, has_function, protocol_key
 from osc2tx.catalogue import catalogue, object_tables
 
-Declared: TypeAlias = ir.Scenario | ir.UserType | ir.UserEnum | ir.UserAction | ir.UserModifier
+Declared: TypeAlias = (
+    ir.AbstractScenario | ir.UserType | ir.UserEnum | ir.UserAction | ir.UserModifier
+)
 
 # What a module has of the runtime, of Python and of itself; none of its own names must hide it.
 RUNTIME_CLASSES = frozenset(
@@ -107,7 +109,7 @@ ROOT_FUNCTION = "create_root"
 def key_of(declared: Declared) -> str:
     """Return what tells a declaration apart from all others of a module."""
     match declared:
-        case ir.Scenario() | ir.UserModifier():
+        case ir.AbstractScenario() | ir.UserModifier():
             return declared.key
         case ir.UserType():
             return class_key(declared.name)
@@ -125,7 +127,8 @@ def is_own(declared: Declared, module: ir.Module) -> bool:
 def declarations(module: ir.Module) -> tuple[Declared, ...]:
     """Return all that a module has a name for."""
     actions = (each for each in module.actions if has_function(each.qualified_name))
-    return (*module.scenarios, *module.types, *module.enums, *actions, *module.modifiers)
+    scenarios = (*module.bases, *module.scenarios)
+    return (*scenarios, *module.types, *module.enums, *actions, *module.modifiers)
 
 
 def has_module(module: ir.Module) -> bool:
@@ -135,7 +138,7 @@ def has_module(module: ir.Module) -> bool:
     have the name of the file, and the module would hide it.
     """
     own = [each for each in declarations(module) if is_own(each, module)]
-    has_scenario = any(isinstance(each, ir.Scenario) for each in own)
+    has_scenario = any(isinstance(each, ir.AbstractScenario) for each in own)
     return has_scenario or (
         any(isinstance(each, ir.UserType | ir.UserEnum | ir.UserModifier) for each in own)
         and not any(isinstance(each, ir.UserAction) for each in own)
@@ -157,7 +160,7 @@ def add_name(names: NameTable, declared: Declared) -> None:
     """Name what a module defines."""
     key = key_of(declared)
     match declared:
-        case ir.Scenario():
+        case ir.AbstractScenario():
             names.add(key, class_name(declared.name.rpartition(".")[2]), "Scenario")
         case ir.UserType():
             names.add(key, class_name(declared.name), "Type")
