@@ -126,7 +126,6 @@ class EnumView:
     comments: tuple[PyComment, ...] = ()
     is_long: bool = False
     copied: PyComment | None = None
-    has_constructor: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,6 +166,7 @@ class TypeView:
     docstring: tuple[PyDocLine, ...]
     fields: tuple[FieldView, ...]
     methods: tuple[FunctionView, ...]
+    has_constructor: bool = False
     others: PyName = PyName("Any")
     inherited: tuple[FieldView, ...] = ()
     keeps: tuple[PyComment, ...] = ()

@@ -7,7 +7,7 @@ OpenSCENARIO DSL 2.1, dialect asam.
 """
 
 from dataclasses import dataclass
-from typing import Literal, TypeAlias, Unpack
+from typing import Any, Literal, TypeAlias, Unpack
 
 import osc2tx_runtime as library
 from osc2tx_runtime import (
@@ -56,20 +56,21 @@ class PhysicalObject(library.PhysicalObject):
 class MovableObject(PhysicalObject, library.MovableObject):
     """Actor `movable_object` with what `extend` adds."""
 
+    def __init__(self, **fields: Any) -> None:
+        super().__init__(**fields)
+
 
 class TrafficParticipant(MovableObject, library.MovableObject):
     """Actor `traffic_participant` with what `extend` adds."""
+
+    def __init__(self, **fields: Any) -> None:
+        super().__init__(**fields)
 
 
 class Vehicle(TrafficParticipant, library.Vehicle):
     """Actor `vehicle` with what `extend` adds."""
 
-    class Inherited(VehicleFields, total=False):
-        """Keywords of the bases."""
-
-        owner: str
-
-    def __init__(self, *, carries: Cargo, seats: int, **fields: Unpack[Inherited]) -> None:
+    def __init__(self, *, carries: Cargo, seats: int, **fields: Any) -> None:
         super().__init__(**fields)
         self.carries = carries
         # keep(it in [2..50])
@@ -98,6 +99,9 @@ class Bus1(Vehicle):
 
 class Person(TrafficParticipant, library.Person):
     """Actor `person` with what `extend` adds."""
+
+    def __init__(self, **fields: Any) -> None:
+        super().__init__(**fields)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
