@@ -49,11 +49,16 @@ def is_known_here(constraint: Constraint, key: Key) -> bool:
 
 
 def is_last(key: Key, others: list[Key]) -> bool:
-    """Whether a plain parameter stands below others in the same text."""
-    last = key[0]
-    return isinstance(last, sym.FieldSymbol) and all(
-        isinstance(first, sym.FieldSymbol)
-        and first.span.source == last.span.source
-        and first.span.start < last.span.start
-        for first, *_ in others
+    """Whether a parameter stands below others in the same text; of members, those that differ."""
+    return isinstance(key[0], sym.FieldSymbol) and all(_is_above(other, key) for other in others)
+
+
+def _is_above(other: Key, key: Key) -> bool:
+    pairs = ((a, b) for a, b in zip(other, key, strict=False) if a is not b)
+    above, below = next(pairs, (None, None))
+    return (
+        isinstance(above, sym.FieldSymbol)
+        and isinstance(below, sym.FieldSymbol)
+        and above.span.source == below.span.source
+        and above.span.start < below.span.start
     )
