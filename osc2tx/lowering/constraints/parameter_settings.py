@@ -49,16 +49,19 @@ def is_known_here(constraint: Constraint, key: Key) -> bool:
 
 
 def is_last(key: Key, others: list[Key]) -> bool:
-    """Whether a parameter stands below others in the same text; of members, those that differ."""
-    return isinstance(key[0], sym.FieldSymbol) and all(_is_above(other, key) for other in others)
+    """Whether a plain parameter stands below others in the same text."""
+    return all(_is_above(first, key[0]) for first, *_ in others)
 
 
-def _is_above(other: Key, key: Key) -> bool:
-    pairs = ((a, b) for a, b in zip(other, key, strict=False) if a is not b)
-    above, below = next(pairs, (None, None))
+def is_last_of_object(key: Key, others: list[Key]) -> bool:
+    """Whether a member stands below other members of the same object."""
+    return all(other[:-1] == key[:-1] and _is_above(other[-1], key[-1]) for other in others)
+
+
+def _is_above(upper: sym.Symbol | ast.Node, lower: sym.Symbol | ast.Node) -> bool:
     return (
-        isinstance(above, sym.FieldSymbol)
-        and isinstance(below, sym.FieldSymbol)
-        and above.span.source == below.span.source
-        and above.span.start < below.span.start
+        isinstance(upper, sym.FieldSymbol)
+        and isinstance(lower, sym.FieldSymbol)
+        and upper.span.source == lower.span.source
+        and upper.span.start < lower.span.start
     )
