@@ -47,7 +47,7 @@ def tool_stamp(folder: Path) -> str | None:
         folder: Folder of the cache, which remembers the stamp of this installation.
 
     Returns:
-        The stamp; `None` if it cannot be told, as a file changed after this process began.
+        The stamp; `None` if it is unknown, as a file changed after this process began.
     """
     files = list(_files())
     if any(status.st_mtime_ns > STARTED for _, _, status in files):

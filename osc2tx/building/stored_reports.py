@@ -23,7 +23,7 @@ class ReportWriter:
 
         Args:
             source: The file.
-            write: Returns what is written for a path.
+            write: Returns the text to store for a path.
         """
         self._sources = [source]
         self._write = write

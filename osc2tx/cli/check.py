@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 @click.argument("paths", metavar="[PATH]...", nargs=-1, type=click.Path())
 @compile_options
 @target_options
-@click.option("--no-cache", is_flag=True, help="Check also what is as it was at the last check.")
+@click.option("--no-cache", is_flag=True, help="Check unchanged files again as well.")
 @cache_option
 @workers_option
 @stdin_filename
@@ -52,7 +52,7 @@ def check(
     stdin_filename: str | None,
     reporter: Reporter,
 ) -> Exit:
-    """Report what is wrong with scenario files; folders are searched for .osc files.
+    """Report errors and warnings in scenario files; folders are searched for .osc files.
 
     Without PATH, `sources` of the settings file count; `-` is standard input.
     """

@@ -21,9 +21,9 @@ class ConfigError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class GivenOptions:
-    """Compile options as far as one place states them; `None` leaves the choice to others.
+    """Compile options as far as one source states them; `None` leaves the choice to others.
 
-    `signal`, `spawn` and `map_path` are run options; OpenSCENARIO XML holds what they say.
+    `signal`, `spawn` and `map_path` are run options that OpenSCENARIO XML contains as well.
     """
 
     std: str | None = None
@@ -47,7 +47,7 @@ class GivenOptions:
         return GivenOptions(**chosen)
 
     def complete(self) -> CompileOptions:
-        """Return the options with the defaults for what nobody stated."""
+        """Return the options with the defaults for all that are open."""
         xml = self._stated(_XML)
         only = ONLY_VERSIONS.get(self.xml_profile or "")
         if only is not None:
@@ -83,7 +83,7 @@ class ScenarioConfig:
 
     Attributes:
         options: Compile options of this file.
-        run: Run option to what is written for it, in the syntax of the command line.
+        run: Run option to its text, in the syntax of the command line.
         campaign: Option of `osc2tx campaign run`, likewise.
         ignore: Codes of warnings that are not reported.
     """
@@ -127,10 +127,10 @@ class InForce:
 
 @dataclass(frozen=True, slots=True)
 class Config:
-    """What a settings file says.
+    """The content of a settings file.
 
     Attributes:
-        path: The file; `None` if there is none and all is default.
+        path: The file; `None` if there is none and every setting has its default.
         prefix: The table of the file that is ours; empty if all of it is.
         options: Compile options for all files.
         scenarios: Tables of single files, by the stem of the file name.

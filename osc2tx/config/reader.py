@@ -24,7 +24,7 @@ EMBEDDED = "embedded"  # the world whose options are all known here
 
 
 def read_folder(folder: Path) -> Config | None:
-    """Return what the settings file of a folder says; `None` if there is none.
+    """Return the content of the settings file of a folder; `None` if there is none.
 
     Raises:
         ConfigError: If it is unreadable or says something unknown.
@@ -119,7 +119,7 @@ class _Reader:
 
     @staticmethod
     def _own(key: str, value: object) -> Setting:
-        """Return what an option of another world looks like; the run checks what it says."""
+        """Return the form of an option of another world; the run checks its value."""
         is_list, is_flag = isinstance(value, list), isinstance(value, bool)
         return Setting(key, is_list=is_list, is_flag=is_flag, is_single=not (is_list or is_flag))
 
@@ -198,7 +198,7 @@ def _shown(value: object) -> str:
 
 
 def _written(value: object) -> str:
-    """Return a value as text; what is too long for Python to write, in short."""
+    """Return a value as text; integers too long for Python to print, in short."""
     try:
         return str(value)
     except ValueError:

@@ -125,7 +125,7 @@ class Run:
         reason: Why it is not `success`.
         time: Simulated seconds.
         lines: The trace.
-        warnings: What is wrong with a run that goes on all the same.
+        warnings: Warnings of a run that continues all the same.
     """
 
     status: str
@@ -182,7 +182,7 @@ def run_scenario(path: str | Path, *, scenario: str | None = None, **settings: A
 
     Args:
         path: The file; settings of `osc2tx.toml` count as for `osc2tx run`.
-        scenario: Which one of the file; the last one if nothing is said.
+        scenario: Its name; the last one of the file if left out.
         **settings: Fields of `osc2tx_runtime.RunSettings`, as `seed=7` or `set={"gap": 12.0}`.
 
     Raises:
@@ -212,7 +212,7 @@ def _scenarios(path: Path) -> Iterator[Mapping[str, type[Scenario]]]:
     from osc2tx.config import GivenOptions
     from osc2tx.diagnostics.render import render_all
 
-    find_inputs([path])  # refuses what is not there
+    find_inputs([path])  # rejects missing files
     if path.suffix == ".py":
         with scenarios_of_file(path, f"osc2tx_testing_{path.stem}") as scenarios:
             yield scenarios
