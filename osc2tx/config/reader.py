@@ -19,7 +19,7 @@ from osc2tx.config.settings import (
 )
 from osc2tx.diagnostics import CODES, Severity
 from osc2tx.diagnostics.suggestions import did_you_mean
-from osc2tx.support.paths import real_path
+from osc2tx.support.paths import SETTINGS_FILES, real_path
 
 EMBEDDED = "embedded"  # the world whose options are all known here
 
@@ -30,7 +30,7 @@ def read_folder(folder: Path) -> Config | None:
     Raises:
         ConfigError: If it is unreadable or says something unknown.
     """
-    own, project = folder / "osc2tx.toml", folder / "pyproject.toml"
+    own, project = (folder / name for name in SETTINGS_FILES)
     if own.is_file():
         return _Reader(own, "").config(_read_toml(own))
     if project.is_file():

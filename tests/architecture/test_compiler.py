@@ -41,7 +41,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "campaigns": {"version"},
     "cli": {"backends", "building", "campaigns", "compilation", "config", "reference"}
     | {"diagnostics", "options", "resources", "support", "version"},
-    "start": {"cli"},
+    "start": {"building", "cli"},
     "__main__": {"start"},
     "api": {"building", "compilation", "config", "diagnostics", "options", "support"},
     "testing": {"building", "cli", "compilation", "config", "diagnostics"}
