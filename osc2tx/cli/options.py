@@ -27,8 +27,8 @@ def sources_or_stated(paths: tuple[str, ...], what: str) -> tuple[str, ...]:
     """Return the paths of a command line, or those of the settings of this folder.
 
     Args:
-        paths: What was written.
-        what: What the command does to them, as in `check`.
+        paths: The paths as written.
+        what: The verb of the command, as in `check`.
 
     Raises:
         click.UsageError: If there are neither.
@@ -37,7 +37,7 @@ def sources_or_stated(paths: tuple[str, ...], what: str) -> tuple[str, ...]:
 
 
 def stated_sources(project: Config, what: str) -> tuple[str, ...]:
-    """Return the `sources` of a settings file, as somebody in this folder would write them.
+    """Return the `sources` of a settings file, relative to this folder.
 
     Raises:
         click.UsageError: If it states none.
@@ -48,7 +48,7 @@ def stated_sources(project: Config, what: str) -> tuple[str, ...]:
 
 
 def seen_from(path: Path, folder: Path) -> Path:
-    """Return a path as somebody who works in a folder would write it."""
+    """Return a path relative to a folder, for a reader who works there."""
     path = Path(os.path.normpath(path))
     return path.relative_to(folder) if path.is_relative_to(folder) else path
 

@@ -1,4 +1,4 @@
-"""What a source uses of the files that it imports, as a digest.
+"""The parts of imported files that a source uses, as a digest.
 
 A result holds as long as this digest is the same: an edit of a comment, or of a declaration that
 nothing in the source leads to, changes none. Names lead: a declaration is used if a word of the
@@ -167,7 +167,7 @@ def _declared(head: Sequence[str]) -> str:
 
 
 def whole_files(compilation: Compilation) -> Iterator[Path]:
-    """Yield the files of which a result has more than what they declare.
+    """Yield the files of which a result contains more than their declarations.
 
     Reports point to them, or the module has copies, with their places in its map. The file itself
     is among them, which the others may import.
