@@ -95,7 +95,7 @@ ROWS = [
     Row("literals", 0.0),
     refused("plus_is_for_floats", "4 OSC100", "with a point or an exponent only"),
     refused("unexported_enum", "11 OSC215", "`crimson` is not visible here"),
-    refused("silent_other_carriageway", "13 OSC802", "somebody else is 201 m", code=5),
+    refused("silent_other_carriageway", "13 OSC802", "another actor is 201 m", code=5),
     Row("draws_beyond_the_map", seeds=10),
     Row("behind_one_not_yet_placed", 3.0, seeds=10),
     Row("thin_set_of_eight", 0.2, seeds=5),

@@ -149,7 +149,7 @@ class ExtendedLibrary(Scenario):
             Wait(lambda: self.other.is_larger(self.ego) or self.walker.owner == "nobody"),
             self.ego.drive(speed(25 * mps), duration=5 * s),
             Wait(
-                lambda: self.ego_quick_at > 20 * mps
+                lambda: self.ego_quick_at < 20 * mps
                 and not self.world.is_festive
                 and self.spot.note == ""
             ),
