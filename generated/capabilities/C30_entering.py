@@ -1,6 +1,6 @@
 """Scenario `entering`.
 
-C30 Serial execution: actors whose first action begins later: by then they are where it states, and on their way until then.
+C30 Serial execution: actors whose first action begins later are there by then.
 
 Made by osc2tx from capabilities/C30_entering.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam.

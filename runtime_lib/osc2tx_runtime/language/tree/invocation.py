@@ -28,7 +28,7 @@ __all__ = [
 class Invocation(Serial):
     """Runs the tree of an invoked scenario; one node of the caller's tree.
 
-    What is below belongs to the invoked scenario: its places, labels and events.
+    Its descendants belong to the invoked scenario: its positions, labels and events.
 
     Args:
         name: Label, or actor and scenario.
