@@ -5,8 +5,6 @@ from pathlib import Path
 
 from lxml import etree
 
-from osc2tx.backends.xosc.xml.tree import lay_out
-
 GENERATED = Path(__file__).parents[4] / "generated"
 
 

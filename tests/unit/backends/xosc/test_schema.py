@@ -6,10 +6,12 @@ from importlib.resources import files
 import pytest
 from lxml import etree
 
-from osc2tx.backends.xosc.xml.schema import element_type, has_attribute, literals
-from osc2tx.backends.xosc.xml.tree import element, number_text, serialize
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.options import XML_VERSIONS, XmlVersion
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.numbers import number_text
+from osc2tx.xosc.schema import element_type, has_attribute, literals
+from osc2tx.xosc.writer import serialize
 from tests.unit.backends.xosc.schemas import OFFICIAL_1_4, schema_of, tool
 
 XSD = "{http://www.w3.org/2001/XMLSchema}"
@@ -88,19 +90,18 @@ def test_numbers_are_short_and_plain(value: float, text: str) -> None:
     assert float(text) == pytest.approx(value, rel=1e-11)
 
 
-HEADER = element(
-    "FileHeader", revMajor=1, revMinor=0, date="2000-01-01T00:00:00", description="x", author="y"
+HEADER = xml.FileHeader(
+    revMajor=1, revMinor=0, date="2000-01-01T00:00:00", description="x", author="y"
 )
 
 
 def test_parts_come_in_the_order_of_the_schema() -> None:
-    tree = element(
-        "OpenSCENARIO",
-        element("Storyboard", element("Init", element("Actions"))),
-        element("Entities"),
-        element("RoadNetwork"),
+    tree = xml.OpenSCENARIO(
+        xml.Storyboard(xml.Init(xml.Actions())),
+        xml.Entities(),
+        xml.RoadNetwork(),
         HEADER,
-        element("CatalogLocations"),
+        xml.CatalogLocations(),
     )
     text = serialize(tree, "1.3")
     order = ["FileHeader", "CatalogLocations", "RoadNetwork", "Entities", "Storyboard"]
@@ -110,12 +111,12 @@ def test_parts_come_in_the_order_of_the_schema() -> None:
 @pytest.mark.parametrize(
     ("child", "version"),
     [
-        (element("VariableDeclarations"), "1.1"),  # not yet
-        (element("Nonsense"), "1.3"),  # never
-        (element("CatalogLocations", colour="red"), "1.3"),  # an attribute nobody knows
-        (element("Storyboard", element("Init", element("Actions"))), "1.0"),  # no StopTrigger
+        (xml.VariableDeclarations(), "1.1"),  # not yet
+        (xml.Nonsense(), "1.3"),  # never
+        (xml.CatalogLocations(colour="red"), "1.3"),  # an attribute nobody knows
+        (xml.Storyboard(xml.Init(xml.Actions())), "1.0"),  # no StopTrigger
     ],
 )
 def test_what_a_version_has_not_is_a_bug(child: object, version: XmlVersion) -> None:
     with pytest.raises(InternalCompilerError, match=f"OpenSCENARIO XML {version}"):
-        serialize(element("OpenSCENARIO", HEADER, child), version)  # type: ignore[arg-type]
+        serialize(xml.OpenSCENARIO(HEADER, child), version)  # type: ignore[arg-type]

@@ -3,12 +3,13 @@
 from osc2tx.backends.xosc.conditions import flow
 from osc2tx.backends.xosc.conditions.flow import Flow, run_start, state_of
 from osc2tx.backends.xosc.flattening.storyboard.storyboard import StoryboardWriter
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Element
 
 
 def on(name: str) -> Element:
-    value = element("VariableCondition", variableRef=name, rule="equalTo", value="true")
-    return element("ByValueCondition", value)
+    value = xml.VariableCondition(variableRef=name, rule="equalTo", value="true")
+    return xml.ByValueCondition(value)
 
 
 def order(*group: flow.Test) -> list[str]:
