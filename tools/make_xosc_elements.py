@@ -1,7 +1,7 @@
 """Writes `elements.pyi` and `literals.py` in `osc2tx/xosc`: the table as type checkers see it.
 
-`EventPart` is what may stand in an `Event`. Everything is from the table (`tools/make_xosc_schema.py`). An attribute is required if the newest
-type that has it requires it in each of its versions. Names are those of the standard.
+`EventPart` is what may stand in an `Event`. An attribute is required if each type that a tag may
+have requires it in each version that has it. Names are those of the standard.
 """
 
 from __future__ import annotations
@@ -46,13 +46,13 @@ NUMBERS = {
 
 def elements() -> str:
     """Return the text of the stub."""
-    blocks = [HEAD, *("\n".join(_class(tag)) + "\n" for tag in tags())]
+    blocks = [HEAD, *("\n".join(_class(tag)) + "\n" for tag in sorted(tags()))]
     return black.format_str("\n".join(blocks), mode=black.Mode(line_length=100, is_pyi=True))
 
 
 def literals() -> str:
     """Return the text of the module with the enumerations."""
-    parts = [part for tag in tags() for part in attributes_of(tag).values()]
+    parts = [part for tag in sorted(tags()) for part in attributes_of(tag).values()]
     enums = sorted({part.type for part in parts if all_literals(part.type)})
     text = LITERALS_HEAD + "\n".join(map(_alias, enums))
     return black.format_str(text, mode=black.Mode(line_length=100))

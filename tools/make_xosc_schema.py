@@ -8,8 +8,9 @@ One type a line:
 
 The fields of a part are those of `Part` in `osc2tx/xosc/schema.py`; what ends a list and is empty
 is left out. Children stand in the order of the schema; of those in `choice` there is one at most
-since `choice_since`, in the versions in `needed` there is one. With `text` the element has character data.
-`enums` holds the literals of each enumeration: first and last version, and since when deprecated.
+since `choice_since`, in the versions in `needed` there is one. With `text` the element has text.
+`enums` holds the literals of each enumeration: first and last version, and since when it is
+deprecated.
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from typing import Any, ClassVar, NamedTuple, Self, TypeAlias, TypeVar
+from typing import Any, NamedTuple, Self, TypeAlias, TypeVar
 
 from osc2tx.xosc.expressions import Symbol
 from osc2tx.xosc.numbers import number_text
@@ -68,9 +68,6 @@ class Element:
     """
 
     __slots__ = ("attributes", "children", "place", "text")
-    parts: ClassVar[Mapping[str, Part]] = {}
-    """What the table says of its attributes."""
-
     attributes: tuple[tuple[str, str], ...]
     children: tuple[Element, ...]
     text: str | None
@@ -86,9 +83,14 @@ class Element:
         Raises:
             Unwritable: A text cannot stand in a document.
         """
-        given = ((key.removesuffix("_"), value) for key, value in attributes.items())
-        texts = tuple((key, text_of(value)) for key, value in given if value is not None)
-        self._fill(texts, tuple(c for c in children if c is not None), text, None)
+        texts = tuple(
+            [
+                (key.removesuffix("_"), text_of(value))
+                for key, value in attributes.items()
+                if value is not None
+            ]
+        )
+        self._fill(texts, tuple([each for each in children if each is not None]), text, None)
 
     def _fill(
         self,
@@ -123,7 +125,7 @@ class Element:
 
     def get(self, attribute: str) -> str | None:
         """Return the text of an attribute."""
-        return dict(self.attributes).get(attribute)
+        return next((text for name, text in self.attributes if name == attribute), None)
 
     # --- what stands below it ---------------------------------------------------------------------
 

@@ -7,39 +7,39 @@ which children an element takes, and its attributes with units, versions and def
 
 import keyword
 
-from osc2tx.xosc.element import Attribute, Element, Unknown
+from osc2tx.xosc.element import Attribute, Unknown
+from osc2tx.xosc.element import Element as Base
 from osc2tx.xosc.schema import attributes_of, tags
 
 PART = "Part"
 
 
-def class_of(tag: str) -> type[Element]:
+def class_of(tag: str) -> type[Base]:
     """Return the class of the elements with a tag."""
     known = _CLASSES.get(tag)
-    if known is None:
-        is_known = tag in tags()
-        known = _made(tag, Element if is_known else Unknown)
-        if is_known:
-            _CLASSES[tag] = known
-    return known
-
-
-_CLASSES: dict[str, type[Element]] = {}
-
-
-def _made(tag: str, base: type[Element]) -> type[Element]:
+    if known is not None:
+        return known
+    if tag not in tags():
+        return type(tag, (Unknown,), {"__slots__": ()})
     parts = attributes_of(tag)
     values = {
         f"{name}_" if keyword.iskeyword(name) else name: Attribute(name, part)
         for name, part in parts.items()
     }
-    return type(tag, (base,), {"__slots__": (), "__module__": __name__, "parts": parts, **values})
+    made = type(tag, (Base,), {"__slots__": (), "__module__": __name__, **values})
+    return _CLASSES.setdefault(tag, made)
 
 
-def __getattr__(name: str) -> type[Element]:
-    if name.endswith(PART) and name.removesuffix(PART) in tags():
-        return Element
+_CLASSES: dict[str, type[Base]] = {}
+
+
+def __getattr__(name: str) -> type[Base]:
+    """Make a class when a module first asks for it; from then on it is an attribute."""
     tag = name.removesuffix("_")  # as of `None_`, which is a word of Python
     if tag in tags():
-        return class_of(tag)
-    raise AttributeError(f"OpenSCENARIO XML has no <{name}>")
+        found = class_of(tag)
+    elif name.endswith(PART) and name.removesuffix(PART) in tags():
+        found = Base
+    else:
+        raise AttributeError(f"OpenSCENARIO XML has no <{name}>")
+    return globals().setdefault(name, found)

@@ -6,7 +6,7 @@ The table `schema.json` is made from the schemas by `tools/make_xosc_schema.py`.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from functools import cache
 from importlib.resources import files
 from typing import Any, NamedTuple
@@ -101,9 +101,9 @@ def types_of(tag: str) -> tuple[ElementType, ...]:
 
 
 @cache
-def tags() -> tuple[str, ...]:
+def tags() -> Set[str]:
     """Return the tags of all elements."""
-    return tuple(sorted({tag for type_ in _tables().types.values() for tag in type_.children}))
+    return frozenset(tag for type_ in _tables().types.values() for tag in type_.children)
 
 
 @cache

@@ -12,12 +12,12 @@ from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import Pose, Roads, roads_of
 from osc2tx.backends.xosc.logical.parameter_choices import NOTHING_OPEN, Choosing
+from osc2tx.backends.xosc.names import Names
+from osc2tx.backends.xosc.profiles import PROFILES, ToolProfile
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, LossReport, Remedy
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
 from osc2tx.backends.xosc.state import ActorState, Demand
 from osc2tx.backends.xosc.values.folding import Values
-from osc2tx.backends.xosc.xml.names import Names
-from osc2tx.backends.xosc.xml.profiles import PROFILES, ToolProfile
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions, XmlVersion
 from osc2tx.xosc import elements as xml

@@ -6,6 +6,7 @@ from pathlib import PurePosixPath
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.environment import initial_environment
+from osc2tx.backends.xosc.adapting import adapted
 from osc2tx.backends.xosc.conditions.early_triggers import triggers_of
 from osc2tx.backends.xosc.conditions.flow import Flow, at_time, single
 from osc2tx.backends.xosc.context import Context
@@ -14,7 +15,6 @@ from osc2tx.backends.xosc.entities.init_actions import initial_actions
 from osc2tx.backends.xosc.flattening.flatten import Flattener
 from osc2tx.backends.xosc.flattening.storyboard.storyboard import StoryboardWriter
 from osc2tx.backends.xosc.logical.parameters import declaration
-from osc2tx.backends.xosc.xml.adapting import adapted
 from osc2tx.ir.source_text import condensed
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.map_files import DEFAULT_MAP

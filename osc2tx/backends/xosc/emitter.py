@@ -17,9 +17,9 @@ from osc2tx.backends.xosc.logical.distributions import document as values_docume
 from osc2tx.backends.xosc.logical.documents import LogicalWriter
 from osc2tx.backends.xosc.logical.parameter_choices import Choosing
 from osc2tx.backends.xosc.logical.parameter_report import report_parameters
+from osc2tx.backends.xosc.names import Names
 from osc2tx.backends.xosc.report import Inexpressible, LossReport
 from osc2tx.backends.xosc.report_json import report_json
-from osc2tx.backends.xosc.xml.names import Names
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions
 from osc2tx.xosc.element import Element, Unwritable

@@ -13,7 +13,7 @@ from typing import TypeAlias
 from osc2tx.backends.xosc.logical.comparison import SAID_BESIDE, Place, story_of
 from osc2tx.backends.xosc.logical.parameters import STEPS, OpenParameter, declared, value_text
 from osc2tx.backends.xosc.logical.sampling import Domain, Row
-from osc2tx.backends.xosc.xml.names import Names
+from osc2tx.backends.xosc.names import Names
 from osc2tx.options import XmlVersion
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element

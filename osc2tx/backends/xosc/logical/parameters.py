@@ -11,11 +11,11 @@ from collections.abc import Iterator, Mapping
 from typing import TypeAlias
 
 from osc2tx import ir
+from osc2tx.backends.xosc.names import Names, plain
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope, key_of, open_scopes
 from osc2tx.backends.xosc.values.constants import Constant, Member
 from osc2tx.backends.xosc.values.folding import Values
-from osc2tx.backends.xosc.xml.names import Names, plain
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlVersion
 from osc2tx.xosc import elements as xml

@@ -14,7 +14,7 @@ def on(name: str) -> Element:
 
 def order(*group: flow.Test) -> list[str]:
     """Return the tags and edges of a written group."""
-    trigger = StoryboardWriter("1.3").trigger("StartTrigger", Flow((group,)), "start")
+    trigger = StoryboardWriter("1.3").trigger(xml.StartTrigger, Flow((group,)), "start")
     (written,) = trigger.children
     return [
         f"{condition.children[0].children[0].name} {condition.get('conditionEdge')}"

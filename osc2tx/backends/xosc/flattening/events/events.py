@@ -15,9 +15,9 @@ from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Test, at_time, sin
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.run_options import read_signal
 from osc2tx.backends.xosc.flattening.storyboard.storyboard import Event
+from osc2tx.backends.xosc.names import plain
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.scopes import Scope
-from osc2tx.backends.xosc.xml.names import plain
 from osc2tx.xosc import elements as xml
 
 WAITABLE = (ir.Moment.START, ir.Moment.END)
