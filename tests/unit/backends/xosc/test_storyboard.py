@@ -17,7 +17,7 @@ def order(*group: flow.Test) -> list[str]:
     trigger = StoryboardWriter("1.3").trigger(xml.StartTrigger, Flow((group,)), "start")
     (written,) = trigger.children
     return [
-        f"{condition.children[0].children[0].name} {condition.get('conditionEdge')}"
+        f"{condition.children[0].children[0].tag} {condition.get('conditionEdge')}"
         for condition in written.children
     ]
 
