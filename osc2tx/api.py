@@ -42,11 +42,11 @@ class CompileResult:
     """The outcome of one source.
 
     Attributes:
-        name: How diagnostics and generated files call the source.
-        diagnostics: What was reported and no comment suppresses, in order of place.
-        outputs: Names of files to what they hold: the module, the map of its nodes to lines of
-            the source, and for each scenario OpenSCENARIO XML, if that can say what it says, and
-            the report on what is not exact; then the modules of imported files that the module
+        name: Name of the source in diagnostics and generated files.
+        diagnostics: Reports without those that a comment suppresses, in order of position.
+        outputs: Names of files to their contents: the module, the map of its nodes to lines of the
+            source, and for each scenario OpenSCENARIO XML, if XML can express it, and the report on
+            constructs that are not exact; then the modules of imported files that the module
             needs. Empty for a source with errors, or without scenarios.
         levels: Scenario to `abstract`, `logical` or `concrete` (§5.2).
         python: The py_trees module; `None` if there is none.
@@ -83,7 +83,7 @@ class CompileResult:
 
 
 class Options(TypedDict, total=False):
-    """What one may ask for; what is not given comes from settings files, then from the defaults.
+    """Compile options; open ones come from settings files, then from the defaults.
 
     Attributes:
         std: Version of the standard.
@@ -112,7 +112,7 @@ def compile_file(
 ) -> CompileResult:
     """Compile a scenario file as `osc2tx build` does, without writing anything.
 
-    The file may import what lies in its folder and in that of the settings file, the nearest
+    The file may import from its folder and from that of the settings file, the nearest
     `osc2tx.toml` or `pyproject.toml`.
 
     Args:

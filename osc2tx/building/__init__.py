@@ -4,9 +4,9 @@ Every source file that declares a scenario gives `NAME.py` and its map `NAME.map
 of the sources is mirrored. A file with errors does not stop the others. Outputs appear whole or
 not at all, and those that are up to date are not touched.
 
-`build` is the way through: `jobs` says what there is to compile, `result_cache` knows the `results`
-of earlier builds that still hold (`fingerprint` is what they hold for), `workers` make the others,
-`plan` compares what the sources make with the folder, where `ownership` tells which files are ours,
-`written_digests` and `version_control` which of them nobody has edited, and `write` brings the
+`build` is the control flow: `jobs` lists the files to compile, `result_cache` holds the `results`
+of earlier builds that are still valid (`fingerprint` is their key), `workers` make the others,
+`plan` compares the outputs with the folder, where `ownership` tells which files are ours,
+`written_digests` and `version_control` which of them are unedited, and `write` brings the
 folder up to date. `compare` shows changes instead; `watch` builds again when a source changes.
 """

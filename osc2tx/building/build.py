@@ -57,10 +57,10 @@ class Change:
 
     Attributes:
         path: The file.
-        state: How it stands, or stood before it was written.
-        text: What it should be; `None` for an orphan, or if nobody asked.
+        state: Its state, before it was written.
+        text: Its expected text; `None` for an orphan, or if texts were not requested.
         origin: For an orphan, the source that made it.
-        is_untouched: For an orphan, whether it still is as osc2tx wrote it.
+        is_untouched: For an orphan, whether it is unchanged since osc2tx wrote it.
     """
 
     path: Path
@@ -72,7 +72,7 @@ class Change:
 
 @dataclass(frozen=True, slots=True)
 class BuildResult:
-    """What a build did, or with `check_only` what it would do.
+    """The result of a build, or with `check_only` of a build that writes nothing.
 
     Attributes:
         results: One for each source file, in order.
@@ -92,11 +92,11 @@ class BuildResult:
 
     @property
     def bugs(self) -> tuple[str, ...]:
-        """Mistakes of osc2tx itself; what they concern is not made."""
+        """Internal errors of osc2tx; the outputs concerned are not made."""
         return tuple(result.bug for result in self.results if result.bug)
 
     def remaining(self) -> tuple[Change, ...]:
-        """Return what a build did not put right."""
+        """Return the outputs that are still not as they should be."""
         done = set(self.written)
         return tuple(change for change in self.changes if change.path not in done)
 
@@ -111,16 +111,16 @@ def build(
     progress: Progress = lambda done, total: None,
     waiting: Callable[[str], None] = lambda process: None,
 ) -> BuildResult:
-    """Compile sources and write what they make.
+    """Compile sources and write their outputs.
 
     Args:
         paths: Files and folders.
         out_dir: Folder of the outputs; made when needed.
-        given: Options that go before those of settings files.
+        given: Options that precede those of settings files.
         options: How to build.
-        configs: The settings files, if the caller wants to look at them afterwards.
-        progress: Is told how many of how many files are compiled.
-        waiting: Is told which process builds into the same folder, before its end is waited for.
+        configs: The settings files, if the caller needs them afterwards.
+        progress: Called with the numbers of compiled files and of all files.
+        waiting: Called with the process that builds into the same folder, before waiting for it.
 
     Raises:
         InputError, ConfigError: As `find_jobs`.
@@ -213,12 +213,12 @@ class _Build:
         return state is not State.CURRENT and may_be_shown
 
     def _may_be_absent(self, planned: Planned, state: State) -> bool:
-        """Whether nobody misses an output: a check does not ask for what is not committed."""
+        """Whether an output is dispensable: a check does not require uncommitted files."""
         is_asked = not self.options.check_only or planned.is_committed
         return not is_asked and state is not State.FOREIGN
 
     def _states(self, placed: Sequence[Planned]) -> dict[str, State]:
-        """Return how every output stands; what cannot be told is a failure."""
+        """Return the state of every output; an unknown state is a failure."""
         states = {}
         for planned in placed:
             try:

@@ -27,10 +27,9 @@ from osc2tx.building.workers import compile_jobs, with_siblings
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Severity
-from osc2tx.support.paths import real_path
+from osc2tx.support.paths import SETTINGS_FILES, real_path
 from osc2tx_shared.classes import dataclass, replace
 
-SETTINGS = ("osc2tx.toml", "pyproject.toml")
 REFUSED_PARTS = ("", ".", "..", ".git")
 """Parts of paths that lead elsewhere or would be a repository."""
 
@@ -59,9 +58,9 @@ def checked_out(
     as git stores them.
 
     Args:
-        paths: Files and folders as they are named today.
+        paths: Files and folders by their present names.
         revision: A commit, in any way git understands.
-        import_paths: Folders with libraries; those outside of the repository stay what they are.
+        import_paths: Folders with libraries; those outside of the repository are used as they are.
 
     Raises:
         InputError: The paths are in no repository, it has no such revision, or the revision has
@@ -113,7 +112,7 @@ class _RefusedName(Exception):
 
 
 def _lay_out(root: Path, commit: str, top: Path) -> Iterator[str]:
-    """Write the files that a build may read, below `top` only; yield what is left out.
+    """Write the files that a build may read, below `top` only; yield the omitted ones.
 
     Links come last: while files are written, there is none to follow.
 
@@ -149,7 +148,7 @@ def _lay_out(root: Path, commit: str, top: Path) -> Iterator[str]:
 
 def _is_read(entry: Entry) -> bool:
     place = PurePosixPath(entry.path)
-    return place.suffix == ".osc" or place.name in SETTINGS
+    return place.suffix == ".osc" or place.name in SETTINGS_FILES
 
 
 def _leads_inside(top: Path, path: str, goal: str) -> bool:
@@ -181,7 +180,7 @@ def _lines(text: str | None) -> list[str]:
 
 @dataclass(frozen=True, slots=True)
 class Difference:
-    """An output that is not what it was; `None` where there is no such file."""
+    """An output that differs; `None` where there is no such file."""
 
     path: str
     old: str | None
@@ -214,15 +213,15 @@ def compare_with(
     cache: Path | None = None,
     progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> Comparison:
-    """Compare what the sources of a revision make with those of today, with the settings of each.
+    """Compare the outputs of a revision with the present ones, each with its own settings.
 
     Args:
         revision: A commit, in any way git understands.
-        paths: Files and folders of today.
-        given: Options that go before those of settings files, in both.
-        workers: How many processes may compile.
+        paths: Present files and folders.
+        given: Options that precede those of settings files, in both.
+        workers: Number of processes that may compile.
         cache: Folder of earlier results; in the user's cache if left out.
-        progress: Is told how many of how many files are compiled.
+        progress: Called with the numbers of compiled files and of all files.
 
     Raises:
         InputError, ConfigError: If either cannot be read.
@@ -252,7 +251,7 @@ def compare_with(
 
 
 class _State:
-    """What the sources of one state make; results of earlier builds count."""
+    """The outputs of the sources of one state; results of earlier builds count."""
 
     def __init__(
         self,

@@ -28,9 +28,9 @@ class Job:
         path: The file.
         name: How diagnostics and generated files call it.
         options: How to compile it.
-        roots: Folders whose files it may import, and from which names count.
-        is_asked: Whether somebody named this very file, and not a folder that holds it.
-        given: Options that go before those of settings files.
+        roots: Folders whose files it may import, and to which names are relative.
+        is_asked: Whether this very file was named, and not a folder that holds it.
+        given: Options that precede those of settings files.
     """
 
     path: Path
@@ -44,8 +44,8 @@ class Job:
         """Return its compilation; no stage has run yet.
 
         Args:
-            memory: What compilations of other jobs may have found out about imported files.
-            text: The text, if it is not that of the file.
+            memory: Facts about imported files, shared with compilations of other jobs.
+            text: The text, if it differs from the file.
         """
         from osc2tx.compilation.driver import Compilation
         from osc2tx.config import ConfigFiles
@@ -83,7 +83,7 @@ def options_of(
 
     Args:
         path: The file.
-        given: Options that go before those of settings files.
+        given: Options that precede those of settings files.
         project: The folder of the settings that count for a library that has none of its own.
         configs: The settings files.
 
@@ -106,7 +106,7 @@ def find_jobs(
 
     Args:
         paths: Files and folders.
-        given: Options that go before those of settings files.
+        given: Options that precede those of settings files.
         configs: The settings files.
 
     Raises:
@@ -176,15 +176,15 @@ def find_bug(
 
     Args:
         compilation: The file.
-        stages: What to do with it.
-        place: What the stages make, if only some of them run.
+        stages: The stages to run.
+        place: Description of these stages, if only some of them run.
     """
     told = f"{visible(str(compilation.path))}: internal error{place and f' in {place}'}"
     try:
         stages(compilation)
     except InternalCompilerError as error:
         return f"{told}: {error}"
-    except Exception as error:  # whatever it is, it is ours, and the other files need not wait
+    except Exception as error:  # an internal error; the other files are compiled all the same
         from traceback import format_exception
 
         trace = "".join(format_exception(error))

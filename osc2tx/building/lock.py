@@ -35,7 +35,7 @@ def only_build(out_dir: Path, waiting: Callable[[str], None]) -> Iterator[None]:
 
     Args:
         out_dir: The output folder.
-        waiting: Is told the number of the process that holds the lock, if another one does.
+        waiting: Called with the number of the process that holds the lock, if another one does.
     """
     folder = _folder()
     name = digest(os.path.realpath(out_dir).encode("utf-8", "surrogateescape"))

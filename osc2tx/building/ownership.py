@@ -2,8 +2,8 @@
 
 Each output names its source: a module in its docstring, OpenSCENARIO XML in its header, a report in
 a key. So no list of outputs lies in version control, where two branches would both change it, and
-an output that came with a merge is known as well as one of this machine. What is known of the last
-build tells of outputs that were edited beyond recognition.
+an output that came with a merge is known as well as one of this machine. The records of the last
+build identify outputs that were edited beyond recognition.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def stated_source(path: str, data: bytes) -> str | None:
 def _text(found: re.Match[bytes] | None, path: str) -> str | None:
     if found is None:
         return None
-    if found[1] is None:  # an old version of XML has no place for it
+    if found[1] is None:  # old versions of XML have no element for it
         folder, slash, name = path.rpartition("/")
         return f"{folder}{slash}{name.partition('.')[0]}.osc"
     return unescape(found[1].decode("utf-8", "replace"), {"&quot;": '"'})
@@ -66,7 +66,7 @@ def _in_json(data: bytes) -> str | None:
 
 
 def is_in_conflict(data: bytes) -> bool:
-    """Return whether a text has the marks of a merge that nobody has finished."""
+    """Return whether a text has markers of an unresolved merge."""
     lines = data.splitlines()
     return all(any(line.startswith(mark) for line in lines) for mark in _CONFLICT)
 

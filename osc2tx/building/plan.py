@@ -47,8 +47,8 @@ class Planned:
     """An output that a source makes.
 
     Attributes:
-        path: Where it goes, relative to the output folder, forward slashes.
-        result: What the source gave.
+        path: Its path, relative to the output folder, forward slashes.
+        result: The result of the source.
         made: The output itself.
     """
 
@@ -96,7 +96,7 @@ class Folder:
         self._digests: dict[str, str | None] = {}
 
     def digest_of(self, path: str) -> str | None:
-        """Return the digest of a file, none if it is missing, an impossible one for a link.
+        """Return the digest of a file; none if it is missing, an impossible one for a link.
 
         The ends of its lines do not count: a working copy may have those of Windows.
 
@@ -113,7 +113,7 @@ class Folder:
         self._digests.clear()
 
     def _read(self, path: str) -> bytes | None:
-        """Return what is in a file; nothing for a link, `None` if it is missing."""
+        """Return the content of a file; nothing for a link, `None` if it is missing."""
         place = f"{self._out_dir}/{path}"
         self.require_inside(path)
         try:
@@ -166,7 +166,7 @@ class Folder:
         """Return how an output stands.
 
         Raises:
-            OSError: If it cannot be told.
+            OSError: If it is unknown.
         """
         present = self.digest_of(planned.path)
         if present is None:
@@ -268,8 +268,8 @@ def find_orphans(
     """Yield outputs that no source makes any more.
 
     Args:
-        placed: What the sources make.
-        results: What became of the sources; those with errors, or bugs of ours, keep their outputs.
+        placed: The outputs of the sources.
+        results: The results of the sources; outputs of those with errors, or internal ones, stay.
         scope: The sources that the build knows of.
         folder: The output folder.
     """
@@ -291,7 +291,7 @@ def find_orphans(
         if source is None or source in failed or folder.is_missing(path):
             continue
         if targets.get(source, "all") not in ("all", _target_of(path)):
-            continue  # nobody asked for such files today
+            continue  # such files are not requested in this build
         if source not in compiled and not scope.is_gone(source):
             continue
         try:

@@ -42,7 +42,7 @@ from osc2tx_shared.classes import replace
 if TYPE_CHECKING:
     from osc2tx.options import CompileOptions
 
-FORMAT = 4
+FORMAT = 5
 MOST_RECORDS = 4  # of one text: with imports as several branches have them
 MOST_FILES = 128  # in each of the 256 folders of a kind
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
@@ -50,7 +50,7 @@ Kind = Literal["build", "check"]
 
 
 class ResultCache:
-    """What is remembered of builds and checks; what a build knows, a check need not find out."""
+    """Results of builds and checks; a check reuses those of a build."""
 
     def __init__(
         self, kind: Kind, configs: ConfigFiles | None = None, folder: Path | None = None
@@ -58,9 +58,9 @@ class ResultCache:
         """Take the folder; without one nothing is remembered.
 
         Args:
-            kind: What is to be done to files.
+            kind: The activity on the files.
             configs: The settings files.
-            folder: Where results are; in the user's cache if left out.
+            folder: Folder of the results; in the user's cache if left out.
         """
         folder = cache_folder(folder)
         stamp = tool_stamp(folder) if folder else None
@@ -95,7 +95,7 @@ class ResultCache:
                     IndexError,
                     TypeError,
                     ValueError,
-                ):  # damaged: as if there is none
+                ):  # damaged: treated as missing
                     continue
                 if result is not None:
                     return result
@@ -120,7 +120,7 @@ class ResultCache:
             return
         places = Places.of(result.job)
         if any(places.are_in(text) for text in _messages(result)):
-            return  # what it says is not true elsewhere
+            return  # its content is not valid elsewhere
         key = self._key(self._kinds[0], result.job, places, result.source.text.encode())
         if any(made.text is not None for made in result.outputs):
             texts = json.dumps([made.text for made in result.outputs]).encode()
@@ -155,7 +155,7 @@ class ResultCache:
             return []
 
     def _put(self, key: str, record: Mapping[str, Any]) -> None:
-        """Store a record before those of the same text; one with the same imports gives way."""
+        """Store a record before those of the same text; one with the same imports is replaced."""
         others = [
             each
             for each in self._records(key)
@@ -277,7 +277,7 @@ class ResultCache:
     def _is_clean(self, job: Job, changed: Dependency) -> bool:
         """Whether there is nothing to report on a library by itself; on a source, no errors.
 
-        Warnings of a source are told for itself.
+        Warnings of a source are reported for the source itself.
         """
         if changed.found not in self._clean:
             path = Path(changed.found)
@@ -347,13 +347,13 @@ def check_jobs(
     configs: ConfigFiles | None = None,
     cache: Path | None = None,
 ) -> list[FileResult]:
-    """Return what there is to report on each file, in the order of the jobs.
+    """Return the diagnostics of each file, in the order of the jobs.
 
     Args:
         jobs: What to check.
         remember: Whether results of earlier checks count, and these are kept.
-        workers: How many processes may check; one for each processor if left open.
-        progress: Is told how many of how many files are done.
+        workers: Number of processes that may check; one for each processor if left open.
+        progress: Called with the numbers of checked files and of all files.
         configs: The settings files.
         cache: Folder of the results; in the user's cache if left out.
     """

@@ -65,11 +65,11 @@ class Dependency:
 
 @dataclass(frozen=True, slots=True)
 class ImportedFile:
-    """A file that was compiled for itself, as another one imports what it declares.
+    """A file that was compiled by itself, because another one imports its declarations.
 
     Attributes:
         path: The file.
-        name: What it is called.
+        name: Its name.
         options: The options it was compiled with.
         is_needed: Whether its module is needed.
     """
@@ -85,19 +85,19 @@ class FileResult:
     """The outcome of one source file.
 
     Attributes:
-        job: What was to be done.
+        job: The task.
         source: The text; `None` if it could not be read.
-        reports: What the stages had to say.
+        reports: The diagnostics of the stages.
         is_complete: Whether all stages that can report something ran and found no error.
-        scenarios: The scenarios, with how far each is worked out.
-        stem: What the names of the outputs begin with.
+        scenarios: The scenarios, with their levels.
+        stem: The common prefix of the names of the outputs.
         outputs: The files that the source makes.
-        losses: How the scenarios fared on their way to OpenSCENARIO XML.
+        losses: Grades of the scenarios in OpenSCENARIO XML.
         dependencies: Where imports were looked for; `None` if the result depends on more than
             that, so that it must not be used again.
-        bug: A mistake of osc2tx itself that came to light.
-        imported: The files that the module imports from, or would if it could.
-        uses: Digest of what the source uses of imported files.
+        bug: An internal error of osc2tx.
+        imported: The files that the module imports from, or would import from if it could.
+        uses: Digest of the parts of imported files that the source uses.
     """
 
     job: Job
@@ -236,7 +236,7 @@ def _uses(compilation: Compilation, dependencies: Sequence[Dependency]) -> str:
 
 
 def used_files(dependencies: Iterable[Dependency], text_of: Callable[[str], str]) -> list[UsedFile]:
-    """Return the files of which a result depends on what is used.
+    """Return the files on whose used parts a result depends.
 
     Args:
         dependencies: All places that were looked at.

@@ -17,13 +17,13 @@ _HASHES = {40: hashlib.sha1, 64: hashlib.sha256}
 _CLOSED = {
     "GIT_ALLOW_PROTOCOL": "",  # no transport at all, whatever the repository's settings allow
     "GIT_NO_LAZY_FETCH": "1",  # missing objects of a partial clone stay missing
-    "GIT_OPTIONAL_LOCKS": "0",  # nothing is written beside what is read
+    "GIT_OPTIONAL_LOCKS": "0",  # nothing is written beside the files that are read
     "GIT_TERMINAL_PROMPT": "0",
 }
 """The environment that each command of git has in addition to the user's."""
 
 _NO_COMMANDS = ("-c", f"core.hooksPath={os.devnull}", "-c", "core.fsmonitor=false")
-"""Settings that go before those of the repository."""
+"""Settings that precede those of the repository."""
 
 LINK = "120000"
 """The mode of a symbolic link."""
@@ -138,7 +138,7 @@ def _git(folder: Path, *arguments: str, stdin: bytes = b"", failure: str = "") -
     try:
         ended = _run(folder, *arguments, stdin=stdin)
     except FileNotFoundError:
-        raise InputError("--diff-against needs git, and there is none", unreadable=False) from None
+        raise InputError("git, needed for --diff-against, is missing", unreadable=False) from None
     if ended.returncode:
         reason = failure or ended.stderr.decode(errors="replace").strip()
         raise InputError(reason, unreadable=False)

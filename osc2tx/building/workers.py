@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 FEWEST_FILES = 8  # for a second process: starting one takes as long as compiling a few files
 
 Work = Callable[..., FileResult]
-"""What is done to a job, with the memory of compilations."""
+"""Activity on a job, with the memory of compilations."""
 
 Finished = Callable[[FileResult], None]
 
@@ -62,9 +62,9 @@ def run_jobs(
     """Return what some work makes of all jobs, in their order.
 
     Args:
-        work: What is done to a job.
-        jobs: What to do it to.
-        workers: How many processes may work at once; one for each processor if left open.
+        work: The activity on each job.
+        jobs: The jobs.
+        workers: Number of processes that may work at once; one for each processor if left open.
         finished: Is given each result as soon as there is one.
     """
     workers = workers or processors()
@@ -92,7 +92,7 @@ def with_siblings(
     compile: Callable[[Sequence[Job]], list[FileResult]],
     configs: ConfigFiles,
 ) -> list[FileResult]:
-    """Return results, and those of imported files whose modules they need and that are not there.
+    """Return results, and those of imported files whose modules are needed and missing.
 
     Args:
         results: The outcomes of some files.
@@ -162,8 +162,8 @@ class _Pool:
         )
 
     def stop(self) -> None:
-        """End all processes, whatever they are at."""
-        self._speaker.send(None)  # nobody takes it up, so that everybody sees it
+        """End all processes immediately."""
+        self._speaker.send(None)  # never received, so that every process sees it
         self.executor.shutdown(wait=False, cancel_futures=True)
 
 

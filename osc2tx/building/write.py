@@ -1,7 +1,7 @@
 """Writes outputs atomically: no file is ever half written.
 
-First the digests say what is about to be written, then every output is put in place in one step,
-then they say that it is done. A build that is killed in between leaves each
+First the digests of the new outputs are saved, then every output is replaced in one step, then the
+digests are marked as done. A build that is killed in between leaves each
 output old or new, and the next one knows both for its own. One build at a time writes to a folder.
 """
 
@@ -32,7 +32,7 @@ _WRITE_FLAGS = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
 
 @dataclass(frozen=True, slots=True)
 class Update:
-    """What is to be done to a folder.
+    """The changes to make in a folder.
 
     Attributes:
         current: Outputs that are as they should be.
@@ -103,7 +103,7 @@ class _Records:
             self._digests.pop(path, None)
 
     def announce(self, writes: Iterable[Planned]) -> None:
-        """Save what is about to be written, beside what is there."""
+        """Save the digests of the new outputs, beside the present ones."""
         coming = {}
         for planned in filter(lambda each: each.is_committed, writes):
             known = self._digests.get(planned.path)
@@ -112,7 +112,7 @@ class _Records:
         self._save(self._digests | coming)
 
     def save(self) -> None:
-        """Save what there is now."""
+        """Save the digests of the present outputs."""
         self._save(self._digests)
 
     def _save(self, digests: Digests) -> None:
@@ -169,7 +169,7 @@ class _Writer:
         self.failures.append(f"{place}: cannot be written: {error.strerror}")
 
     def end(self) -> None:
-        """Remove what was staged for nothing; let the disk have the names of what is in place."""
+        """Remove unused temporary files; fsync the folders."""
         for staged in self._staged.values():
             staged.unlink(missing_ok=True)
         sync({(self._out_dir / path).parent for path in self.done})
@@ -194,7 +194,7 @@ class _Writer:
         return True
 
     def _sweep(self, folder: Path) -> None:
-        """Remove what a build left that was killed."""
+        """Remove temporary files of a build that was killed."""
         if folder not in self._swept:
             self._swept.add(folder)
             with os.scandir(folder) as entries:

@@ -32,11 +32,11 @@ class Written(NamedTuple):
 
 
 Digests = Mapping[str, Written]
-"""Path of an output to what is known of it."""
+"""Path of an output to its records."""
 
 
 def read_digests(out_dir: Path) -> Digests:
-    """Return what is known of a folder; nothing if the file is missing or damaged."""
+    """Return the records of a folder; nothing if the file is missing or damaged."""
     try:
         document = json.loads((out_dir / DIGESTS_NAME).read_bytes())
         if document["format"] != FORMAT:

@@ -1,4 +1,4 @@
-"""What a search looks for: the worst value of a KPI."""
+"""The aim of a search: the worst value of a KPI."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ MANNERS = ("min", "max")
 
 @dataclass(frozen=True, slots=True)
 class Aim:
-    """What a search looks for.
+    """The aim of a search.
 
     Attributes:
         kpi: Name of a value of a measure: `min_ttc`, or `min_ttc(ego,other)` for a pair.
@@ -52,11 +52,11 @@ class Aim:
 
     @property
     def in_words(self) -> str:
-        """What it looks for: the least or the greatest value."""
+        """The extreme that is searched: the least or the greatest value."""
         return "least" if self.manner == "min" else "greatest"
 
     def value(self, measures: Mapping[str, float | None]) -> float:
-        """Return what a row has; the opposite of what is looked for if it has none."""
+        """Return the measure of a row; the opposite extreme if it has none."""
         found = measures.get(self.kpi)
         if found is None:
             return math.inf if self.manner == "min" else -math.inf

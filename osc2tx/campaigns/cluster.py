@@ -1,8 +1,8 @@
 """Runs rows on a cluster of Dask: `--engine dask://HOST:PORT`.
 
 The scheduler hands rows to its workers, and gives those of a dead worker to others. It counts the
-workers that died while they had a task, also of tasks that only stood behind the deadly one. So a
-batch that it gives up is run again row by row, and a row that it gives up then is `crashed`.
+workers that died while they had a task, also of tasks that were only queued behind the deadly one.
+So a batch that it gives up is run again row by row, and a row that it gives up then is `crashed`.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from .store import CampaignError
 
 __all__ = ["DaskEngine", "engine_by_name"]
 
-LOOK = 5.0  # seconds without news, after which somebody looks whether there are workers
+LOOK = 5.0  # seconds without news, after which the number of workers is checked
 AHEAD = 2  # batches for each worker: one that it runs, one that waits for it
 
 
@@ -58,7 +58,7 @@ class DaskEngine:
             yield from _Flight(dask, client, plan, rows, self._batch, self._patience).results()
         except dask.CancelledError as error:
             raise CampaignError(
-                "the scheduler of the cluster is gone; the same command goes on"
+                "the scheduler of the cluster is gone; repeat the command to resume"
             ) from error
         finally:
             client.close()
@@ -100,7 +100,7 @@ class _Flight:
                 yield found
 
     def _feed(self) -> bool:
-        """Send what there is room for; return whether there is something to wait for."""
+        """Send rows as far as there is room; return whether there is something to wait for."""
         if self._suspects:
             if not self._flying:  # it brings its parcel, so that nothing else can be blamed
                 self._send([self._suspects.popleft()], self._parcel)
@@ -135,8 +135,8 @@ class _Flight:
             self._count_workers()
             if time.monotonic() - self._last_seen > self._patience:
                 raise CampaignError(
-                    f"the cluster has had no workers for {self._patience:g} s; the same command"
-                    " goes on"
+                    f"the cluster has had no workers for {self._patience:g} s;"
+                    " repeat the command to resume"
                 ) from None
             return []
         return sorted(waited.done, key=lambda task: self._flying[task][0].number)
@@ -184,7 +184,7 @@ def engine_by_name(
         timeout: Seconds by the clock that a row may take.
 
     Raises:
-        CampaignError: There is none of this name, or it cannot do what is wanted.
+        CampaignError: There is none of this name, or it cannot do what is requested.
     """
     if name == "local":
         return LocalEngine(workers or processes, batch, timeout)

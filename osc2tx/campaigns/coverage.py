@@ -50,19 +50,19 @@ class Bucket:
 
 @dataclass(slots=True)
 class Item:
-    """What is sampled, with its hits.
+    """A sampled value, with its hits.
 
     Attributes:
         name: With the path of the invocation before it.
         kind: `cover` or `record`.
         group: The event that samples it.
-        unit: Name of its unit; empty for none.
-        text: What it is about.
-        target: Hits that a bucket is to have.
+        unit: Name of its unit; empty without one.
+        text: Description.
+        target: Number of hits required in a bucket.
         parts: Of a cross: its items.
-        buckets: Of an item that is none; empty if nobody says where its values end.
+        buckets: Of a single item; empty if its values have no declared bounds.
         impossible: Cells that constraints leave no values for.
-        hits: How many samples lie in a cell.
+        hits: Number of samples in each cell.
         samples: How many there were.
         outside: Those in no bucket.
         illegal: Rows with an illegal value.
@@ -89,7 +89,7 @@ class Item:
 
     @property
     def is_graded(self) -> bool:
-        """Whether it is known which buckets there are; what is only recorded has no goal."""
+        """Whether the buckets are known; items that are only recorded have no goal."""
         return self.kind == "cover" and all(part.buckets for part in self.parts or (self,))
 
     def holes(self) -> list[Cell]:

@@ -73,7 +73,7 @@ def _drawn(counts: Sequence[int], generator: random.Random) -> Iterator[tuple[in
 
 
 def _greedy(row: dict[int, int], counts: Sequence[int], missing: dict[Pair, None]) -> list[int]:
-    """Complete a row with the levels that meet most of what is missing, the first of equals."""
+    """Complete a row with the levels that meet most of the missing pairs, the first of equals."""
     for index, count in enumerate(counts):
         if index in row:
             continue

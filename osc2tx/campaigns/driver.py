@@ -26,10 +26,10 @@ class Progress:
     """How far a campaign is.
 
     Attributes:
-        wanted: Rows that there are to be; None if nobody knows.
+        wanted: Number of rows in the end; None if unknown.
         done: Rows in the store.
-        failed: Those of them that did not succeed.
-        new: Rows that came since this call began.
+        failed: Rows in the store that did not succeed.
+        new: Rows added since this call began.
         left_out: Points that break a constraint.
     """
 
@@ -51,12 +51,12 @@ def run_campaign(
     """Run the rows of a campaign that its store does not have yet.
 
     Args:
-        plan: What the rows have in common.
+        plan: The common part of the rows.
         texts: The options of the runs, as they are written.
-        wanted: The sampler, and how many rows there are to be.
-        store: Where results are kept, and perhaps some are already.
+        wanted: The sampler, and the number of rows in the end.
+        store: Holds the results, and possibly results of earlier calls.
         engine: Runs the rows.
-        on_progress: Is told whenever rows were stored.
+        on_progress: Called whenever rows were stored.
 
     Raises:
         CampaignError: The store is of another campaign, or rows cannot be chosen or run.
@@ -104,10 +104,10 @@ def make_sampler(executor: Executor, wanted: Wanted, findings: Findings) -> Samp
     """Return the sampler of a campaign.
 
     Raises:
-        CampaignError: Nothing says how many rows there are to be, or they cannot be chosen.
+        CampaignError: The number of rows is not stated, or rows cannot be chosen.
     """
     if wanted.is_endless:
-        raise CampaignError("say how many rows there are to be: --samples 1000")
+        raise CampaignError("state the number of rows: --samples 1000")
 
     def allows(row: Row) -> bool:
         return why_left_out(executor, row) is None

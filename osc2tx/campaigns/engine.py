@@ -1,4 +1,4 @@
-"""Runs rows in processes of this machine; a row that ends its process costs nobody else.
+"""Runs rows in processes of this machine; a row that ends its process affects no other row.
 
 Each worker has a pipe of its own, tells of each row as soon as it is done, and has only a few rows
 at once. So it is known which row a worker was at when it died: that one is tried once more, alone,
@@ -43,7 +43,7 @@ class Engine(Protocol):
 
 
 def take(rows: Iterator[Row | None], most: int) -> list[Row]:
-    """Take so many rows, or those that there are at the moment."""
+    """Take up to this number of rows from those available at the moment."""
     return list(islice(iter(lambda: next(rows, None), None), most))
 
 
@@ -90,7 +90,7 @@ class _Worker:
         rows: Those that it was given, the one that it is at first.
         since: When it began with that one.
         is_ready: Whether it has imported the module.
-        silence: Seconds that were waited for it since it told something.
+        silence: Seconds of waiting since its last message.
     """
 
     def __init__(self, plan: Plan, beat: float) -> None:
@@ -140,7 +140,7 @@ class _Pool:
         self._failed_starts = 0
 
     def feed(self) -> bool:
-        """Give rows to those who have none; return whether there is something to wait for."""
+        """Give rows to idle workers; return whether there is something to wait for."""
         while len(self._workers) < self._most:
             self._workers.append(_Worker(self._plan, self._beat))
         for worker in self._workers:

@@ -78,5 +78,5 @@ def _csv(rows: list[dict[str, Any]]) -> str:
 
 
 def _field(value: Any) -> Any:
-    """Keep as text what a spreadsheet would take for a formula, as `report/export.js` does."""
+    """Keep as text whatever a spreadsheet would take for a formula, as `report/export.js` does."""
     return f"'{value}" if isinstance(value, str) and value.startswith(FORMULA) else value

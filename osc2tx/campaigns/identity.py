@@ -1,4 +1,4 @@
-"""What a campaign is: what the meaning of its rows depends on, as plain data for the store."""
+"""The identity of a campaign: all that the meaning of its rows depends on, as plain data."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Texts = Mapping[str, Sequence[str]]
 """Options of a run as they are written, by name."""
 
 NO_MATTER = ("map-path", "seed", "trace", "report")
-"""Options that do not change what a row means, or stand in the identity otherwise."""
+"""Options that do not change the meaning of a row, or are part of the identity otherwise."""
 
 
 def identity_of(

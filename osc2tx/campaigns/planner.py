@@ -72,8 +72,8 @@ class Planner:
         left_out: Numbers of those that break a constraint; grows.
 
     Attributes:
-        accepted: How many rows there are so far, those that were run before included.
-        newly_left_out: Numbers that came to `left_out`, until somebody takes them.
+        accepted: Number of rows so far, those of earlier calls included.
+        newly_left_out: Numbers added to `left_out` since they were last taken.
     """
 
     def __init__(

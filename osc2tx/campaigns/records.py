@@ -117,7 +117,7 @@ def record(result: RowResult) -> Sequence[Any]:
 
 
 def decoded(values: Sequence[Any]) -> dict[str, Any]:
-    """Return a record by column, JSON as what it says.
+    """Return a record by column, JSON decoded.
 
     Raises:
         ValueError: Nothing that osc2tx writes into a column.

@@ -13,7 +13,7 @@ __all__ = ["render_report"]
 
 MOST_ROWS = 10_000  # that are drawn
 BINS = 24
-DIGITS = 6  # significant ones, of what is drawn
+DIGITS = 6  # significant digits of drawn values
 
 
 def render_report(results: Results, before: Results | None = None) -> str:
@@ -120,7 +120,7 @@ def _is_number(value: object) -> bool:
 
 
 def _short(value: Any) -> Any:
-    """Return a number with the digits that a picture can show, and what is none as it is."""
+    """Return a number with the digits that a picture can show, other values unchanged."""
     if not _is_number(value):
         return value
     short = float(f"{value:.{DIGITS}g}")
@@ -128,7 +128,7 @@ def _short(value: Any) -> Any:
 
 
 def compared(now: Results, before: Results) -> dict[str, Any]:
-    """Return what is other than in an earlier campaign."""
+    """Return the differences from an earlier campaign."""
     groups = [{(e.status, e.source, e.reason) for e in each.failures} for each in (now, before)]
     hit = [_hit(each) for each in (now, before)]
     return {

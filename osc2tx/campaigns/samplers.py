@@ -32,7 +32,7 @@ class TableSampler:
     names: Sequence[str]
     lines: Sequence[Sequence[str]]
     seed: int
-    is_checked: bool = False  # what somebody asks for by hand is run, and fails, in the open
+    is_checked: bool = False  # explicitly requested rows are run, and fail visibly
 
     @classmethod
     def read(cls, file: str, seed: int) -> TableSampler:
@@ -59,7 +59,7 @@ class TableSampler:
 
     @property
     def identity(self) -> Mapping[str, Any]:
-        """What is in the file."""
+        """The digest of the file."""
         return {"table": self.digest}
 
     def rows(self) -> Iterator[Row]:
@@ -107,7 +107,7 @@ def sampler_by_name(
         findings: What a search goes by; grows meanwhile.
 
     Raises:
-        CampaignError: There is none of this name, or it cannot do what is wanted.
+        CampaignError: There is none of this name, or it cannot do what is requested.
     """
     name, _, file = wanted.name.partition(":")
     if name == "random":

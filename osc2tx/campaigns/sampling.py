@@ -1,4 +1,4 @@
-"""What a sampler is: it says which values the rows of a campaign have."""
+"""Samplers: they choose the values of the rows of a campaign."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ __all__ = ["Findings", "Sampler", "Wanted", "row_seed", "wanted_rows"]
 
 @dataclass(frozen=True, slots=True)
 class Wanted:
-    """What a sampler is to do.
+    """The task of a sampler.
 
     Attributes:
         name: Of the sampler, as on the command line.
         seed: Of the campaign.
-        samples: How many rows; None for all of a sampler that ends by itself.
+        samples: Number of rows; None for all of a sampler that ends by itself.
         levels: Values of each range in a grid and for pairs.
-        aim: What a search looks for.
+        aim: The aim of a search.
     """
 
     name: str
@@ -53,10 +53,10 @@ def wanted_rows(
     search: str | None = None,
     search_batch: int = 16,
 ) -> Wanted:
-    """Return what a sampler is to do, or a search: `random` where neither is named.
+    """Return the task of a sampler, or a search: `random` where neither is named.
 
     Raises:
-        CampaignError: Both are, or the search does not say what it looks for.
+        CampaignError: Both are, or the search does not state its aim.
         SettingsError: There is no such measure.
     """
     if sampler and search:
@@ -70,10 +70,10 @@ def wanted_rows(
 
 
 class Findings:
-    """What is known of rows, for who chooses the next ones by it.
+    """Knowledge about rows, from which the next ones are chosen.
 
     Attributes:
-        measures: Those of rows that were run, by number; kept for a search alone.
+        measures: Measures of completed rows, by number; kept for a search alone.
         left_out: Numbers of rows that break a constraint.
     """
 

@@ -1,8 +1,8 @@
 """A search: rows that are chosen by the outcomes of earlier rows, to find the worst value of a KPI.
 
-Rows are chosen in batches of a size that is part of the campaign, by what all rows of the batches
-before had. So row 17 is the same whoever runs the rows, in which order, and however often the
-campaign was interrupted: a search that goes on is told again what the store has.
+Rows are chosen in batches of a size that is part of the campaign, by the results of all rows of the
+batches before. So row 17 is the same wherever the rows run, in any order, and however often the
+campaign was interrupted: a search that resumes reads the results in the store again.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ class SearchSampler:
     Args:
         columns: The parameters that the scenario draws.
         seed: Of the campaign.
-        aim: What it looks for.
-        findings: What is known of rows; grows meanwhile.
+        aim: The extreme that is searched.
+        findings: Knowledge about rows; grows meanwhile.
 
     Raises:
         CampaignError: Optuna is not installed.
@@ -45,7 +45,7 @@ class SearchSampler:
 
     @property
     def identity(self) -> Mapping[str, Any]:
-        """What it looks for, the columns, the size of a batch, the version of Optuna."""
+        """The aim, the columns, the size of a batch, the version of Optuna."""
         return {
             "search": f"{self._aim.manner}:{self._aim.kpi}",
             "columns": [column.name for column in self._columns],
@@ -101,7 +101,7 @@ class SearchSampler:
 
 
 def _share(column: Column, value: float) -> float:
-    """Return the place of a value in its domain; that of the middle of a whole one."""
+    """Return the position of a value in its domain; the middle of the cell of an integer."""
     return value if column.kind == "real" else (value + 0.5) / column.count
 
 

@@ -40,7 +40,7 @@ FORMAT = 2
 
 
 class _Database:
-    """An SQLite file whose failures say what is kept.
+    """An SQLite file whose failures name its content.
 
     Args:
         path: The file.
@@ -106,7 +106,7 @@ def _file_of(path: Path) -> tuple[int, int] | None:
 
 
 class Store:
-    """The file of a campaign. A context manager; who leaves it closes the file.
+    """The file of a campaign; a context manager that closes it.
 
     Args:
         path: The file.
@@ -141,7 +141,7 @@ class Store:
             raise
 
     def _make(self) -> None:
-        """Make the tables of an empty file, if nobody else has done so meanwhile."""
+        """Make the tables of an empty file, unless another process has done so meanwhile."""
         if self._tables():
             return
         self._base.execute("pragma journal_mode = wal")
@@ -171,11 +171,11 @@ class Store:
     ) -> None:
         self._base.close()
 
-    # --- what the campaign is ---
+    # --- the campaign ---
 
     @property
     def identity(self) -> dict[str, Any] | None:
-        """What the campaign is; None of a store that is still empty."""
+        """The identity of the campaign; None for a store that is still empty."""
         return self._told("identity", IDENTITY_TYPES)
 
     @property
@@ -215,7 +215,7 @@ class Store:
 
     @property
     def wanted(self) -> int | None:
-        """How many rows the last call wanted, if it said."""
+        """The number of rows that the last call requested, if it stated one."""
         found = self._told("samples", {"rows": int})
         return None if found is None else int(found["rows"])
 
@@ -289,7 +289,7 @@ class Store:
         return {status: number for status, number in self._base.rows(query)}
 
     def runs(self) -> Iterator[dict[str, Any]]:
-        """Yield all rows by number: columns of the table, JSON as what it says."""
+        """Yield all rows by number: columns of the table, JSON decoded."""
         for values in self._base.rows(f"select {', '.join(COLUMNS)} from run order by number"):
             yield self._decoded(values)
 
@@ -349,4 +349,4 @@ def _differences(known: Mapping[str, Any], given: Mapping[str, Any]) -> Iterator
 def _short(value: Any) -> str:
     if isinstance(value, str) and len(value) == hashlib.sha256().digest_size * 2:
         return value[:12]
-    return "not said" if value is None else json.dumps(value)
+    return "not stated" if value is None else json.dumps(value)

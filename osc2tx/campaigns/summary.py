@@ -48,9 +48,9 @@ class Results:
 
     Attributes:
         place: Path of the store.
-        identity: What the campaign is.
+        identity: The identity of the campaign.
         runs: Its rows.
-        left_out: How many points break a constraint.
+        left_out: Number of points that break a constraint.
         items: Coverage.
         failures: Groups of rows, the largest first.
     """

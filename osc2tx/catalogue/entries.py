@@ -21,16 +21,16 @@ class ActionEntry:
         arguments: Parameters that the runtime takes.
         required: Those it cannot do without.
         modifiers: Modifiers that it honours.
-        moves: Whether it moves as its modifiers say, so that they must go together.
+        moves: Whether it moves as its modifiers state, so that they must go together.
         physical: Whether it cannot let the actor jump.
-        slots: What it controls of the actor itself: `longitudinal`, `lateral`.
+        slots: The slots of the actor that it controls: `longitudinal`, `lateral`.
         ends: At its `goal`, `at_once` with a goal that takes no time, in the `instant` it starts,
             or `open`: only with its surroundings.
-        places: Whether its arguments say where the actor is.
+        places: Whether its arguments state where the actor is.
         paces: Whether it sets or holds the speed of the actor.
-        needs: What a world must have to carry it out.
-        rules: Which arguments go together.
-        without_xml: Why OpenSCENARIO XML has no form of it; empty if it has.
+        needs: Capabilities of the world that it requires.
+        rules: Rules for combinations of arguments.
+        without_xml: Why OpenSCENARIO XML has no form of it; empty if it has one.
     """
 
     section: str
@@ -58,22 +58,22 @@ class ModifierEntry:
     """A modifier. Parameters have their names in the DSL.
 
     Attributes:
-        owner: The actor of which it is a member (`map`, `vehicle`); empty for those of actions.
+        owner: The actor of which it is a member (`map`, `vehicle`); empty for members of actions.
         section: Of OpenSCENARIO DSL 2.2; empty if the standard does not have it.
-        parameters: Those that the runtime takes.
+        parameters: The parameters that the runtime takes.
         required: Those it cannot do without.
         shape: Base of the shapes that it takes; `None` if it takes none.
-        rules: Which arguments go together.
-        combining: What it does to other modifiers of the same action.
-        slots: What it controls of the actor: `longitudinal`, `lateral`.
-        places: Whether it says where the actor is.
-        paces: Whether it says how fast the actor is, or where it is at each time.
-        bounds: Whether an open-ended action is over when what it says is reached.
+        rules: Rules for combinations of arguments.
+        combining: Its effect on other modifiers of the same action.
+        slots: The slots of the actor that it controls: `longitudinal`, `lateral`.
+        places: Whether it states where the actor is.
+        paces: Whether it states the speed of the actor, or its position at each time.
+        bounds: Whether an open-ended action ends when the state of the modifier is reached.
         placement: Whether an actor, or the map, can start with it.
         orders: Parameters that only state an order, such as `faster_than`,
-        amounts: whose amount stands in one of these, or stays open.
-        needs: What a world must have to carry it out.
-        without_xml: Why OpenSCENARIO XML has no form of it; empty if it has.
+        amounts: whose amount is given by one of these, or stays open.
+        needs: Capabilities of the world that it requires.
+        without_xml: Why OpenSCENARIO XML has no form of it; empty if it has one.
     """
 
     owner: str
@@ -96,12 +96,12 @@ class ModifierEntry:
 
 @dataclass(frozen=True, slots=True)
 class Catalogue:
-    """What the library has and the runtime carries out.
+    """The items of the library, and the classes of the runtime for them.
 
     Attributes:
         actions: By actor and name, `vehicle.drive`.
         modifiers: By name; those of different actors have different names.
-        abstract: Actions that are only there to be inherited from.
+        abstract: Actions that exist only to be inherited from.
         lowered: Actions that the lowering turns into the initial placement.
     """
 

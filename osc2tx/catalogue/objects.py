@@ -12,7 +12,7 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(frozen=True, slots=True)
 class ObjectTables:
-    """What the runtime has besides actions and modifiers, by the names of the language.
+    """The runtime's items besides actions and modifiers, by the names of the language.
 
     Attributes:
         methods: `physical_object.object_distance` to its parameters.

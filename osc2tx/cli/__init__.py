@@ -5,7 +5,7 @@ or settings, 3 errors in a source, 4 unreadable input or unwritable output, 5 th
 failed, 70 a bug of ours.
 
 `init`, `check`, `build`, `report`, `verify`, `fmt`, `map`, `config`, `reference` and `explain` hold
-the commands, each loaded when it is asked for; `options` and `progress` are what they share.
+the commands, each loaded on first use; `options` and `progress` are shared by them.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from typing import NoReturn
 
 import click
 
+from osc2tx.building.answers import Answer
 from osc2tx.cli.reporting import BUG_REPORT, Exit, Session, report_failure
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError
@@ -30,19 +31,21 @@ from osc2tx_shared.text import explain as explain_output
 # Command -> where it is, and its line in the help page.
 COMMANDS: Mapping[str, tuple[str, str]] = {
     "init": ("osc2tx.cli.init:init", "Start a project with a scenario, settings and a test."),
-    "check": ("osc2tx.cli.check:check", "Report what is wrong with scenario files."),
+    "check": ("osc2tx.cli.check:check", "Report errors and warnings in scenario files."),
     "build": ("osc2tx.cli.build:build", "Write a py_trees module for every scenario file."),
     "run": ("osc2tx.cli.run:run", "Run a scenario in the embedded world."),
+    "test": ("osc2tx.cli.test:test", "Run scenarios as tests; fail if one does not end well."),
     "campaign": ("osc2tx.cli.campaign:campaign", "Run a scenario many times, with other values."),
     "verify": ("osc2tx.cli.verify:verify", "Check whether a trace does what its scenario states."),
     "report": ("osc2tx.cli.report:report", "Make pages of traces: one run, two, or a folder."),
     "fmt": ("osc2tx.cli.fmt:fmt", "Lay scenario files out in the style of the standard."),
     "tree": ("osc2tx.cli.tree:tree", "Draw the behavior tree of a scenario."),
-    "map": ("osc2tx.cli.map:map", "Say what is in a road map, and what is wrong with it."),
-    "world": ("osc2tx.cli.world:world", "Compare a simulator with what runs rely on."),
-    "config": ("osc2tx.cli.config:config", "Show the settings in force, and where they are from."),
-    "reference": ("osc2tx.cli.reference:reference", "Say what a name of the library means."),
-    "explain": ("osc2tx.cli.explain:explain", "Say what a diagnostic code means."),
+    "graph": ("osc2tx.cli.graph:graph", "Show who uses what in a project."),
+    "map": ("osc2tx.cli.map:map", "Describe a road map, and report its errors."),
+    "world": ("osc2tx.cli.world:world", "Check a simulator against the requirements of runs."),
+    "config": ("osc2tx.cli.config:config", "Show the effective settings and their origins."),
+    "reference": ("osc2tx.cli.reference:reference", "Describe a name of the library."),
+    "explain": ("osc2tx.cli.explain:explain", "Explain a diagnostic code."),
 }
 
 PRINTED_BY_CLICK = frozenset(["-h", "--help", "--version"])
@@ -85,17 +88,22 @@ def cli() -> None:
     """Compile OpenSCENARIO DSL into readable py_trees modules, and run them."""
 
 
-def main(arguments: Sequence[str] | None = None) -> NoReturn:
-    """Run the command line and end the process."""
-    gc.set_threshold(200_000, 30, 30)  # what a start makes is there to stay: look rarely
-    code = _exit_code(sys.argv[1:] if arguments is None else arguments)
-    gc.freeze()  # the process ends: nobody has to look for garbage in large trees
+def main(arguments: Sequence[str] | None = None, answer: Answer | None = None) -> NoReturn:
+    """Run the command line and end the process.
+
+    Args:
+        arguments: The command line; that of the process if left out.
+        answer: Where the answer to it is kept, if it is one to keep.
+    """
+    gc.set_threshold(200_000, 30, 30)  # objects made at start stay: collect rarely
+    session = Session(answer=answer)
+    code = _exit_code(sys.argv[1:] if arguments is None else arguments, session)
+    gc.freeze()  # the process ends: no need to look for garbage in large trees
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # and there is nothing left to interrupt
     sys.exit(code)
 
 
-def _exit_code(arguments: Sequence[str]) -> int:
-    session = Session()
+def _exit_code(arguments: Sequence[str], session: Session) -> int:
     try:
         if PRINTED_BY_CLICK.intersection(arguments):
             expect_output()
@@ -134,7 +142,7 @@ def _run(arguments: Sequence[str], session: Session) -> int:
 
 
 def _explain_usage(error: click.ClickException) -> None:
-    """Print how a command is used, and what is wrong with this use of it."""
+    """Print the usage of a command, and the error in this use of it."""
     context = error.ctx if isinstance(error, click.UsageError) else None
     if context is not None:
         put(context.get_usage(), err=True)
@@ -143,6 +151,6 @@ def _explain_usage(error: click.ClickException) -> None:
 
 
 def _fail(code: int, message: str, arguments: Sequence[str], session: Session) -> int:
-    """Tell a program that waits for a document why there is none; return the exit code."""
+    """Report to a program that expects a document why there is none; return the exit code."""
     report_failure(message, arguments, session)
     return code

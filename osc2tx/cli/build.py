@@ -11,6 +11,8 @@ import click
 from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.cli.diff_output import print_diff, read_text
 from osc2tx.cli.options import (
+    affected_option,
+    affected_sources,
     cache_option,
     compile_options,
     seen_from,
@@ -40,7 +42,7 @@ POLL_SECONDS = 0.3  # between two looks of --watch
 
 @dataclass(frozen=True, slots=True)
 class _Task:
-    """What the command line and the settings ask for."""
+    """The request of the command line and the settings."""
 
     paths: tuple[str, ...]
     out_dir: Path
@@ -74,9 +76,10 @@ class _Task:
     metavar="GIT_REV",
     help="Print what changed since the sources of a revision, both built by this osc2tx.",
 )
-@click.option("--watch", is_flag=True, help="Go on and build again when a source changes.")
-@click.option("--force", is_flag=True, help="Write also over what was edited by hand.")
-@click.option("--prune", is_flag=True, help="Remove outputs whose source has vanished.")
+@affected_option
+@click.option("--watch", is_flag=True, help="Build again whenever a source changes.")
+@click.option("--force", is_flag=True, help="Overwrite edited outputs as well.")
+@click.option("--prune", is_flag=True, help="Remove outputs whose source no longer exists.")
 @workers_option
 @cache_option
 @report_options
@@ -88,6 +91,7 @@ def build(
     check_only: bool,
     diff: bool,
     diff_against: str | None,
+    affected: str | None,
     watch: bool,
     force: bool,
     prune: bool,
@@ -107,6 +111,8 @@ def build(
         if reporter.form != "text":
             raise click.UsageError("--emit and --output-format both print to standard output")
         return _print_product(paths, given, emit, reporter)
+    if affected is not None and (watch or diff_against):
+        raise click.UsageError("--affected-since is for one build, not --watch or --diff-against")
     if (reads_only and (watch or force or prune)) or (diff_against and (check_only or diff)):
         raise click.UsageError(
             "of --check/--diff, --diff-against, --watch choose one; "
@@ -116,10 +122,11 @@ def build(
         raise click.UsageError("--diff and --output-format both print to standard output")
     from osc2tx.building.workers import processors
 
-    is_whole = not paths
-    places = _places(paths, out_dir)
+    is_whole = not paths and affected is None
+    sources, out = _places(paths, out_dir)
+    sources = affected_sources(sources, affected, given)
     workers = workers or processors()
-    task = _Task(*places, given, reporter, workers, force, prune or is_whole, cache)
+    task = _Task(sources, out, given, reporter, workers, force, prune or is_whole, cache)
     if diff_against is not None:
         return _diff_against(task, diff_against)
     if reads_only:
@@ -140,7 +147,7 @@ def _places(paths: tuple[str, ...], out_dir: Path | None) -> tuple[tuple[str, ..
 
 
 def _run(task: _Task, options: BuildOptions) -> tuple[BuildResult, Exit, str]:
-    """Build, report what the sources have to say; return the exit code for that, and a summary."""
+    """Build, print the diagnostics; return the exit code for them, and a summary."""
     from osc2tx.building.build import build as build_files
 
     configs = ConfigFiles()
@@ -233,7 +240,7 @@ def _orphaned(change: Change) -> str:
 
 
 def _diff_against(task: _Task, revision: str) -> Exit:
-    """Print what the sources of today make, against what those of a revision would."""
+    """Print the outputs of the present sources, compared with those of a revision."""
     from osc2tx.building.compare import compare_with, diff_lines
 
     with progress_bar("compiling") as progress:
@@ -268,7 +275,7 @@ def _diff_against(task: _Task, revision: str) -> Exit:
 
 
 def _watch(task: _Task) -> Exit:
-    """Build again and again, until somebody interrupts it."""
+    """Build whenever a source changes, until interrupted."""
     from time import sleep
 
     from osc2tx.building.watch import files_read, rounds
@@ -286,7 +293,7 @@ def _print_product(
     paths: Sequence[str], given: GivenOptions, emit: ProductName, reporter: Reporter
 ) -> Exit:
     if not paths:
-        raise click.UsageError("say what to compile: name a file or folder")
+        raise click.UsageError("nothing to compile: name a file or folder")
     if emit == "xosc" and given.target is None:
         given = replace(given, target="xosc")
     compilations = compile_all(paths, given)

@@ -13,8 +13,8 @@ def campaign() -> None:
     """Run a scenario many times, each time with other values, and look at the outcomes.
 
     The outcomes of the runs are in one file, the store. A row has a number, and the number one
-    meaning: it depends on the scenario, the sampler and the seed, not on who runs it and when. A
-    campaign that was interrupted is resumed by the next call.
+    meaning: it depends on the scenario, the sampler and the seed, not on the machine and the time.
+    A campaign that was interrupted is resumed by the next call.
     """
 
 

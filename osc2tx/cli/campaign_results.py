@@ -46,7 +46,7 @@ def replay(
     map_path: tuple[Path, ...],
     quiet: bool,
 ) -> Exit:
-    """Run one row of a campaign again, from what the store knows, and write its files.
+    """Run one row of a campaign again, from the data in the store, and write its files.
 
     The run is the same to the last byte of its trace. If it is not, as in another version of
     osc2tx or on another map, that is an error. The Python module of the store is run: replay only
@@ -93,7 +93,7 @@ def report(
 ) -> Exit:
     """Write the outcome of a campaign as one HTML page that loads nothing.
 
-    Coverage holes come first, and are told from what the constraints leave no values for; failures
+    Coverage holes come first, apart from the values that the constraints exclude; failures
     are grouped, each group with its shortest row and the command that repeats it. Coverage needs
     the Python module of the store, which is run.
     """
@@ -117,7 +117,7 @@ def report(
     grade = said["coverage_grade"]
     if fail_under is not None and (grade is None or grade < fail_under):
         found = "nothing is covered" if grade is None else f"{grade:.1f} %"
-        complain(f"{store}: coverage {found}, wanted were {fail_under:g} %")
+        complain(f"{store}: coverage {found}, required were {fail_under:g} %")
         return Exit.STALE
     return Exit.OK
 

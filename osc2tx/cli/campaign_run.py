@@ -47,7 +47,7 @@ class CampaignCommand(RunCommand):
     without = frozenset({"trace", "report"})
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Take from the settings of the file what the command line does not say."""
+        """Take from the settings of the file whatever the command line leaves open."""
         for path in (Path(arg) for arg in args if arg.endswith((".osc", ".py"))):
             with suppress(ConfigError):  # reported when the settings are read
                 stated = ConfigFiles().for_source(path).campaign_settings(path)
@@ -74,7 +74,7 @@ def _stated(name: str, texts: tuple[str, ...]) -> str | tuple[str, ...]:
     "--samples",
     metavar="N",
     type=click.IntRange(min=1),
-    help="How many rows there are to be in the end; without: as many as the last call said.",
+    help="Number of rows in the end; default: the number of the last call.",
 )
 @click.option(
     "--sampler",
@@ -137,7 +137,7 @@ def _stated(name: str, texts: tuple[str, ...]) -> str | tuple[str, ...]:
     "kpis",
     metavar="NAME",
     multiple=True,
-    help="What is measured: all of osc2tx, or those named here; `none` for nothing.",
+    help="Measures to take: all of osc2tx, or those named here; `none` for nothing.",
 )
 @click.option(
     "--fail-if",
@@ -168,11 +168,11 @@ def run(
     reporter: Reporter,
     **written: str | bool | tuple[str, ...] | None,
 ) -> Exit:
-    """Run a scenario many times, until its store has so many rows.
+    """Run a scenario many times, until its store has the requested number of rows.
 
-    Rows that are in the store are not run again: after Ctrl-C, or whatever ended it, the same
-    command goes on. Samplers: `random` draws as `osc2tx run` does; `sobol` and `halton` fill the
-    space evenly and go on for ever, `lhs` for a number of rows; `grid` has all combinations of a
+    Rows that are in the store are not run again: after Ctrl-C, or any other end, the same command
+    resumes the campaign. Samplers: `random` draws as `osc2tx run` does; `sobol` and `halton` fill
+    the space evenly without an end, `lhs` for a number of rows; `grid` has all combinations of a
     few values, `pairwise` all pairs; `table:FILE` the rows of a CSV file. With `--search` there is
     no sampler: rows are chosen where others came near to the worst value.
     """
@@ -216,8 +216,8 @@ def _run(
         except KeyboardInterrupt:
             done = sum(store.counts().values())
             complain(
-                f"{plan.scenario}: interrupted with {count_of(done, 'row')} in {place}; the same"
-                " command goes on"
+                f"{plan.scenario}: interrupted with {count_of(done, 'row')} in {place}; repeat"
+                " the command to resume"
             )
             return Exit.INTERRUPTED
         for line in summary(plan.scenario, store, ended, wanted.aim):
@@ -231,7 +231,7 @@ def _with_samples(wanted: Wanted, store: Store) -> Wanted:
 
 
 def summary(name: str, store: Store, ended: Progress, aim: Aim | None) -> Iterator[str]:
-    """Yield the lines that say what is in a store."""
+    """Yield the lines that describe the content of a store."""
     counts = ", ".join(f"{number} {status}" for status, number in store.counts().items())
     yield f"{name}: {count_of(ended.done, 'row')} in {store.path}, {ended.new} new: {counts}"
     if ended.left_out:

@@ -18,7 +18,7 @@ from osc2tx_shared.text import in_json, say
 @compile_options
 @target_options
 def config(path: Path, given: GivenOptions) -> None:
-    """Show the settings in force for a scenario file or a folder, and where each is from."""
+    """Show the effective settings for a scenario file or a folder, and their origins."""
     configs = ConfigFiles()
     found = configs.for_folder(path) if path.is_dir() else configs.for_source(path)
     rows = [

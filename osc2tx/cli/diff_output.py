@@ -28,7 +28,7 @@ def _painted(line: str) -> str:
 
 
 def read_text(path: Path) -> str | None:
-    """Return what a file says now; `None` if there is none."""
+    """Return the present content of a file; `None` if there is none."""
     try:
         return None if path.is_symlink() else path.read_text(encoding="utf-8", errors="replace")
     except (FileNotFoundError, NotADirectoryError, IsADirectoryError):

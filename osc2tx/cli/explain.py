@@ -29,7 +29,7 @@ def _complete(
 @click.option("--all", "everything", is_flag=True, help="Explain every code.")
 @click.option("--json", "as_json", is_flag=True, help="Print data for other programs.")
 def explain(code: str | None, everything: bool, as_json: bool) -> None:
-    """Say what a diagnostic code means; without CODE list all codes.
+    """Explain a diagnostic code; without CODE list all codes.
 
     CODE is written `OSC302`, `302` or by its name, `dimension-mismatch`.
     """
@@ -46,7 +46,7 @@ def explain(code: str | None, everything: bool, as_json: bool) -> None:
 
 
 def put_explanations(entries: list[Code]) -> None:
-    """Print what there is to say of codes, as the terminal has it."""
+    """Print explanations of codes, formatted for the terminal."""
     color, width = wants_color(), columns()
     texts = [render_explanation(entry, width=width, color=color) for entry in entries]
     put("\n\n\n".join(texts), colored=color)

@@ -40,7 +40,7 @@ def fmt(
 ) -> Exit:
     """Lay scenario files out in the style of the standard; folders are searched for .osc files.
 
-    Tokens and comments stay what they are. Files with syntax errors are not touched. Without PATH,
+    Tokens and comments are not changed. Files with syntax errors are not touched. Without PATH,
     `sources` of the settings file count; `-` is standard input, and its text goes to standard
     output.
     """

@@ -14,7 +14,7 @@ from osc2tx_shared.text import complain, put, say
 
 SETTINGS = "settings.toml"
 
-# Place in the new project -> what is written there, from templates/project.
+# Path in the new project -> its text, from templates/project.
 FILES: Mapping[str, str] = {
     "osc2tx.toml": SETTINGS,
     "scenarios/slow_down.osc": "scenario.osc",

@@ -1,4 +1,4 @@
-"""`osc2tx map`: prints what a road map holds, what of it is not read, and where it is broken."""
+"""`osc2tx map`: prints the content of a road map, its unread elements, and its errors."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from osc2tx_shared.text import complain, say
 @click.command()
 @click.argument("file", metavar="FILE", type=click.Path(path_type=Path))
 def map(file: Path) -> Exit:
-    """Print what an OpenDRIVE map holds, what of it is not read, and where it is broken."""
+    """Print the content of an OpenDRIVE map, its unread elements, and its errors."""
     try:
         road_map = read_map(file)
         left_out = unread_elements(file)

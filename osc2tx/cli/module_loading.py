@@ -110,9 +110,9 @@ def scenarios_of_file(place: Path, name: str) -> Iterator[Mapping[str, type[Scen
 
 @contextmanager
 def _found_siblings(place: Path) -> Iterator[None]:
-    """Let a module find those that lie where it looks for them, as its script does.
+    """Let a module find the modules beside it, as its script does.
 
-    Others of the same names are out of sight for as long, and what it imported is forgotten
+    Other modules of the same names are hidden meanwhile, and imported modules are removed
     afterwards: each of several folders has modules of its own.
     """
     files, folders = _siblings(place)
@@ -126,7 +126,7 @@ def _found_siblings(place: Path) -> Iterator[None]:
     for name in hidden:
         del sys.modules[name]
     sys.path[:0] = folders
-    sys.dont_write_bytecode = True  # who only looks at a folder leaves nothing in it
+    sys.dont_write_bytecode = True  # reading a folder leaves nothing in it
     importlib.invalidate_caches()
     try:
         yield
@@ -138,7 +138,7 @@ def _found_siblings(place: Path) -> Iterator[None]:
 
 
 def _siblings(place: Path) -> tuple[dict[str, str | None], list[str]]:
-    """Return what a module imports from around it, and the folders that it is imported from.
+    """Return the modules that a module imports from around it, and their folders.
 
     Returns:
         Modules and packages with their files, and the folders for the path of the search.

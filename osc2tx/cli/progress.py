@@ -14,11 +14,11 @@ Show = Callable[[int, int], None]
 
 @contextmanager
 def progress_bar(label: str, *, is_kept: bool | None = None) -> Iterator[Show]:
-    """Yield what is to be told how many of how many files are done.
+    """Yield a function that shows the progress: files done, files in total.
 
     Args:
-        label: What is done to the files.
-        is_kept: Whether results are kept, which an interruption tells; `None` says nothing then.
+        label: The present activity.
+        is_kept: Whether results are kept, which an interruption reports; `None` reports nothing.
     """
     with ExitStack() as stack:
         bars: list[Show] = []

@@ -23,7 +23,7 @@ def _complete(context: click.Context, parameter: click.Parameter, incomplete: st
 @click.argument("name", required=False, shell_complete=_complete)
 @click.option("--json", "as_json", is_flag=True, help="Print plain data.")
 def reference(name: str | None, as_json: bool) -> None:
-    """Say what an actor, action, modifier, struct, enum or physical type of the library is.
+    """Describe an actor, action, modifier, struct, enum or physical type of the library.
 
     NAME is `drive`, `vehicle.drive`, `action vehicle.drive` or the code of a diagnostic. Without
     it, all names are listed.

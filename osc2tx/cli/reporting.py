@@ -17,6 +17,7 @@ from typing import Any, Literal, TypeAlias, get_args
 
 import click
 
+from osc2tx.building.answers import Answer
 from osc2tx.compilation.file_reports import Reportable, apply_suppressions
 from osc2tx.diagnostics import Severity
 from osc2tx.diagnostics.report import FileFault, Report, display_name, make_report
@@ -54,7 +55,7 @@ BUG_REPORT = "osc2tx: this is a bug of osc2tx; please report it with the lines a
 
 
 class Exit(IntEnum):
-    """What the process returns."""
+    """The exit code of the process."""
 
     OK = 0
     STALE = 1
@@ -73,22 +74,24 @@ class Session:
 
     Attributes:
         has_document: Whether a program that reads our output has got its document.
+        answer: Where the answer to the command line is kept.
     """
 
     has_document: bool = False
+    answer: Answer | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Reporter:
-    """Prints what a command has to say.
+    """Prints the results of a command.
 
     Attributes:
         session: The run of the command line that this is for.
         form: How diagnostics are printed.
         is_strict: Whether warnings count for the exit code.
-        most_shown: How many diagnostics of one file are shown, 0 for all; `None` leaves it to
-            the form: readers are spared an avalanche, programs are not.
-        is_quiet: Whether people are told of errors alone.
+        most_shown: Number of diagnostics of one file to show, 0 for all; `None` leaves it to the
+        form: few for readers, all for programs.
+        is_quiet: Whether only errors are shown to readers.
         docs_url: Where the documentation is published, for programs that link to it.
     """
 
@@ -105,10 +108,10 @@ class Reporter:
         bugs: Sequence[str] = (),
         faults: Sequence[FileFault] = (),
     ) -> tuple[Exit, Report]:
-        """Print all diagnostics, bugs of ours, and what is wrong with files as a whole.
+        """Print all diagnostics, internal errors, and errors of files as a whole.
 
         Returns:
-            The exit code they call for, and what there is to report.
+            The exit code they call for, and the report.
         """
         most = self.most_shown
         if most is None:
@@ -140,9 +143,9 @@ class Reporter:
         self._print(Report(), failed=False)
 
     def warn(self, sentences: Sequence[str]) -> Exit:
-        """Print warnings that belong to no place in a source; return the exit code they call for.
+        """Print warnings without a position in a source; return the exit code they call for.
 
-        They are told once each, before all that is not a diagnostic.
+        Each is printed once, before all that is not a diagnostic.
         """
         for sentence in () if self.is_quiet else sentences:
             complain(f"warning: {sentence}")
@@ -167,7 +170,7 @@ class Reporter:
             self.say_anyway(line)
 
     def say_anyway(self, line: str) -> None:
-        """Print a line that also those want to see who asked for silence."""
+        """Print a line also under `--quiet`."""
         (say if self.form == "text" else complain)(line)
 
     def _print(self, report: Report, *, failed: bool) -> None:

@@ -44,7 +44,7 @@ def click_option(option: Option) -> click.Option:
 
 
 class RunCommand(click.Command):
-    """A command with the options of a run, and those of the world that it is to run in.
+    """A command with the options of a run, and those of its world.
 
     Attributes:
         without: Names of options that it does not have.
@@ -100,7 +100,7 @@ def run(
     path = Path(file)
     if path.is_dir():
         raise InputError(f"{path}: is a folder; name one scenario file")
-    find_inputs([path])  # refuses what is not there
+    find_inputs([path])  # rejects missing files
     config = ConfigFiles().for_source(path)
     try:
         settings = merge_settings(config, path, run_texts)
@@ -133,7 +133,7 @@ def _run_source(
 
 
 def _run_written(path: Path, wanted: str | None, settings: RunSettings, reporter: Reporter) -> Exit:
-    """Run a module that somebody gives us: it may be anything."""
+    """Run a module of unknown origin: it may contain anything."""
     imported = ExitStack()
     module = scenarios_of_file(path, f"osc2tx_run_{path.stem}")
     try:

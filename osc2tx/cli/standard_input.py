@@ -30,7 +30,7 @@ def is_standard_input(paths: tuple[str, ...], name: str | None) -> bool:
     """Whether a command line asks for the text of standard input.
 
     Raises:
-        click.UsageError: If it asks for files as well, or names what it does not ask for.
+        click.UsageError: If it requests files as well, or names a file that it does not request.
     """
     if WORD in paths and len(paths) > 1:
         raise click.UsageError("`-` stands for standard input, and for nothing beside it")

@@ -1,4 +1,4 @@
-"""`osc2tx world check`: what a simulator is like, compared with what runs rely on."""
+"""`osc2tx world check`: the properties of a simulator against the requirements of runs."""
 
 from __future__ import annotations
 
@@ -75,9 +75,9 @@ def check(
     reporter: Reporter,
     **written: str | bool | tuple[str, ...] | None,
 ) -> Exit:
-    """Compare a simulator with what runs rely on, line by line.
+    """Check a simulator against the requirements of runs, line by line.
 
-    With a scenario FILE, lines say what they mean for that scenario. Exit code 5: it could not run.
+    With a scenario FILE, lines state the consequence for it. Exit code 5: it could not run.
     """
     if reporter.form not in ("text", "json"):
         raise click.UsageError("a check is printed as text or json")

@@ -1,10 +1,10 @@
-"""Runs the stages on one source file and keeps what they make.
+"""Runs the stages on one source file and keeps their products.
 
     source ─ ast ─ model ─ analysis ─ ir ─┬─ module
                                           └─ xml
 
-Each product is made when it is first asked for, from the one before it. A product is `None` when
-the source has errors that stand in the way; the sink says which.
+Each product is computed on first access, from the one before it. A product is `None` when
+the source has errors that prevent it; the sink has them.
 """
 
 from __future__ import annotations
@@ -52,10 +52,10 @@ class Compilation:
 
     Attributes:
         path: The file.
-        name: How diagnostics and generated files call it; relative, forward slashes.
+        name: Its name in diagnostics and generated files; relative, forward slashes.
         options: How to compile it.
-        sink: What the stages had to say so far.
-        lookups: Where imported files were looked for, and what was found there.
+        sink: The diagnostics so far.
+        lookups: The paths searched for imported files, with their contents.
         is_complete: Whether all stages that can report something ran and found no error.
         compiled_alone: Imported files that were compiled for themselves, by name.
     """
@@ -78,13 +78,13 @@ class Compilation:
             path: The file.
             name: What to call it.
             options: How to compile it.
-            roots: Folders whose files it may import, besides its own folder, and from which
-                names count.
-            is_trusted: Whether somebody asked for this very file; else it is not read if it is a
+            roots: Folders whose files it may import, besides its own folder, and to which
+                names are relative.
+            is_trusted: Whether this very file was named; otherwise it is not read if it is a
                 link to somewhere outside of the folders.
-            text: The text, for a file that exists only in the mind of the caller.
+            text: The text, for a file that does not exist on disk.
             options_of: Gives the options for other files; those of this one if left out.
-            memory: Imported files that were compiled for themselves, for several files to share.
+            memory: Imported files that were compiled by themselves, shared by several files.
         """
         self.path = path
         self.name = name
@@ -154,21 +154,21 @@ class Compilation:
 
     @property
     def levels(self) -> Sequence[ScenarioLevel]:
-        """How far each scenario is worked out; nothing if the constraints have no solution."""
+        """The level of each scenario; nothing if the constraints have no solution."""
         if "analysis" not in self.__dict__ or self.analysis is None:
-            return ()  # nobody has asked for it
+            return ()  # the analysis was not requested
         return () if self._failed() else self.analysis.levels
 
     @cached_property
     def ir(self) -> Module | None:
-        """What the scenarios mean, verified; an `ir.Module` without scenarios for a library."""
+        """The program in the IR, verified; an `ir.Module` without scenarios for a library."""
         if self.model is None or self.analysis is None or self._failed():
             return None
         return stages.lower_and_verify(self.model, self.analysis, self.options, self.sink)
 
     @cached_property
     def is_supported(self) -> bool:
-        """Whether the backend can write all of it down; what it cannot is reported."""
+        """Whether the backend can write all of it; reports what it cannot."""
         if self.ir is None:
             return False
         if self.options.target != "xosc":
@@ -184,7 +184,7 @@ class Compilation:
 
     @property
     def has_module(self) -> bool:
-        """Whether there is a Python module; it is not written for that."""
+        """Whether there is a Python module, which is not rendered for the answer."""
         if self.ir is None or self.options.target == "xosc":
             return False
         from osc2tx.backends.py_trees.own_names import has_module
@@ -193,7 +193,7 @@ class Compilation:
 
     @cached_property
     def sharing(self) -> Sharing:
-        """What the module has of the modules of imported files."""
+        """The parts of the module that come from the modules of imported files."""
         from osc2tx.backends.py_trees.sharing import share
 
         assert self.ir is not None, "there is a module"
@@ -269,7 +269,7 @@ class Compilation:
 
     @property
     def stem(self) -> str:
-        """What the names of all outputs begin with."""
+        """The common prefix of the names of all outputs."""
         if self.ir is None:
             return ""
         from osc2tx.backends.py_trees.naming import module_name
@@ -287,7 +287,7 @@ class Compilation:
     def xml_outputs(self) -> tuple[Output, ...]:
         """Return the OpenSCENARIO XML files.
 
-        A scenario that cannot be said in XML makes only the report that says why.
+        A scenario that XML cannot express makes only the report that states why.
         """
         if not self.is_supported and self.options.target != "xosc":  # which also reports losses
             return ()
@@ -326,6 +326,11 @@ class Compilation:
     @property
     def scenarios(self) -> tuple[ScenarioEntry, ...]:
         """The levels as plain data, for reports."""
+        if not self.levels or self.model is None or self.analysis is None:
+            return ()
+        from osc2tx.analysis.fixed_values import fixed_values
+
+        runnable = self._runnable()
         return tuple(
             ScenarioEntry(
                 source=found.scenario.span.source,
@@ -333,8 +338,23 @@ class Compilation:
                 level=found.level.value,
                 open=tuple(opening.text for opening in found.open),
                 summary=str(found),
+                is_runnable=(
+                    found.scenario.actor is None and found.scenario.qualified_name in runnable
+                ),
+                values=fixed_values(self.model, found.scenario, self.analysis.constraints),
             )
             for found in self.levels
+        )
+
+    def _runnable(self) -> frozenset[str]:
+        """Return the scenarios that can run by themselves, as far as they were lowered."""
+        lowered = self.__dict__.get("ir")
+        if lowered is None:
+            return frozenset()
+        return frozenset(
+            each.name
+            for each in lowered.scenarios
+            if not (each.is_invoked or each.is_imported or each.is_action)
         )
 
     @property

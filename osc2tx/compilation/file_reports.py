@@ -15,7 +15,7 @@ from osc2tx_shared.classes import dataclass, replace
 
 
 class Reportable(Protocol):
-    """What there is to report on one source file, wherever it was compiled."""
+    """The diagnostics of one source file, wherever it was compiled."""
 
     @property
     def source(self) -> SourceFile | None:
@@ -27,7 +27,7 @@ class Reportable(Protocol):
 
     @property
     def reports(self) -> Sequence[Diagnostic]:
-        """What the stages had to say, in order of place."""
+        """The diagnostics of the stages, in order of position."""
 
     @property
     def is_complete(self) -> bool:

@@ -26,7 +26,7 @@ def module_place(module: Sequence[str]) -> Path | None:
     """Return the file of a module below a folder: `a/b.osc` for `a.b`.
 
     Returns:
-        The relative path; `None` if a name of the module is none that a file may have, as names
+        The relative path; `None` if a name of the module cannot be the name of a file, as names
         between bars (`|..|`) can hold anything.
     """
     if not all(map(_is_file_name, module)):
@@ -91,8 +91,8 @@ class Lookup:
 
     Attributes:
         path: The place, links followed; empty if no file can have such a name.
-        text: What the file says; `None` if nothing was read.
-        is_refused: Whether there may be something that was not read, or could not be.
+        text: The content of the file; `None` if nothing was read.
+        is_refused: Whether a file may exist that was not read, or could not be.
     """
 
     path: str
@@ -101,15 +101,15 @@ class Lookup:
 
 
 class ImportLoader:
-    """Turns an import statement into the syntax tree of what it names.
+    """Turns an import statement into the syntax tree of the named file.
 
-    A scenario is text from somewhere, so it must not make the compiler read whatever its user can
+    A scenario is untrusted text, so it must not make the compiler read every file that its user can
     read: only files below the given folders are opened, and links are followed before a path is
-    judged. What is refused is reported here and gives an empty tree; `None` means that there is
-    no such file, which is for the caller to report.
+    checked. A rejection is reported here and gives an empty tree; `None` means that there is
+    no such file, which the caller reports.
 
     Attributes:
-        lookups: All places that were looked at; the product depends on what is there.
+        lookups: All paths that were searched; the product depends on their contents.
     """
 
     def __init__(
@@ -125,10 +125,10 @@ class ImportLoader:
 
         Args:
             path: The root file.
-            name: What it is called; imported files outside of all folders are named relative to
-                the same place.
+            name: Its name; imported files outside of all folders are named relative to
+                the same folder.
             roots: Folders whose files may be imported, besides that of the file.
-            sink: Where diagnostics go.
+            sink: Receives diagnostics.
             relaxed: Deviations from the grammar that the dialect allows.
             import_paths: Further such folders, in which modules are looked for last.
         """
@@ -151,7 +151,7 @@ class ImportLoader:
 
         Args:
             statement: The import.
-            source: The file it stands in.
+            source: The file that contains it.
         """
         if source.path is None:
             return None
@@ -257,7 +257,7 @@ class ImportLoader:
 def _parsed(
     name: str, text: str, path: Path, allow: frozenset[str]
 ) -> tuple[ast.File, tuple[Diagnostic, ...]]:
-    """Return the tree of a library and what is wrong with it; many files import the same ones.
+    """Return the tree of a library and its diagnostics; many files import the same ones.
 
     Its comments travel to its own module, and to none of a file that imports it: an edit of them
     changes nothing there.
@@ -286,7 +286,7 @@ def _local_path(uri: str) -> str | None:
 
 
 def look_up(place: Path) -> Lookup:
-    """Return what is at a place, for a file that is no scenario."""
+    """Return the content of a path, for a file that is no scenario."""
     try:
         path = real_path(place)
         return Lookup(str(path), path.read_text(encoding="utf-8"))

@@ -28,10 +28,10 @@ class Input:
     """One source file to compile.
 
     Attributes:
-        path: Where it is, as it was asked for.
+        path: Its path, as requested.
         place: The same with links among the folders followed; the file itself may be a link.
-        folder: The folder that was asked for, or that of the file that was asked for.
-        is_asked: Whether this very file was asked for.
+        folder: The requested folder, or the folder of the requested file.
+        is_asked: Whether this very file was requested.
     """
 
     path: Path

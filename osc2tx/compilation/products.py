@@ -22,7 +22,7 @@ class Output:
 
 
 def files_of_module(module: GeneratedModule) -> tuple[Output, ...]:
-    """Return the Python module, its source map, and what it samples, if it does."""
+    """Return the Python module, its source map, and its sampled values, if it samples any."""
     written = (
         (MODULE, module.python),
         (SOURCE_MAP, module.source_map),

@@ -5,7 +5,7 @@ the same path in the folder of the outputs, so that modules of several folders i
 under one name each. The first kind of folder that holds a file gives its name, of several folders
 of one kind the innermost:
 
-1. the `sources` of the project, or the folder that was named if it is none of them;
+1. the `sources` of the project, or the named folder if it is none of them;
 2. the folders of `import_paths`;
 3. the folder of the settings file.
 """

@@ -81,7 +81,7 @@ def find_siblings(
 
 
 def _imported_sources(module: Module) -> Iterator[SourceFile]:
-    """Yield the other files that declare what a module is made of."""
+    """Yield the other files whose declarations a module consists of."""
     from osc2tx.backends.py_trees.own_names import declarations
 
     found = {part.span.source.name: part.span.source for part in declarations(module)}

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 def build_model(
     file: File, options: CompileOptions, loader: ImportLoader, sink: DiagnosticSink
 ) -> SemanticModel:
-    """Return the checked program of a file and of what it imports."""
+    """Return the checked program of a file and of its imports."""
     from osc2tx.semantics import DIALECTS, ModelBuilder
 
     builder = ModelBuilder(
@@ -46,7 +46,7 @@ def analyse_constraints(
 def lower_and_verify(
     model: SemanticModel, analysis: Analysis, options: CompileOptions, sink: DiagnosticSink
 ) -> Module | None:
-    """Return what the scenarios mean; `None` if something of it cannot be lowered."""
+    """Return the program in the IR; `None` if a part of it cannot be lowered."""
     from osc2tx.ir import verify
     from osc2tx.lowering import lower
 

@@ -1,7 +1,7 @@
 """Settings from files: `[tool.osc2tx]` in pyproject.toml, or osc2tx.toml.
 
 The file nearest to the source, upward, is the one that counts; in one folder osc2tx.toml goes
-before pyproject.toml. What the command line says beats what a file says.
+before pyproject.toml. The command line beats the file.
 
     std = "2.1"
     sources = ["scenarios"]        # what `osc2tx build` builds, and where to
@@ -25,6 +25,7 @@ from osc2tx.config.settings import (
     FILES_SETTINGS,
     PROJECT_SETTINGS,
     RUN_SETTINGS,
+    TEST_SETTINGS,
     Setting,
 )
 
@@ -34,6 +35,7 @@ __all__ = [
     "FILES_SETTINGS",
     "PROJECT_SETTINGS",
     "RUN_SETTINGS",
+    "TEST_SETTINGS",
     "Config",
     "ConfigError",
     "ConfigFiles",

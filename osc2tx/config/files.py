@@ -21,7 +21,7 @@ class ConfigFiles:
         self._used: dict[Path, set[Path]] = {}
 
     def for_source(self, source: Path) -> Config:
-        """Return the settings for a source file; for a link, those of the place of the link.
+        """Return the settings for a source file; for a link, those at the link itself.
 
         Raises:
             ConfigError: If the settings file is unreadable or says something unknown.

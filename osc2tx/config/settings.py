@@ -19,9 +19,9 @@ class Setting:
     """A key of a settings file.
 
     Attributes:
-        key: How it is written.
-        help: What it says, for the reference; the runtime has that of its own options.
-        choices: The values it can have, if they are few; then the first is the default.
+        key: Its spelling.
+        help: Description for the reference; the runtime has that of its own options.
+        choices: Its values, if they are few; then the first is the default.
         is_list: Whether it is a list of texts.
         is_path: Whether its texts are paths, relative to the settings file.
         is_single: Whether it is one number, or one text that is no path.
@@ -38,7 +38,7 @@ class Setting:
 
     @property
     def default(self) -> str | bool | tuple[str, ...]:
-        """What counts if nobody says anything."""
+        """The value where it is not stated."""
         if self.is_list:
             return ()
         return False if self.is_flag else self.choices[0]
@@ -70,6 +70,11 @@ PROJECT_SETTINGS = (
     Setting("out", "Folder of the outputs.", is_path=True),
     Setting("map_paths", "Folders with maps, for all commands.", is_list=True, is_path=True),
 )
+VERDICTS = ("success", "failure", "timeout", "error", "skip")
+# In the tables of scenarios and of patterns of files.
+TEST_SETTINGS = (
+    Setting("verdict", "Expected result of a test; `skip`: no test of these files.", VERDICTS),
+)
 # In the table of a pattern of files, besides those of a scenario.
 FILES_SETTINGS = (
     Setting("ignore", "Codes of warnings that are not reported in these files.", is_list=True),
@@ -93,14 +98,14 @@ RUN_SETTINGS = (
 )
 # Options of `osc2tx campaign run` for one file, likewise.
 CAMPAIGN_SETTINGS = (
-    Setting("samples", "How many rows there are to be.", is_single=True),
-    Setting("sampler", "Which values rows have.", is_single=True),
-    Setting("search", "The KPI whose worst value is looked for.", is_single=True),
-    Setting("search-batch", "How many rows a search chooses together.", is_single=True),
+    Setting("samples", "Number of rows in the end.", is_single=True),
+    Setting("sampler", "Method that chooses the values of rows.", is_single=True),
+    Setting("search", "The KPI whose worst value is searched.", is_single=True),
+    Setting("search-batch", "Number of rows that a search chooses together.", is_single=True),
     Setting("levels", "Values of a range for grid and pairwise.", is_single=True),
-    Setting("kpi", "What is measured.", is_list=True),
-    Setting("fail-if", "A row fails also if this holds.", is_list=True),
-    Setting("timeout", "Seconds by the clock that a row may take.", is_single=True),
+    Setting("kpi", "Measures to take.", is_list=True),
+    Setting("fail-if", "A row also fails if this condition holds.", is_list=True),
+    Setting("timeout", "Wall-clock seconds that a row may take.", is_single=True),
     Setting("workers", "How many processes run rows.", is_single=True),
     Setting("engine", "Where rows are run.", is_single=True),
     Setting("digests", "Make each trace, and store its digest.", is_flag=True),

@@ -25,9 +25,9 @@ class Explanation:
         remedy: What to do, one or two sentences.
         faulty: A source text with the mistake.
         fixed: The same text without it; empty where the mistake is not in the text.
-        standard: Version of the standard that the example is about.
+        standard: Version of the standard of the example.
         dialect: Its dialect.
-        target: What is made of it; some codes are only about one target.
+        target: Its target; some codes concern only one target.
     """
 
     remedy: str
@@ -47,14 +47,14 @@ class Explanation:
 
 
 def explanation_of(code: str) -> Explanation | None:
-    """Return the explanation of a code; `None` if nobody has written one."""
+    """Return the explanation of a code; `None` if there is none."""
     found = _family(code[3:4]).get(code)
     return None if found is None else Explanation(**found)
 
 
 @cache
 def _family(digit: str) -> Mapping[str, Mapping[str, Any]]:
-    import tomllib  # only needed when somebody asks
+    import tomllib  # only needed for explanations
     from importlib.resources import files
 
     path = files("osc2tx.diagnostics") / "texts" / f"{digit}xx.toml"
@@ -71,7 +71,7 @@ class Code:
     Attributes:
         code: `OSC203`.
         slug: Short name in kebab case.
-        severity: What it does to the run.
+        severity: Its effect on the run.
         summary: One sentence for the reference.
         section: Section of OpenSCENARIO DSL 2.2 that states the rule, where there is one.
     """
@@ -141,7 +141,7 @@ CODES = _table(
     Code("OSC202", "unknown-type", ERROR, "No type has this name.", "7.3"),
     Code("OSC203", "duplicate-definition", ERROR, "A name is defined twice.", "7.3"),
     Code("OSC204", "ambiguous-name", ERROR, "Several used namespaces offer a name.", "7.7.4"),
-    Code("OSC205", "import-not-found", ERROR, "What is imported does not exist.", "7.7.5"),
+    Code("OSC205", "import-not-found", ERROR, "An imported file does not exist.", "7.7.5"),
     Code("OSC206", "unknown-namespace", ERROR, "No namespace has this name.", "7.7.3"),
     Code("OSC207", "reserved-namespace", ERROR, "`std…` is for the standard library.", "7.7.3"),
     Code("OSC208", "unknown-member", ERROR, "A type has no such member.", "7.3.5"),
@@ -150,8 +150,8 @@ CODES = _table(
     Code("OSC211", "unknown-behavior", ERROR, "An actor has no such behavior.", "7.3.13"),
     Code("OSC212", "unknown-modifier", ERROR, "No modifier has this name.", "7.3.12"),
     Code("OSC213", "newer-standard", ERROR, "A construct belongs to a later standard."),
-    Code("OSC214", "unknown-export", ERROR, "What is exported does not exist.", "7.7.4"),
-    Code("OSC215", "name-not-visible", ERROR, "A name lives in an unused namespace.", "7.7.4"),
+    Code("OSC214", "unknown-export", ERROR, "An exported name does not exist.", "7.7.4"),
+    Code("OSC215", "name-not-visible", ERROR, "A name is in an unused namespace.", "7.7.4"),
     Code("OSC216", "reserved-name", ERROR, "`osc.…` is for the standard.", "7.3.7.4"),
     # --- 3xx types and units ---
     Code("OSC301", "type-mismatch", ERROR, "A value has the wrong type.", "7.4.2.6"),
@@ -183,7 +183,7 @@ CODES = _table(
     Code("OSC404", "missing-argument", ERROR, "A required argument is missing.", "7.3.7"),
     Code("OSC405", "too-many-arguments", ERROR, "Too many arguments are given.", "7.3.5.1.3"),
     Code("OSC406", "modifier-not-applicable", ERROR, "A modifier fits elsewhere.", "7.3.12"),
-    Code("OSC407", "missing-actor", ERROR, "It is not said who acts.", "7.3.13"),
+    Code("OSC407", "missing-actor", ERROR, "An invocation has no actor.", "7.3.13"),
     Code("OSC408", "exclusive-arguments", ERROR, "Arguments exclude each other.", "8.9.1.3"),
     Code("OSC409", "range-argument", ERROR, "A method takes no range here.", "7.3.7"),
     Code("OSC410", "no-result", ERROR, "A method without result is used as value.", "7.3.7"),
@@ -205,8 +205,8 @@ CODES = _table(
     Code("OSC427", "undefined-method", ERROR, "A method without body is invoked.", "7.3.7.1"),
     Code("OSC430", "event-from-outside", WARNING, "Nothing emits an awaited event.", "7.3.10"),
     Code("OSC431", "event-without-use", WARNING, "Nothing waits for an event.", "7.3.10"),
-    Code("OSC432", "unreachable-member", WARNING, "What is before never ends.", "7.3.13"),
-    Code("OSC433", "unused-actor", WARNING, "An actor takes no part.", "7.3.6"),
+    Code("OSC432", "unreachable-member", WARNING, "The member before never ends.", "7.3.13"),
+    Code("OSC433", "unused-actor", WARNING, "An actor is not used.", "7.3.6"),
     Code("OSC434", "endless-composition", WARNING, "No member ends by itself.", "7.3.13"),
     Code("OSC435", "single-alternative", WARNING, "`one_of` has one member.", "7.3.13.3"),
     Code("OSC436", "constant-condition", WARNING, "A condition never changes.", "7.3.10"),
@@ -233,7 +233,7 @@ CODES = _table(
     Code("OSC613", "alias-unit", WARNING, "A unit has another name in the standard.", "8.14"),
     Code("OSC614", "alias-parameter", WARNING, "A parameter has another name in the standard."),
     Code("OSC615", "alias-enum-member", WARNING, "An enum member has another name there."),
-    Code("OSC616", "repeated-declaration", WARNING, "What is known is declared again.", "7.3"),
+    Code("OSC616", "repeated-declaration", WARNING, "A known name is declared again.", "7.3"),
     Code("OSC617", "relaxed-module", WARNING, "A file is imported without quotes.", "7.7.5"),
     Code("OSC618", "method-of-a-type", WARNING, "A method is called on the type itself.", "7.3.7"),
     Code("OSC619", "alias-member", WARNING, "A member has another name in the standard."),
@@ -252,21 +252,21 @@ CODES = _table(
     Code("OSC703", "invalid-suppression", WARNING, "This cannot be suppressed."),
     Code("OSC704", "empty-suppression", WARNING, "A suppression names no code."),
     # --- 8xx runs; the classes of errors in the runtime have these codes ---
-    Code("OSC801", "run-impossible", ERROR, "A run cannot begin, or cannot go on."),
-    Code("OSC802", "no-such-place", ERROR, "An actor cannot be put there."),
-    Code("OSC803", "two-masters", ERROR, "Two actions control the same of one actor."),
+    Code("OSC801", "run-impossible", ERROR, "A run cannot begin, or cannot continue."),
+    Code("OSC802", "no-such-place", ERROR, "An actor cannot be placed there."),
+    Code("OSC803", "two-masters", ERROR, "Two actions control the same slot of an actor."),
     Code("OSC804", "not-in-the-runtime", ERROR, "The runtime does not do this."),
     Code("OSC805", "not-in-this-world", ERROR, "The chosen world cannot do this."),
     Code("OSC806", "run-option", ERROR, "An option of a run is wrong."),
     Code("OSC807", "run-file", ERROR, "A file of a run cannot be found, read or written."),
-    Code("OSC808", "simulator", ERROR, "The simulator is not there, or refuses."),
+    Code("OSC808", "simulator", ERROR, "The simulator is not available, or refuses."),
     Code("OSC809", "run-failed", ERROR, "A run ended with a failure, or not in time."),
-    Code("OSC810", "condition-failed", ERROR, "What a modifier states does not hold.", "8.9.1"),
+    Code("OSC810", "condition-failed", ERROR, "A condition of a modifier does not hold.", "8.9.1"),
     Code(
         "OSC811",
         "condition-missed",
         WARNING,
-        "What a modifier states holds only for a part of its phase.",
+        "A condition of a modifier holds only for a part of its phase.",
         "8.8.2.2",
     ),
 )

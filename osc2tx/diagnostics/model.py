@@ -17,7 +17,7 @@ class Severity(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A further place that explains a diagnostic, with what there is to see."""
+    """A further position that explains a diagnostic, with a description of it."""
 
     span: Span
     message: str

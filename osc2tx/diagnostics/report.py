@@ -17,24 +17,36 @@ MOST_FILES_APART = 5  # with the same diagnostic; of more, it is shown once
 
 @dataclass(frozen=True, slots=True)
 class ScenarioEntry:
-    """A scenario: its file, its name, its level (§6.3), what is open, and all this in one line."""
+    """A scenario of a file.
+
+    Attributes:
+        source: The file.
+        name: Its name.
+        level: How far it is worked out (§6.3).
+        open: What is open.
+        summary: All this in one line.
+        is_runnable: Whether it can run by itself and no other one of the file invokes it.
+        values: What it fixes, by path, as one would write it.
+    """
 
     source: SourceFile
     name: str
     level: str
     open: tuple[str, ...]
     summary: str = ""
+    is_runnable: bool = False
+    values: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
 class FileFault:
-    """What is wrong with a file as a whole, such as an output that is stale.
+    """An error of a file as a whole, such as a stale output.
 
     Attributes:
-        file: The file, as somebody in the folder would write it.
-        rule: What finds it: `stale-output`, `changed-output` or `not-formatted`.
-        message: What is wrong.
-        diff: How it would change, if that is asked for.
+        file: The file, relative to the folder of the reader.
+        rule: The check that found it: `stale-output`, `changed-output` or `not-formatted`.
+        message: Description of the error.
+        diff: The correction as a diff, if requested.
     """
 
     file: str
@@ -45,19 +57,19 @@ class FileFault:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """What is shown, and how much there is.
+    """The diagnostics to show, and their number.
 
     Attributes:
-        diagnostics: What is shown, by file and place.
-        hidden: For each file with more than is shown, how many more.
-        files: How many source files were asked for.
+        diagnostics: The diagnostics to show, by file and position.
+        hidden: For each file with more than is shown, the number of the others.
+        files: Number of requested source files.
         errors: How many errors there are, shown or not.
         warnings: The same for warnings.
         suppressed: How many warnings are kept back by comments.
         folder: Where the reader works; files below it are cited relative to it.
-        scenarios: The scenarios of these files, with how far each is worked out.
+        scenarios: The scenarios of these files, with their levels.
         failure: Why osc2tx did not begin, if it did not.
-        faults: What is wrong with files as a whole.
+        faults: Errors of files as a whole.
     """
 
     diagnostics: tuple[Diagnostic, ...] = ()
@@ -149,7 +161,7 @@ def _with_one_cause(
 
 
 def display_name(source: SourceFile, folder: Path | None) -> str:
-    """Return how to cite a file to somebody who works in `folder`."""
+    """Return how to cite a file to a reader in `folder`."""
     if folder is None or source.path is None:
         return source.name
     path = real_path(source.path)

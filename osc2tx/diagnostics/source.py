@@ -67,7 +67,7 @@ class Span:
     __slots__ = ("end", "source", "start")
 
     def __init__(self, source: SourceFile, start: int, end: int) -> None:
-        """Take the range; nobody changes it."""
+        """Take the range; it never changes."""
         self.source: Final = source
         self.start: Final = start
         self.end: Final = end

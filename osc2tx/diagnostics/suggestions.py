@@ -8,11 +8,11 @@ from itertools import chain, pairwise
 
 LIKENESS = 0.6
 _LISTED = 8
-_COMPARED = 32  # names of which each is compared with what is written
+_COMPARED = 32  # names that are each compared with the written one
 
 
 def nearest(written: str, known: Iterable[str], likeness: float = LIKENESS) -> str | None:
-    """Return the known name that looks most like what is written, if any does.
+    """Return the known name that is most similar to the written one, if any is similar.
 
     Of many names only those are compared that have the most pairs of letters in common with it, so
     that a file in which every name is unknown takes no longer than its length.
@@ -62,6 +62,6 @@ def did_you_mean(written: str, known: Iterable[str], likeness: float = LIKENESS)
 
 
 def one_of(what: str, known: Iterable[str]) -> str | None:
-    """Return a line of help that lists what there is, if it is not too much to read."""
+    """Return a line of help that lists the known names, unless they are too many."""
     names = [f"`{name}`" for name in known]
     return f"{what} {', '.join(names)}" if 0 < len(names) <= _LISTED else None

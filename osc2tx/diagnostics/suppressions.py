@@ -1,7 +1,7 @@
 """Comments that keep warnings back: `#! allow OSC603, relaxed-do: the reason`.
 
 At the end of a line such a comment counts for the warnings that start on that line; on a line of
-its own, for those of the next statement line. It names every code it means, errors cannot be
+its own, for the warnings of the next statement line. It names every code, errors cannot be
 suppressed, and a suppression that suppresses nothing is reported itself. The comments are found by
 the front end, which knows a comment from a string.
 """
@@ -37,8 +37,8 @@ class SuppressionResult:
     """Diagnostics after suppression.
 
     Attributes:
-        shown: What remains, and what is wrong with the suppressions themselves.
-        suppressed: What they keep back.
+        shown: The remaining diagnostics, and the errors of the suppressions themselves.
+        suppressed: The suppressed diagnostics.
     """
 
     shown: tuple[Diagnostic, ...]
@@ -55,7 +55,7 @@ def settle(
     Args:
         found: The diagnostics.
         judged: The files whose suppressions are checked, with whether all stages ran on the
-            file, so that an unused suppression can be told.
+            file, so that an unused suppression can be detected.
         find: Finds the suppressions of a file.
     """
     entries: dict[object, _Entries] = {}
@@ -107,7 +107,7 @@ class _Entries:
         return False
 
     def check(self, sink: DiagnosticSink, *, is_complete: bool) -> None:
-        """Report what is wrong with the suppressions."""
+        """Report errors of the suppressions."""
         for suppression in self._suppressions:
             if not suppression.names:
                 sink.report(
@@ -126,7 +126,7 @@ class _Entries:
             sink.report("OSC702", name, f"there is no code `{name.text}`", help=help)
         elif code.severity is Severity.ERROR:
             message = f"`{code.code}` is an error; only warnings can be suppressed"
-            sink.report("OSC703", name, message, help="fix what it reports")
+            sink.report("OSC703", name, message, help="fix the reported error")
         elif not code.can_be_suppressed:
             message = f"`{code.code}` is about suppressions and cannot be suppressed"
             sink.report("OSC703", name, message)

@@ -9,7 +9,7 @@ Stages, in order:
 2. `lay_out` (`layout`, with `spacing`): a logical line to one or several physical lines.
 3. `join_lines` (`blanks`): indentation and blank lines between them.
 
-Invariants: a formatted text stays as it is when formatted again; its tokens and comments are those
+Invariants: formatting a formatted text changes nothing; its tokens and comments are those
 of the source, which is checked before the text is returned.
 """
 

@@ -49,7 +49,7 @@ class _Layout:
         return [*self._lines, self._current]
 
     def _write(self, first: int, last: int, width: int, *, after: int) -> None:
-        """Write tokens; broken lines go on at a column, and `after` characters follow."""
+        """Write tokens; broken lines continue at a column, and `after` characters follow."""
         exploded = self._choose(first, last, width, after)
         index = first
         while index < last:
@@ -69,7 +69,7 @@ class _Layout:
         self._current += (self._blanks[index] if spaced else "") + self._pieces[index].text
 
     def _explode(self, opener: int, width: int) -> None:
-        """Write what is in brackets, each part on lines of its own, and the closing bracket."""
+        """Write the content of brackets, each part on lines of its own, and the closing bracket."""
         inner, closer = width + INDENT_WIDTH, self._closers[opener]
         for first, last in self._parts(opener, closer):
             self._break(first, inner)

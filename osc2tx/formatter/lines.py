@@ -168,7 +168,7 @@ def _gap(table: TokenTable, end: int, index: int) -> Gap:
 
 
 def _new_line(gap: Gap, widths: list[int], closed: list[int], *, follows: bool) -> LogicalLine:
-    """Begin a line; comments above it are indented like what they belong to.
+    """Begin a line; comments above it have the indentation of their statement.
 
     A block comment that stands before a statement on its line goes above it.
     """

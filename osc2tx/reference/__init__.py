@@ -1,7 +1,7 @@
-"""The reference of the library: what there is to write, from its declarations and the catalogue.
+"""The reference of the library: the available items, from its declarations and the catalogue.
 
-`declarations` reads the library texts with the meanings of their members; `entries` adds what the
-runtime and the XML back end make of an action or modifier; `rendering` writes an entry as text for
+`declarations` reads the library texts with the meanings of their members; `entries` adds the
+support of actions and modifiers in the runtime and in XML; `rendering` writes an entry as text for
 a terminal, as Markdown or as plain data.
 """
 

@@ -27,7 +27,7 @@ class Member:
         parameters: Of a method, as declared.
         default: As declared; empty without one.
         section: Of the standard, where it has one of its own.
-        meaning: What it says.
+        meaning: Its description.
         version: `2.1` or `2.2` if only this version of the standard has it, else empty.
     """
 
@@ -48,10 +48,10 @@ class Declaration:
     Attributes:
         kind: `actor`, `action`, `modifier`, `struct`, `enum` or `type`.
         name: With the actor it belongs to: `vehicle.drive`.
-        base: What it inherits from; of a modifier the behavior it is of. Empty without one.
+        base: Its base type; of a modifier, its behavior. Empty without one.
         section: Of OpenSCENARIO DSL 2.2; empty if the text names none.
-        meaning: What it is.
-        members: In the order in which positional arguments go.
+        meaning: Its description.
+        members: In the order of positional arguments.
         units: Of a physical type, from the library.
     """
 

@@ -1,4 +1,4 @@
-"""What a declaration is, together with what is made of it."""
+"""Declarations together with their support in the runtime and in XML."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ TABLE = Path(__file__).with_name("shown.json")
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """What there is to show of an action or modifier; empty where there is nothing.
+    """Facts shown about an action or modifier; empty where there are none.
 
     Attributes:
         carla: How it does in CARLA.
         xml: Since which version OpenSCENARIO XML says it, or why not.
         file: A scenario that uses it.
         example: Lines of that.
-        xml_example: What they become in the newest OpenSCENARIO XML.
+        xml_example: The same in the newest OpenSCENARIO XML.
     """
 
     carla: str = ""
@@ -38,7 +38,7 @@ NOTHING = Shown()
 
 
 def shown(key: str) -> Shown:
-    """Return what there is of an entry: `action vehicle.drive`."""
+    """Return the facts about an entry: `action vehicle.drive`."""
     return _table().get(key, NOTHING)
 
 
@@ -61,9 +61,9 @@ class Entry:
     """A page of the reference.
 
     Attributes:
-        declaration: What the library says.
-        facts: What the runtime makes of it, one sentence each.
-        modifiers: Modifiers that an action honours.
+        declaration: The declaration in the library.
+        facts: Its effects in the runtime, one sentence each.
+        modifiers: Modifiers that an action accepts.
         users: Declarations that use it as a type, or inherit from it.
     """
 
@@ -133,7 +133,7 @@ def _modifier_facts(modifier: ModifierEntry) -> tuple[str, ...]:
     if modifier.placement:
         facts.append("It can say how a scenario starts.")
     if modifier.bounds:
-        facts.append("An open-ended action is over when what it says is reached.")
+        facts.append("An open-ended action ends when the state of this modifier is reached.")
     return (*facts, *_shared_facts(modifier))
 
 

@@ -75,7 +75,7 @@ def as_markdown(entry: Entry) -> str:
     if shown.xml:
         parts += ["## OpenSCENARIO XML", _sentence(shown.xml)]
     if shown.xml_example:
-        parts += ["What the example becomes:", f"```xml\n{shown.xml_example}\n```"]
+        parts += ["The example in OpenSCENARIO XML:", f"```xml\n{shown.xml_example}\n```"]
     if entry.users:
         more = f", and {len(entry.users) - MANY} more" if len(entry.users) > MANY else ""
         parts += ["## Used by", ", ".join(f"`{user}`" for user in entry.users[:MANY]) + more]

@@ -1,7 +1,7 @@
 """Names of Python modules that no generated module may have.
 
 A module is run as `python generated/NAME.py`, which puts its folder before all others: beside a
-`json.py` of ours no module would find that of the standard library any more.
+generated `json.py` no module would find that of the standard library any more.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ urllib uu uuid venv warnings wave weakref webbrowser winreg winsound wsgiref xdr
 zipapp zipfile zipimport zlib zoneinfo
 """
 
-# What the runtime imports, and what Python and pytest import by themselves where they find it.
+# The imports of the runtime, and those that Python and pytest make by themselves.
 _OTHERS = """
 carla conftest lxml numpy osc2tx osc2tx_runtime osc2tx_shared py_trees
 pydot pyparsing pytest sitecustomize usercustomize
@@ -40,5 +40,5 @@ _TAKEN = frozenset((_STANDARD + _OTHERS).split())
 
 
 def is_taken(name: str) -> bool:
-    """Return whether a module of this name would stand in the way of another one."""
+    """Return whether a module of this name would hide another one."""
     return name in _TAKEN

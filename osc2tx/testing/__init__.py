@@ -51,10 +51,13 @@ _OPTION = "--update-generated"
 _updates = False  # whether pytest was started with it
 
 
-def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the option; called by pytest."""
+def pytest_addoption(parser: pytest.Parser, pluginmanager: pytest.PytestPluginManager) -> None:
+    """Add the option, and those of scenarios as tests; called by pytest."""
     help = "let assert_build_fresh write what differs instead of failing"
     parser.getgroup("osc2tx").addoption(_OPTION, action="store_true", help=help)
+    from osc2tx.testing import scenario_tests
+
+    pluginmanager.register(scenario_tests, "osc2tx-scenarios")
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -125,7 +128,7 @@ class Run:
         reason: Why it is not `success`.
         time: Simulated seconds.
         lines: The trace.
-        warnings: What is wrong with a run that goes on all the same.
+        warnings: Warnings of a run that continues all the same.
     """
 
     status: str
@@ -182,7 +185,7 @@ def run_scenario(path: str | Path, *, scenario: str | None = None, **settings: A
 
     Args:
         path: The file; settings of `osc2tx.toml` count as for `osc2tx run`.
-        scenario: Which one of the file; the last one if nothing is said.
+        scenario: Its name; the last one of the file if left out.
         **settings: Fields of `osc2tx_runtime.RunSettings`, as `seed=7` or `set={"gap": 12.0}`.
 
     Raises:
@@ -212,7 +215,7 @@ def _scenarios(path: Path) -> Iterator[Mapping[str, type[Scenario]]]:
     from osc2tx.config import GivenOptions
     from osc2tx.diagnostics.render import render_all
 
-    find_inputs([path])  # refuses what is not there
+    find_inputs([path])  # rejects missing files
     if path.suffix == ".py":
         with scenarios_of_file(path, f"osc2tx_testing_{path.stem}") as scenarios:
             yield scenarios

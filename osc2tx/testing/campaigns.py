@@ -117,10 +117,10 @@ def run_campaign(
         scenario: Which one of the file.
         levels: Values of a range for grid and pairwise.
         engine: Where rows are run: `local`, or `dask://HOST:PORT`.
-        workers: How many processes run rows; one without. A cluster has its own.
-        kpi: What is measured; all of osc2tx without.
-        fail_if: What else makes a row fail, `min_ttc<1.5`.
-        store: Where results are kept, and perhaps are already; nowhere without.
+        workers: Number of processes that run rows; one if left out. A cluster has its own.
+        kpi: Measures to take; all of osc2tx if left out.
+        fail_if: A further condition of failure, `min_ttc<1.5`.
+        store: Holds the results, and possibly earlier ones; nothing is stored if left out.
         **options: Options of `osc2tx run`: `seed=7`, `max_time=40`, `set=["gap=12"]`.
 
     Raises:

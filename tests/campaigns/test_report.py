@@ -144,4 +144,4 @@ def test_a_grade_under_the_bar(tmp_path: Path, capsys: pytest.CaptureFixture[str
     run(plan_of(TEXT), store, "random", 1, Here())
     ended = Shell(capsys, tmp_path)("campaign", "report", store, "--fail-under", "90")
     assert ended.code == 1
-    assert "wanted were 90 %" in ended.err
+    assert "required were 90 %" in ended.err

@@ -122,8 +122,8 @@ def test_values_of_a_table_have_units(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("sampler", "samples", "message"),
     [
-        ("lhs", None, "say how many rows"),
-        ("random", None, "say how many rows"),
+        ("lhs", None, "state the number of rows"),
+        ("random", None, "state the number of rows"),
         ("soboll", 5, "there is random, lhs, sobol"),
         ("table:nowhere.csv", None, "cannot be read"),
     ],

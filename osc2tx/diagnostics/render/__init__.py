@@ -3,7 +3,7 @@
 `text` is for people. Three forms are for programs and print a whole `Report` at once: `json_report`
 (`docs/diagnostics.schema.json` describes it), `sarif` (SARIF 2.1.0) and `github` (commands of
 GitHub's workflows). Each is a function of the report alone: same report, same bytes.
-`explanation` prints what there is to say about a code.
+`explanation` prints the documentation of a code.
 """
 
 from osc2tx.diagnostics.render.explanation import explanation_data, render_explanation

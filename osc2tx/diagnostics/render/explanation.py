@@ -46,7 +46,7 @@ def render_explanation(entry: Code, *, width: int | None = None, color: bool = F
 
 
 def explanation_data(entry: Code) -> dict[str, str | None]:
-    """Return what there is to say of a code, for other programs."""
+    """Return the documentation of a code, for other programs."""
     explanation = entry.explanation
     return {
         "code": entry.code,

@@ -1,6 +1,6 @@
 """Diagnostics as commands of GitHub's workflows: they appear beside the lines of a pull request.
 
-A command ends with its line, and what a scenario says must not begin another one: every part of it
+A command ends with its line, and text of a scenario must not begin another one: every part of it
 is made visible, and escaped as GitHub's runner undoes it.
 """
 

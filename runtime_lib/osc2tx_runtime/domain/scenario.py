@@ -16,7 +16,7 @@ class Scenario(BaseScenario):
     """A scenario. Generated classes write `declare`, `placement` and `behavior`."""
 
     def require(self, road_map: Map, *modifiers: MapModifier) -> None:
-        """Say what the declared roads and lanes of the map are like."""
+        """State the constraints on the declared roads and lanes of the map."""
         self.place(road_map, *modifiers)
 
     def map_file(self) -> str | None:
@@ -40,7 +40,7 @@ class Scenario(BaseScenario):
 
 
 def bind_all(scenario: Scenario, context: ExecutionContext) -> None:
-    """Let the actors of a scenario and what it declares of the map join a run."""
+    """Let the actors of a scenario and its declared parts of the map join a run."""
     for actor in scenario.actors.values():
         if isinstance(actor, Actor):
             actor.bind(context)

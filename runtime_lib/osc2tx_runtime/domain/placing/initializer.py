@@ -60,7 +60,7 @@ class ScenarioInitializer(StartRoom[ActorStart]):
 
         Raises:
             PlacementError: A place does not exist, is taken, or depends on itself.
-            SettingsError: A destination is none.
+            SettingsError: A destination is invalid.
         """
         self._fill_in_roads([p for p in placements if isinstance(p.actor, Map)])
         starts = self._starts([p for p in placements if not isinstance(p.actor, Map)])
@@ -118,7 +118,7 @@ class ScenarioInitializer(StartRoom[ActorStart]):
         placement.actor.traffic_light_control.extend(cycles)
 
     def _note_sizes(self) -> None:
-        """Says in the trace which sizes are not those of the model that was asked for."""
+        """Writes to the trace which sizes differ from those of the requested model."""
         for actor in self._context.actors.values():
             if not isinstance(actor, PhysicalObject) or actor.model is None:
                 continue
@@ -182,7 +182,7 @@ class ScenarioInitializer(StartRoom[ActorStart]):
         return Placed(box_of(state), lane)
 
     def _is_free(self, start: ActorStart, place: LanePosition) -> bool:
-        """Whether nobody is at a place, and it was not tried in vain."""
+        """Whether a position is free, and was not tried in vain."""
         return (
             not self.was_tried(start, place._replace(offset=0.0))
             and self._who_is_at(start.actor, place) is None
@@ -195,7 +195,7 @@ class ScenarioInitializer(StartRoom[ActorStart]):
     def _who_is_at(
         self, actor: PhysicalObject, at: LanePosition | Pose, heading: float | None = None
     ) -> str | None:
-        """Who stands there already."""
+        """The actors placed so far."""
         pose = self._world.map.pose(at) if isinstance(at, LanePosition) else at
         if heading is not None:
             pose = Pose(pose.x, pose.y, pose.z, heading)

@@ -41,7 +41,7 @@ def hold_or_jump(action: ModifiedMotion) -> bool:
     """Sees to what has to hold at the start.
 
     Returns:
-        True if the actor is put somewhere else, which can be seen from the next pass on.
+        True if the actor is moved, which is visible from the next pass on.
 
     Raises:
         Refused: It does not hold.
@@ -127,7 +127,7 @@ def _check_place(action: ModifiedMotion, position: Position) -> None:
 
 
 def measured(action: ModifiedMotion, position: Position) -> tuple[float, float, float, str]:
-    """Where an actor is (m), between what it is to be, and what was measured.
+    """The measured position (m) of an actor, its required range, and its name in messages.
 
     Raises:
         Refused: There is no way to the reference.
@@ -162,7 +162,7 @@ class PlaceWatch:
         self.missed: str | None = None
 
     def reached(self, action: ModifiedMotion) -> bool:
-        """Whether the actor is there, or has passed the place where nobody knows the end."""
+        """Whether the actor is there, or has passed the position if its end is unknown."""
         here, low, high, what = measured(action, self._position)
         off = here - min(max(here, low), high)
         before, self._before = self._before, off
