@@ -2,7 +2,7 @@
 
 What an actor does before its first action is free (DSL 7.6.2.4.2). If that action begins later and
 states where or how fast the actor starts, the actor is on its way in until then: the node `Enter`
-stands for it in the tree. ADR 9 has the reasons.
+stands for it in the tree. ADR 10 has the reasons.
 """
 
 from __future__ import annotations
