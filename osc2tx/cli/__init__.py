@@ -34,6 +34,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "check": ("osc2tx.cli.check:check", "Report errors and warnings in scenario files."),
     "build": ("osc2tx.cli.build:build", "Write a py_trees module for every scenario file."),
     "run": ("osc2tx.cli.run:run", "Run a scenario in the embedded world."),
+    "test": ("osc2tx.cli.test:test", "Run scenarios as tests; fail if one does not end well."),
     "campaign": ("osc2tx.cli.campaign:campaign", "Run a scenario many times, with other values."),
     "verify": ("osc2tx.cli.verify:verify", "Check whether a trace does what its scenario states."),
     "report": ("osc2tx.cli.report:report", "Make pages of traces: one run, two, or a folder."),

@@ -44,7 +44,8 @@ MAY_IMPORT: dict[str, set[str]] = {
     "start": {"building", "cli"},
     "__main__": {"start"},
     "api": {"building", "compilation", "config", "diagnostics", "options", "support"},
-    "testing": {"building", "cli", "compilation", "config", "diagnostics"} | {"campaigns"},
+    "testing": {"building", "cli", "compilation", "config", "diagnostics"}
+    | {"campaigns", "support"},
     "": {"api", "diagnostics", "version"},
 }
 
@@ -58,7 +59,7 @@ OTHERS = {
     "backends/xosc/xml": {"lxml"},
     # rows are chosen here, run there
     "campaigns": {"distributed", "optuna", "osc2tx_runtime", "scipy"},
-    "cli": {"click", "osc2tx_runtime", "rich"},
+    "cli": {"click", "osc2tx_runtime", "pytest", "rich"},
     "testing": {"osc2tx_runtime", "pytest"},
 }
 
