@@ -136,7 +136,8 @@ def statement_starts() -> frozenset[int]:
 
 @cache
 def _block_call() -> int:
-    return Grammar.atn.state_that_calls(Grammar.RULE_block)
+    state: int = Grammar.atn.state_that_calls(Grammar.RULE_block)
+    return state
 
 
 def parse_tokens(table: TokenTable, sink: DiagnosticSink) -> Tree:
