@@ -250,7 +250,7 @@ def _bounding_box(ctx: Context, member: CastMember) -> Element:
 
 def _properties(ctx: Context, member: CastMember) -> Element:
     name = member.actor.name
-    found: dict[str, str] = {}
+    found: dict[str, str | float] = dict(ctx.values.own_fields(name))
     color, role = ctx.values.field(name, ("color",)), ctx.values.field(name, ("role",))
     model = ctx.values.field(name, ("geometry_reference",))
     if isinstance(color, str):
