@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterator
 
 from osc2tx import ir
-from osc2tx.lowering.behavior.behaviors import BehaviorLowering
+from osc2tx.lowering.behavior.behaviors import BehaviorLowering, emitted_at
 from osc2tx.lowering.behavior.composed_behaviors import Composed
 from osc2tx.lowering.behavior.durations import lasting
-from osc2tx.lowering.behavior.triggers import boundary_of
+from osc2tx.lowering.behavior.triggers import WHOLE, boundary_of, is_own_failure
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present
 from osc2tx.lowering.modifiers.standing_modifiers import StandingModifiers
@@ -41,8 +42,14 @@ def lower_body(
     if body is None:
         return None
     body = lasting(ctx, body, duration)
-    before, after = (lowering.at_boundary(on, moment) for moment in ("start", "end"))
+    events = [s for s in statements if isinstance(s, ast.EventDeclaration)]
+    before, after = (
+        (*emitted_at(ctx, events, moment), *lowering.at_boundary(on, moment))
+        for moment in ("start", "end")
+    )
     body = _framed(scenario, before, body, after)
+    if any(is_own_failure(ctx, path) for each in (*on, *events) for path in _event_paths(each)):
+        body = _labelled(scenario, body)
     if not reactions:
         return body
     return ir.Parallel(
@@ -51,6 +58,19 @@ def lower_body(
         name=scenario.name,
         members=(_named_as_do(body), *reactions),
     )
+
+
+def _event_paths(statement: ast.OnDirective | ast.EventDeclaration) -> Iterator[ast.Expression]:
+    node = statement.event if isinstance(statement, ast.OnDirective) else statement.specification
+    if node is not None and node.event is not None:
+        yield node.event
+
+
+def _labelled(scenario: Composed, body: ir.Behavior) -> ir.Behavior:
+    """Return the body with the label by which its failure is known."""
+    if body.label is None:
+        return replace(body, label=WHOLE)
+    return ir.Serial(span=body.span, label=WHOLE, name=scenario.name, members=(body,))
 
 
 def _framed(
