@@ -20,7 +20,7 @@ from osc2tx.backends.xosc.values.constants import (
     Named,
     UserTypes,
 )
-from osc2tx.backends.xosc.values.symbolic_numbers import Symbol
+from osc2tx.xosc.expressions import Symbol
 
 MAKERS = frozenset(
     {
