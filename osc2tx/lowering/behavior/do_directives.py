@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
 
 from osc2tx import ir
 from osc2tx.lowering.behavior.behaviors import BehaviorLowering, emitted_at
@@ -48,7 +47,8 @@ def lower_body(
         for moment in ("start", "end")
     )
     body = _framed(scenario, before, body, after)
-    if any(is_own_failure(ctx, path) for each in (*on, *events) for path in _event_paths(each)):
+    watched = (*(s.event for s in on), *(s.specification for s in events))
+    if any(each is not None and is_own_failure(ctx, each.event) for each in watched):
         body = _labelled(scenario, body)
     if not reactions:
         return body
@@ -58,12 +58,6 @@ def lower_body(
         name=scenario.name,
         members=(_named_as_do(body), *reactions),
     )
-
-
-def _event_paths(statement: ast.OnDirective | ast.EventDeclaration) -> Iterator[ast.Expression]:
-    node = statement.event if isinstance(statement, ast.OnDirective) else statement.specification
-    if node is not None and node.event is not None:
-        yield node.event
 
 
 def _labelled(scenario: Composed, body: ir.Behavior) -> ir.Behavior:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from py_trees.decorators import Decorator
 
+from osc2tx_runtime.language.context import PostedEvent
 from osc2tx_runtime.language.tree.base import (
     FAILURE,
     RUNNING,
@@ -17,7 +18,6 @@ from osc2tx_runtime.language.tree.base import (
     ended_late,
     pulse_of,
 )
-from osc2tx_runtime.language.tree.events import Event
 
 __all__ = ["End", "Ending", "Fail"]
 
@@ -67,7 +67,7 @@ class Ending(Node, Decorator):
         super().__init__(name=behavior.name, child=behavior)
         self._ends = sorted(ends, key=lambda end: end.name)
         self.failed_by: Fail | None = None
-        self._failure: Event | None = None
+        self._failure: PostedEvent | None = None
         self._is_posted = False
 
     def setup(self, **kwargs: object) -> None:
