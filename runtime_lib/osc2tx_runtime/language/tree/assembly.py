@@ -173,6 +173,7 @@ def around(scenario: ScenarioParts, tree: Behaviour, whole: Node) -> Node:
     """Return a node around a tree that the module does not write."""
     whole.synthetic, whole.label = True, None
     whole.source, whole.scope = getattr(tree, "source", ""), scenario._path
+    whole.listeners = scenario.label_events
     return whole
 
 
