@@ -63,7 +63,7 @@ def _methods_of(kind: str) -> str:
         "osc2tx_runtime.language.tree.duration_limits": {"Duration"},
     }
     bodies = ["\n".join(_method(method, imports)) for method in found]
-    name, word = f"{class_name(kind)}Methods", kind.replace("_", " ")
+    name = f"{class_name(kind)}Methods"
     lines = [
         f"    from {module} import {', '.join(sorted(names))}"
         for module, names in sorted(imports.items())
@@ -72,7 +72,7 @@ def _methods_of(kind: str) -> str:
     if not lines[0].startswith("    from osc2tx_runtime"):  # the standard library stands apart
         lines.insert(1, "")
     return _formatted(
-        f'"""Actions of a {word}; {MADE}."""\n',
+        f'"""Actions of the actor type `{kind}`; {MADE}."""\n',
         "# The registry carries out what is only declared here.",
         '# mypy: disable-error-code="empty-body"\n',
         "from __future__ import annotations\n",
@@ -82,7 +82,7 @@ def _methods_of(kind: str) -> str:
         *lines,
         f'\n__all__ = ["{name}"]\n',
         f"@carried_out\nclass {name}:",
-        f'    """What a scenario can tell a {word} to do."""\n',
+        f'    """Actions of the actor type `{kind}`."""\n',
         *bodies,
     )
 

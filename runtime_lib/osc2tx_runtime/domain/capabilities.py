@@ -1,6 +1,6 @@
 """Lists the actions, modifiers and objects of this runtime, for the tables of the compiler.
 
-What is not listed is not there; the compiler refuses it before anything runs.
+Everything else does not exist; the compiler rejects it before anything runs.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ def actions() -> dict[str, dict[str, Any]]:
     """List the registered actions of actors, `vehicle.drive`, in sorted order.
 
     Returns:
-        For each its `arguments`, which of them are `required`, the `modifiers` that it takes, its
-        `slots`, how it `ends`, whether it `moves` as its modifiers say and whether that has to be
-        `physical`, whether it `places` and `paces`, what it `needs` of a world, the `rules` of its
-        arguments and why it is `undeclared`.
+        For each its `arguments`, which of them are `required`, the `modifiers` that it accepts, its
+        `slots`, how it `ends`, whether it `moves` as its modifiers state and whether that has to be
+        `physical`, whether it `places` and `paces`, what it `needs` of a world, the
+        `rules` of its arguments and why it is `undeclared`.
     """
     return {
         method.qualified_name: _action(method, method.factory)
@@ -51,7 +51,7 @@ def modifiers() -> dict[str, dict[str, Any]]:
 
 
 def objects() -> dict[str, Any]:
-    """List what there is to read and to make, by kind and name, in sorted order.
+    """List the readable and constructible objects, by kind and name, in sorted order.
 
     Returns:
         `methods`: `physical_object.object_distance` to its parameters; `fields`: name to type;
@@ -150,7 +150,7 @@ def _required(function: Callable[..., Any]) -> list[str]:
 
 
 def _keywords(kind: Callable[..., Any]) -> list[str]:
-    """Names of all that a constructor takes, those of its bases as well."""
+    """Names of all parameters of a constructor, those of its bases as well."""
     names: list[str] = []
     for parameter in inspect.signature(kind).parameters.values():
         if parameter.kind is parameter.VAR_KEYWORD:
@@ -163,7 +163,7 @@ def _keywords(kind: Callable[..., Any]) -> list[str]:
 
 
 def _rules(rules: Sequence[Rule]) -> list[dict[str, Any]]:
-    """Rules as plain data, without what is not said."""
+    """Rules as plain data, without empty parts."""
     written = (dataclasses.asdict(rule) for rule in rules)
     return [{name: value for name, value in rule.items() if value} for rule in written]
 

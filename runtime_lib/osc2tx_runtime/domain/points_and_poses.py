@@ -54,7 +54,7 @@ class Orientation:
 
 @dataclass(frozen=True, slots=True)
 class Pose:
-    """A point (m) with an orientation (rad); in paths a yaw of None is that of the way.
+    """A point (m) with an orientation (rad); in paths a yaw of None follows the path.
 
     Attributes:
         x: Metres along x of the world.
@@ -105,7 +105,7 @@ class Pose:
 
 
 class RoutableDot:
-    """What points have of a route (DSL 8.12.5): they can stand in routes, but nobody moves in one.
+    """The route members of points (DSL 8.12.5): points occur in routes, but have no extent.
 
     It has no length and no lanes.
     """
@@ -189,7 +189,7 @@ class XyzPoint(RoutableDot):
 
 
 class RouteAxis:
-    """Base of what the points of a route count along: roads, lanes, crossings, paths."""
+    """Base of the elements with coordinates for points: roads, lanes, crossings, paths."""
 
     __slots__ = ()
 

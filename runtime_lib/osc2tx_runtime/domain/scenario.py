@@ -5,9 +5,11 @@ from __future__ import annotations
 from osc2tx_runtime.domain.actors import Actor, Map
 from osc2tx_runtime.domain.map.objects import MapObject
 from osc2tx_runtime.domain.modifiers import MapModifier, SetMapFile
+from osc2tx_runtime.domain.placing.entries import with_entries
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.scenario import BaseScenario
+from osc2tx_runtime.language.tree.base import Behaviour
 
 __all__ = ["Scenario", "bind_all"]
 
@@ -16,8 +18,13 @@ class Scenario(BaseScenario):
     """A scenario. Generated classes write `declare`, `placement` and `behavior`."""
 
     def require(self, road_map: Map, *modifiers: MapModifier) -> None:
-        """Say what the declared roads and lanes of the map are like."""
+        """State the constraints on the declared roads and lanes of the map."""
         self.place(road_map, *modifiers)
+
+    def completed(self, tree: Behaviour) -> Behaviour:
+        """Return the whole tree of a run, with the actors that enter."""
+        placed = [placement.actor.id for placement in self.placements]
+        return with_entries(tree, placed, self.one_of == "race")
 
     def map_file(self) -> str | None:
         """Return the map file the scenario names; None if it leaves the map open.
@@ -40,7 +47,7 @@ class Scenario(BaseScenario):
 
 
 def bind_all(scenario: Scenario, context: ExecutionContext) -> None:
-    """Let the actors of a scenario and what it declares of the map join a run."""
+    """Let the actors of a scenario and its declared parts of the map join a run."""
     for actor in scenario.actors.values():
         if isinstance(actor, Actor):
             actor.bind(context)

@@ -1,9 +1,9 @@
 """Shapes: the value of a quantity over the time of a phase (DSL 8.9.1.2).
 
 A shape gives the course of the value that its modifier names: a speed, or how much faster than
-another one; a distance along the road, or to another actor; a place across the lane. The time
-counts from the start of the action. There are common shapes, which say how a target is reached,
-and those of a scenario, whose classes compute every value themselves.
+another one; a distance along the road, or to another actor; a lateral position. The time
+counts from the start of the action. Common shapes state how a target is reached;
+shapes of a scenario compute every value in their own classes.
 """
 
 from __future__ import annotations
@@ -81,10 +81,10 @@ class AnyLateralShape(AnyShape):
 
 @dataclass(frozen=True, slots=True)
 class CommonShape(AnyShape):
-    """What the common shapes share.
+    """The common base of the common shapes.
 
-    In an action they start from what the actor does. Asked by themselves they start at zero: their
-    members say nothing else of a start.
+    In an action they start from the motion of the actor. Called directly they start at zero: their
+    members state no other start.
 
     Attributes:
         rate_profile: Course of the first derivative of the quantity.
@@ -105,7 +105,7 @@ class CommonShape(AnyShape):
         return self._from_zero().duration
 
     def compute(self, time: float) -> float:
-        """Value so many seconds after a start at zero; raises as `duration`."""
+        """Value at a time (s) after a start at zero; raises as `duration`."""
         return self._from_zero().value(time)
 
     def _from_zero(self) -> Profile:
@@ -139,10 +139,10 @@ class CommonAccelerationShape(CommonShape, AnyAccelerationShape):
 
 @dataclass(frozen=True, slots=True)
 class CommonPositionShape(CommonShape, AnyPositionShape):
-    """Of a place along the road, a way or a distance (m); the rate is a speed (m/s).
+    """Of a position along the road, a path or a distance (m); the rate is a speed (m/s).
 
-    The speed is that against what the distance counts from: of the actor itself, or relative to
-    the actor that it is to be ahead of or behind.
+    The speed is relative to the origin of the distance: the speed of the actor itself, or relative
+    to the actor of `ahead_of` or `behind`.
     """
 
 
@@ -162,8 +162,8 @@ class OwnShape(Generic[ShapeT]):
 
     Args:
         shape: The object, with the members that the methods read.
-        compute: The value so many seconds after the start of the action.
-        duration: How long (s) the course is; None: it goes on as long as the action.
+        compute: The value at a time (s) after the start of the action.
+        duration: Duration (s) of the course; None: it continues as long as the action.
     """
 
     def __init__(

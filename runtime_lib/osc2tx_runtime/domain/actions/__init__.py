@@ -1,9 +1,9 @@
 """The actions of the domain model; importing this package registers them.
 
-`movement` has those that move an actor, `lights` those of vehicle lights and traffic lights,
-`environment` those of weather and light. An action reads the snapshot when it starts, gives the
-world one command per slot (`planning` computes it from the modifiers), and ends when the world
-reports that the goal is reached.
+`movement` has the actions that move an actor, `lights` those for vehicle lights and traffic
+lights, `environment` those for weather and light. An action reads the snapshot when it starts,
+gives the world one command per slot (`planning` computes it from the modifiers), and ends when the
+world reports that the goal is reached.
 """
 
 from __future__ import annotations

@@ -39,7 +39,7 @@ BOUNDS: Mapping[str, tuple[float, float, str]] = {
 
 
 class _Weather(Action):
-    """Sets values of the environment; those that are None stay."""
+    """Sets values of the environment; None leaves a value unchanged."""
 
     def __init__(
         self,

@@ -1,8 +1,8 @@
-"""Actors of the domain model: what a scenario declares, reads and calls.
+"""Actors of the domain model: their fields, methods and actions.
 
 Constructor keywords are the fields a scenario may fix. Live fields and methods read the snapshot
-of the present step. What else one calls on an actor is an action: `methods` declares those of the
-library, the registry carries them out.
+of the present step. All other calls on an actor are actions: `methods` declares those of the
+library, the registry executes them.
 """
 
 from __future__ import annotations

@@ -19,9 +19,9 @@ class Map(Actor, RoadNetwork, TrafficLightControl):
         name: Role name.
         map_file: File name with or without `.xodr`, found in the folders of `--map-path`, then
             among the maps of the runtime.
-        driving_rule: What the map must have: `left_hand_traffic` or `right_hand_traffic`.
-        traffic_light_control: Cycles from which `sync` of the traffic light actions knows what
-            lights in step show; they are not played by themselves.
+        driving_rule: The required rule of the map: `left_hand_traffic` or `right_hand_traffic`.
+        traffic_light_control: Cycles from which `sync` of the traffic light actions takes the
+            states of synchronized lights; they are not played by themselves.
     """
 
     kinds = ("map", *Actor.kinds)

@@ -33,9 +33,9 @@ class TrafficParticipant(MovableObject):
     """A movable object that matters to traffic.
 
     Args:
-        intended_infrastructure: What it moves on, or single places of that list; default: what
-            its kind or category does.
-        role: The role that others can see; default: that of the model, if it is made for one.
+        intended_infrastructure: The infrastructure it moves on, or single elements of that list;
+            default: that of its kind or category.
+        role: The role that others can see; default: the role of the model, if it has one.
         **fields: As of `PhysicalObject`.
     """
 
@@ -54,7 +54,7 @@ class TrafficParticipant(MovableObject):
 
     @property
     def intended_infrastructure(self) -> list[IntendedInfrastructure]:
-        """What it moves on, in words of OpenDRIVE lane types."""
+        """The infrastructure it moves on, in words of OpenDRIVE lane types."""
         said = self._infrastructure or {}
         if not isinstance(said, Mapping):
             return list(said)

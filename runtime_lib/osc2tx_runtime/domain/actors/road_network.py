@@ -117,7 +117,7 @@ class RoadNetwork:
         return "left" if self._right_hand() else "right"
 
     def get_map_file(self) -> str:
-        """Name of the map file, as the scenario writes it; else that of the map."""
+        """Name of the map file, as written in the scenario; else the name of the map."""
         return self.named_file or self._map.name
 
     @property
@@ -194,8 +194,8 @@ class RoadNetwork:
         """The way through points, roads, lanes, crossings and paths, in order (DSL 8.5.7).
 
         Args:
-            routes: What it leads through; gaps are filled.
-            connect_points_by: What points stand for: themselves, or what they are on.
+            routes: Its elements in order; gaps are filled.
+            connect_points_by: What points stand for: themselves, or the element under them.
             legal_route: Lanes of vehicles are followed in direction of travel in any case.
         """
         return MadeRoute((), "smooth", (), True, self, tuple(_elements(routes)), connect_points_by)
@@ -260,7 +260,7 @@ class RoadNetwork:
 def _elements(
     routes: Sequence[NetworkPoint | Route | Path],
 ) -> Iterator[NetworkPoint | Route | Path]:
-    """The elements of routes: those that were put together are taken apart."""
+    """The elements of routes; composed routes are expanded."""
     for each in routes:
         if isinstance(each, MadeRoute):
             yield from _elements(each.route_elements)

@@ -45,7 +45,7 @@ class Vehicle(TrafficParticipant, VehicleMethods):
 
     Args:
         vehicle_category: `car`, `heavy_truck`, ...; default: that of the model, else `car`.
-        axles: From front to rear, or what is not as of the category by numbers of axles; default:
+        axles: From front to rear, or deviations from the category by numbers of axles; default:
             those of the category.
         rear_overhang: Metres from the rear end to the rear axle.
         trailer_receiver: The half of the hitch on this vehicle; default: one at its rear end.
@@ -200,10 +200,10 @@ class Trailer(Vehicle):
 
     @property
     def tow_vehicle(self) -> Vehicle:
-        """What tows it.
+        """The vehicle that tows it.
 
         Raises:
-            ScenarioError: Nobody does.
+            ScenarioError: It is not towed.
         """
         tow = self._tow_id()
         if tow is None:

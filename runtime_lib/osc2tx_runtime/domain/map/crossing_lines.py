@@ -70,7 +70,7 @@ def on_crosswalk(graph: LaneGraph, crosswalk: Crosswalk) -> Iterator[MapSegment]
 def laid(
     graph: LaneGraph, start: MapSegment, end: MapSegment, start_s: float, angle: float
 ) -> MapSegment | None:
-    """A crossing that begins on a lane; None if it does not get to the other one.
+    """A crossing that begins on a lane; None if it does not reach the other one.
 
     Args:
         graph: The map.

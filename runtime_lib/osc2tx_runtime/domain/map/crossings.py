@@ -22,12 +22,12 @@ _ON_ROAD = 0.01  # m above the road
 
 @dataclass(frozen=True, slots=True)
 class CrossingType:
-    """What a crossing is like; None is not said.
+    """The type of a crossing; None is left open.
 
     Attributes:
-        marking: How it is marked on the road.
-        use: Who crosses on it.
-        elevation: Its height against the road.
+        marking: Its marking on the road.
+        use: Its users.
+        elevation: Its height above the road.
     """
 
     marking: CrossingMarking | None = None
@@ -46,7 +46,7 @@ _SUBTYPES: Mapping[str, tuple[CrossingMarking | None, CrossingUse]] = {
 
 
 def type_of(crosswalk: Crosswalk) -> CrossingType:
-    """What the map says a crosswalk is like."""
+    """The type of a crosswalk in the map."""
     marking, use = _SUBTYPES.get(crosswalk.subtype, ("other", "other"))
     level: CrossingElevation | None = "road_level" if crosswalk.lift < _ON_ROAD else None
     return CrossingType(marking, use, level)
@@ -61,7 +61,7 @@ class Crossing(Route):
         start_s_coord: Metres along the first at which it begins.
         end_s_coord: Metres along the other at which it ends.
         width: Its width (m), or the range that it is in; also where no crosswalk has one.
-        crossing_type: What it is like.
+        crossing_type: Its type.
         anchors: Id or name of the crosswalk in the map.
         length: Its length (m), or the range that it is in.
     """
@@ -88,7 +88,7 @@ class Crossing(Route):
 
     @property
     def wishes(self) -> str:
-        """What it asks of the map."""
+        """Its constraints on the map."""
         asked = (
             ("marking", self._type.marking),
             ("use", self._type.use),
@@ -128,7 +128,7 @@ class Crossing(Route):
         assert line is not None
         return line
 
-    # --- what the map says --------------------------------------------------------------------
+    # --- read from the map --------------------------------------------------------------------
 
     @property
     def start_lane(self) -> Lane:
@@ -170,17 +170,17 @@ class Crossing(Route):
 
     @property
     def crossing_type(self) -> KnownCrossingType:
-        """What the map says it is like."""
+        """Its type in the map."""
         found = _crosswalk(self.graph, self.found)
         return KnownCrossingType(CrossingType() if found is None else type_of(found), self)
 
 
 class KnownCrossingType:
-    """What a crossing is like, to be read.
+    """The type of a crossing, for reading.
 
     Args:
-        known: What the map says.
-        crossing: Whose it is.
+        known: The values of the map.
+        crossing: The crossing.
     """
 
     def __init__(self, known: CrossingType, crossing: Crossing) -> None:
@@ -201,7 +201,7 @@ class KnownCrossingType:
 
     @property
     def use(self) -> CrossingUse:
-        """Who crosses on it."""
+        """Its users."""
         if self._known.use is None:
             raise self._missing("use")
         return self._known.use

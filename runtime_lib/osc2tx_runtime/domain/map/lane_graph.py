@@ -49,7 +49,7 @@ class LaneGraph:
 
     @cached_property
     def paths(self) -> tuple[MapSegment, ...]:
-        """Those of these sections that have default start places, the longest first."""
+        """These sections as far as they have default start positions, the longest first."""
         starts = {
             (p.road, self.map.roads[p.road].section_at(p.s).index, direction > 0)
             for p in self.map.spawn_points()
@@ -202,7 +202,7 @@ class LaneGraph:
         return LanePosition(segment.road, lane, s)
 
     def seen_from(self, segment: MapSegment, place: LanePosition | None) -> MapSegment:
-        """A road in the direction of who is on it; everything else as it is."""
+        """A road in the direction of an actor on it; other segments unchanged."""
         if segment.kind != "road" or place is None or place.road != segment.road:
             return segment
         forwards = self.map.travel_direction(place.road, place.lane) > 0
@@ -222,7 +222,7 @@ class LaneGraph:
         return along if lane.forwards else line.length - along
 
     def s_at(self, lane: MapSegment, along: float) -> float | None:
-        """Road coordinate (m) so far along a lane; None beyond its end."""
+        """Road coordinate (m) at a distance along a lane; None beyond its end."""
         line = lane_line(self.lane(lane))
         if not 0.0 <= along <= line.length:
             return None
@@ -243,7 +243,7 @@ class LaneGraph:
         return found.width_at(section.begin if lane.forwards else section.end)
 
     def kind_of(self, lane: MapSegment) -> LaneKind:
-        """What a lane is for."""
+        """The type of a lane."""
         return kind_of_lane(self.lane(lane).type)
 
     def segment_of(self, key: LaneKey) -> MapSegment:

@@ -11,12 +11,12 @@ __all__ = ["LANE_TYPES", "LaneKind", "kind_of_lane"]
 
 
 class LaneKind(NamedTuple):
-    """What a lane is for.
+    """The type of a lane.
 
     Attributes:
-        type: Roughly, for whom.
-        use: More finely.
-        directionality: In which directions one may move along it.
+        type: Its users, roughly.
+        use: Its use, in more detail.
+        directionality: The allowed directions of motion.
     """
 
     type: LaneType
@@ -63,5 +63,5 @@ LANE_TYPES = frozenset(_KINDS) - {"none"}
 
 
 def kind_of_lane(type_: str) -> LaneKind:
-    """What a lane of a type of OpenDRIVE is."""
+    """The meaning of an OpenDRIVE lane type."""
     return _KINDS.get(type_, LaneKind("other", "other", "other"))

@@ -83,7 +83,7 @@ def graph_of(road_map: RoadMap) -> RoadGraph:
 
 
 class RoadGraph(LaneGraph):
-    """The lane graph of a map with what is made from it: crossings, ways through junctions."""
+    """The lane graph of a map with derived elements: crossings, connections through junctions."""
 
     def all(self, kind: PartKind) -> tuple[MapSegment, ...]:
         """All segments of a kind: by numbers of road and section, lanes from the right."""

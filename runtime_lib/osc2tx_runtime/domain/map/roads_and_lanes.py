@@ -1,6 +1,6 @@
 """Declared roads, lanes and junctions, bound to segments of the map (DSL 8.12).
 
-What the map says of them can be read when it is known: `length`, `lanes`, `start_point()`.
+Values of the map can be read once it is known: `length`, `lanes`, `start_point()`.
 """
 
 from __future__ import annotations
@@ -122,9 +122,9 @@ class Lane(Route):
 
     Args:
         lane_section: The section that it belongs to.
-        lane_type: For whom it is.
-        lane_use: More finely.
-        width: Its width where it begins (m), or the range that it is in.
+        lane_type: Its users, roughly.
+        lane_use: Its use, in more detail.
+        width: Its width at its start (m), or the range of the width.
         anchors: As of `RoadPart`.
         length: Likewise.
         directionality: Likewise.
@@ -150,7 +150,7 @@ class Lane(Route):
 
     @property
     def wishes(self) -> str:
-        """What it asks of the map."""
+        """Its constraints on the map."""
         named = (("lane_type", self._type), ("lane_use", self._use))
         own = [f"{name} is {value}" for name, value in named if value is not None]
         own += [said("width is {} m", self._width), super().wishes]
@@ -180,12 +180,12 @@ class Lane(Route):
 
     @property
     def lane_type(self) -> LaneType:
-        """For whom it is."""
+        """Its users, roughly."""
         return self.graph.kind_of(self.found).type
 
     @property
     def lane_use(self) -> LaneUse:
-        """For what it is, more finely."""
+        """Its use, in more detail."""
         return self.graph.kind_of(self.found).use
 
     @property
@@ -279,7 +279,7 @@ class RoadPath(RoadPart):
 
     @property
     def wishes(self) -> str:
-        """What it asks of the map."""
+        """Its constraints on the map."""
         own = f"there are {self._min_length:g} m" if self._min_length > 0.0 else ""
         return " and ".join(filter(None, [super().wishes, own]))
 

@@ -1,6 +1,6 @@
-"""Bases of declared roads, lanes and routes: constraints, and what the map says.
+"""Bases of declared roads, lanes and routes: constraints, and values of the map.
 
-A scenario says what its roads are like (`number_of_lanes`, `lane_side`, ...); before the start the
+A scenario constrains its roads (`number_of_lanes`, `lane_side`, ...); before the start the
 `MapSolver` chooses for each of them a segment of the map for which all that holds.
 """
 
@@ -37,9 +37,9 @@ def fulfils(
     """Whether a number of the map is as asked for.
 
     Args:
-        wish: What is asked for; None: nothing.
+        wish: The required value; None: no requirement.
         value: The number.
-        tolerance: How far beside a plain number it may be.
+        tolerance: Allowed difference from a plain number.
         at_least: A plain number is a lower bound,
         at_most: or an upper one.
     """
@@ -50,7 +50,7 @@ def fulfils(
 
 
 def said(text: str, wish: Wish | None, *, at_least: bool = False, at_most: bool = False) -> str:
-    """The wish in words, for `{}` of a text; empty without one."""
+    """The requirement in words, for `{}` of a text; empty without one."""
     if wish is None:
         return ""
     low, high = _bounds(wish, at_least=at_least, at_most=at_most)
@@ -67,7 +67,7 @@ def _bounds(wish: Wish, *, at_least: bool, at_most: bool) -> tuple[float, float]
     return wish.low, wish.high
 
 
-SAME = 0.01  # m between what is asked for and what there is
+SAME = 0.01  # m between the required and the existing value
 
 PartT = TypeVar("PartT", bound="RoadPart")
 
@@ -80,9 +80,9 @@ class RoadPart(MapObject, RouteAxis):
         min_lanes: Least number of drivable lanes, or the range that it is in.
         max_lanes: Largest number of drivable lanes, or the range that it is in.
         length: Its length (m), or the range that it is in.
-        directionality: In which directions its lanes are used.
+        directionality: Directions of its lanes.
         within: A longer part that it belongs to.
-        listed: What it consists of, by the name of the member.
+        listed: Its elements, by the name of the member.
     """
 
     word = "route"
@@ -123,7 +123,7 @@ class RoadPart(MapObject, RouteAxis):
 
     @property
     def wishes(self) -> str:
-        """What it asks of the map by itself, besides its anchors."""
+        """Its own constraints on the map, besides its anchors."""
         wishes = (
             said("there are {} lanes", self._least, at_least=True),
             said("there are {} lanes", self._most, at_most=True),
@@ -152,12 +152,12 @@ class RoadPart(MapObject, RouteAxis):
         )
 
     def names_of(self, graph: RoadGraph, segment: MapSegment) -> tuple[str, ...]:
-        """What the map file calls a segment."""
+        """The identifier of a segment in the map file."""
         road = graph.map.roads.get(segment.road)
         lane = () if segment.lane is None else (f"{segment.road}:{segment.lane}",)
         return (*lane, segment.road, *(() if road is None or not road.name else (road.name,)))
 
-    # --- what the map says --------------------------------------------------------------------
+    # --- read from the map --------------------------------------------------------------------
 
     @property
     def graph(self) -> RoadGraph:
@@ -177,9 +177,9 @@ class RoadPart(MapObject, RouteAxis):
 
 
 class Route(RoadPart):
-    """Something one can move along, with an axis of its own (DSL 8.12.5).
+    """An element with an axis of its own, to move along (DSL 8.12.5).
 
-    What it is decides the modifier that it is used in; without one it is a road.
+    Its kind decides the modifier that it is used in; without one it is a road.
     """
 
     kind: ClassVar[PartKind] = "route"
@@ -206,7 +206,7 @@ class Route(RoadPart):
 
     @property
     def anchors(self) -> list[str]:
-        """What ties it to the map file: what the scenario says, else what the file calls it."""
+        """Its anchor in the map file: declared by the scenario, else the identifier in the file."""
         return list(self._anchors or self.names_of(self.graph, self.found))
 
     def start_point(self) -> RoutePoint:

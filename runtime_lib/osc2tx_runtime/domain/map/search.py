@@ -20,7 +20,7 @@ def find_map(name: str | None, folders: Sequence[Path]) -> Path:
     of this package; `Town06` also finds `Town06.xodr`.
 
     Args:
-        name: What the scenario says; None for the default map.
+        name: The name in the scenario; None for the default map.
         folders: Of the settings.
 
     Raises:

@@ -51,7 +51,7 @@ class CrossingLine:
     width: float | None = None
 
     def at(self, s: float, t: float = 0.0) -> tuple[float, float, float]:
-        """Point (m) so far along it and to the left of it."""
+        """Point (m) at a distance along it and a distance to the left of it."""
         c, n = math.cos(self.heading), math.sin(self.heading)
         climbed = self.climb * s / self.length
         return self.x + s * c - t * n, self.y + s * n + t * c, self.z + climbed
@@ -68,13 +68,13 @@ class MapSegment:
     """A segment of a map.
 
     Attributes:
-        kind: What it is.
+        kind: Its kind.
         road: Road id; the junction's for junctions.
         section: Number of the lane section; None for a whole road.
         lane: Lane id; None for whole cross-sections.
         forwards: Traffic on it runs with s; roads are seen in the direction of s.
-        parts: What a compound one consists of, in order; the lanes that a crossing joins.
-        line: Where a crossing lies.
+        parts: The parts of a compound one, in order; the lanes that a crossing joins.
+        line: The line of a crossing.
     """
 
     kind: PartKind

@@ -1,1 +1,1 @@
-"""What is read of actors and weather: `object_position`, `object_measurements`, `weather`."""
+"""Measured values of actors and weather: `object_position`, `object_measurements`, `weather`."""

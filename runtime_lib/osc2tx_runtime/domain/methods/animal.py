@@ -1,4 +1,4 @@
-"""Actions of a animal; made by tools/make_actor_methods.py."""
+"""Actions of the actor type `animal`; made by tools/make_actor_methods.py."""
 
 # The registry carries out what is only declared here.
 # mypy: disable-error-code="empty-body"
@@ -22,7 +22,7 @@ __all__ = ["AnimalMethods"]
 
 @carried_out
 class AnimalMethods:
-    """What a scenario can tell a animal to do."""
+    """Actions of the actor type `animal`."""
 
     def walk(
         self,

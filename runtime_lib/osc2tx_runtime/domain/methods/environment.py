@@ -1,4 +1,4 @@
-"""Actions of a environment; made by tools/make_actor_methods.py."""
+"""Actions of the actor type `environment`; made by tools/make_actor_methods.py."""
 
 # The registry carries out what is only declared here.
 # mypy: disable-error-code="empty-body"
@@ -19,7 +19,7 @@ __all__ = ["EnvironmentMethods"]
 
 @carried_out
 class EnvironmentMethods:
-    """What a scenario can tell a environment to do."""
+    """Actions of the actor type `environment`."""
 
     def air(
         self,

@@ -1,4 +1,4 @@
-"""Actions of a movable object; made by tools/make_actor_methods.py."""
+"""Actions of the actor type `movable_object`; made by tools/make_actor_methods.py."""
 
 # The registry carries out what is only declared here.
 # mypy: disable-error-code="empty-body"
@@ -47,7 +47,7 @@ __all__ = ["MovableObjectMethods"]
 
 @carried_out
 class MovableObjectMethods:
-    """What a scenario can tell a movable object to do."""
+    """Actions of the actor type `movable_object`."""
 
     def assign_acceleration(
         self, label: str | None = None, /, *, acceleration: Value, duration: Duration | None = None
@@ -64,8 +64,8 @@ class MovableObjectMethods:
     ) -> Behaviour:
         """Have a heading, pitch and roll at once (§8.8.2.5).
 
-        A vehicle goes back to its lane from there, and on its wheels as soon as they roll; others
-        keep what they were told. A pitch or roll of zero leaves it to the road.
+        A vehicle returns to its lane from there, and to its wheels as soon as they roll; other
+        actors keep the assigned pose. A pitch or roll of zero leaves it to the road.
         """
 
     def assign_position(
@@ -105,7 +105,7 @@ class MovableObjectMethods:
         """Reach an acceleration; fails if the actor comes to a stand before (§8.8.2.14).
 
         Args:
-            *modifiers: What they say about the lane.
+            *modifiers: Modifiers of the lane.
             target: Acceleration (m/s^2), within the limits of the actor.
             rate_profile: Course of the jerk; `constant`, `none` and `asap` keep it constant.
             rate_peak: Its peak (m/s^3); default: the duration, else the limits of the actor.
@@ -124,10 +124,12 @@ class MovableObjectMethods:
         on_road_network: bool | None = None,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Go to a place; the speed is free, who stands sets out at `CRUISE` (§8.8.2.11).
+        """Move to a position; the speed is free, from standstill it becomes `CRUISE`.
+
+        Section §8.8.2.11.
 
         Args:
-            *modifiers: What they say about the speed.
+            *modifiers: Modifiers of the speed.
             target_position: Any kind of point.
             target_xyz: Point in the world.
             target_st: Point in route coordinates.
@@ -149,7 +151,7 @@ class MovableObjectMethods:
         """Reach a speed (§8.8.2.12).
 
         Args:
-            *modifiers: What they say about the lane.
+            *modifiers: Modifiers of the lane.
             target: Speed (m/s).
             rate_profile: Course of the acceleration.
             rate_peak: Its peak (m/s^2); default: the duration, else the limits of the actor.
@@ -171,9 +173,9 @@ class MovableObjectMethods:
         """Follow a path as the limits of the actor allow (§8.8.2.16).
 
         Args:
-            *modifiers: What they say about the speed.
+            *modifiers: Modifiers of the speed.
             absolute: The path.
-            relative: Or a path relative to a reference, where that is at the start.
+            relative: Or a path relative to the pose of a reference at the start.
             reference: Default: the actor itself.
             transform: Frame of the relative points.
             start_offset: Metres of the path that are left out at its start.
@@ -223,7 +225,7 @@ class MovableObjectMethods:
         *modifiers: SideModifier | StartModifier,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Hold the present speed: what a released slot does by itself (§8.8.2.13)."""
+        """Hold the present speed, as a released slot does (§8.8.2.13)."""
 
     def move(
         self,
@@ -243,11 +245,11 @@ class MovableObjectMethods:
         *modifiers: TurnModifier | StartModifier | PhysicalMovement,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Stand; an actor that moves brakes as hard as it can first, unless physics must hold.
+        """Stand still; a moving actor first brakes as hard as it can, unless physics must hold.
 
         Section §8.8.2.10.
 
-        Where it has to stand it has to be at the start: what holds then goes on to hold.
+        Where a modifier states the position at standstill, the actor has to be there at the start.
         """
 
     def replay_path(

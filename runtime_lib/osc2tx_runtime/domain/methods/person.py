@@ -1,4 +1,4 @@
-"""Actions of a person; made by tools/make_actor_methods.py."""
+"""Actions of the actor type `person`; made by tools/make_actor_methods.py."""
 
 # The registry carries out what is only declared here.
 # mypy: disable-error-code="empty-body"
@@ -22,7 +22,7 @@ __all__ = ["PersonMethods"]
 
 @carried_out
 class PersonMethods:
-    """What a scenario can tell a person to do."""
+    """Actions of the actor type `person`."""
 
     def walk(
         self,

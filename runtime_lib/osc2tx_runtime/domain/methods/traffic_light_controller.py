@@ -1,4 +1,4 @@
-"""Actions of a traffic light controller; made by tools/make_actor_methods.py."""
+"""Actions of the actor type `traffic_light_controller`; made by tools/make_actor_methods.py."""
 
 # The registry carries out what is only declared here.
 # mypy: disable-error-code="empty-body"
@@ -27,7 +27,7 @@ __all__ = ["TrafficLightControllerMethods"]
 
 @carried_out
 class TrafficLightControllerMethods:
-    """What a scenario can tell a traffic light controller to do."""
+    """Actions of the actor type `traffic_light_controller`."""
 
     def play_cycles(
         self,

@@ -1,4 +1,4 @@
-"""Actions of a vehicle; made by tools/make_actor_methods.py."""
+"""Actions of the actor type `vehicle`; made by tools/make_actor_methods.py."""
 
 # The registry carries out what is only declared here.
 # mypy: disable-error-code="empty-body"
@@ -41,7 +41,7 @@ __all__ = ["VehicleMethods"]
 
 @carried_out
 class VehicleMethods:
-    """What a scenario can tell a vehicle to do."""
+    """Actions of the actor type `vehicle`."""
 
     def change_lane(
         self,
@@ -60,12 +60,12 @@ class VehicleMethods:
         """End in another lane, aligned with it (§8.8.3.3).
 
         Without a rate or a duration it takes `LANE_CHANGE_TIME` (3 s) for 3.5 m. The lane may be
-        one of oncoming traffic: there the actor goes on in its own direction.
+        one of oncoming traffic: there the actor continues in its own direction.
 
         Args:
-            *modifiers: What they say about the speed.
-            num_of_lanes: How many lanes away from the reference.
-            side: On which side of it; `inside` is towards opposing traffic, `same` its own lane.
+            *modifiers: Modifiers of the speed.
+            num_of_lanes: Number of lanes from the reference.
+            side: Side of the reference; `inside` is towards opposing traffic, `same` its own lane.
                 Without a side one is drawn from the seed among those with a lane of its direction.
             reference: Default: the actor itself.
             offset: Metres left of the centre of the target lane at the end.
@@ -170,9 +170,9 @@ class VehicleMethods:
         """Stay in a lane (§8.8.3.2).
 
         Args:
-            *modifiers: What they say about the speed.
+            *modifiers: Modifiers of the speed.
             offset: Metres left of its centre.
-            offset_range: Instead of it: what it may be at any time.
+            offset_range: Instead of it: its range at all times.
             rate_profile: Course of the lateral speed on the way there.
             rate_peak: Its peak (m/s).
             target: The lane of the map in which it is; None: whichever that is.
@@ -226,7 +226,7 @@ class VehicleMethods:
         """Switch the lights.
 
         Args:
-            *modifiers: None are taken.
+            *modifiers: None are accepted.
             mode: `off`, `auto` (low beams while the sun is lower than 15 degrees or one sees less
                 than 100 m far), `daytime`, `position`, `low_beam` or `high_beam`.
         """

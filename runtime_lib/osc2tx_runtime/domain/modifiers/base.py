@@ -39,7 +39,7 @@ Late: TypeAlias = ValueT | Callable[[], ValueT]
 Value: TypeAlias = Late[float]
 Shape = AnyShape | OwnShape[AnyShape]
 
-_SAME = 1e-3  # between what a shape reaches and what is asked for
+_SAME = 1e-3  # between the value that a shape reaches and the required one
 
 
 def now(value: ValueT | Callable[[], ValueT]) -> ValueT:
@@ -96,7 +96,7 @@ def wanted(
     band: Range[float] | Callable[[], Range[float]] | None,
     shape: Shape | None,
 ) -> tuple[float, float]:
-    """The least and the greatest allowed number now, or what a shape reaches.
+    """The least and the greatest allowed number now, or the value that a shape reaches.
 
     Raises:
         ScenarioError: The shape reaches something else than is given.
@@ -138,9 +138,9 @@ class MovementModifier(Modifier):
     Attributes:
         at: When it holds.
         movement_mode: `monotonous`: within the limits of the actor, and the controlled quantity
-            never turns back on its way; what cannot be done so fails.
-        track: What counts of a reference: what it does, or (`projected`) what it would do if it
-            went on in its lane at the speed it has at the start of the action.
+            never reverses; an infeasible motion fails.
+        track: The motion of the reference that counts: the actual one, or (`projected`) the one
+            extrapolated in its lane at its speed at the start of the action.
         shaped_by: The base of shapes that give the course of its value; None: there are none.
     """
 
@@ -152,7 +152,7 @@ class MovementModifier(Modifier):
 
     @property
     def projected(self) -> bool:
-        """Whether the reference counts as it would go on."""
+        """Whether the extrapolated motion of the reference counts."""
         return self.track == "projected"
 
     @property

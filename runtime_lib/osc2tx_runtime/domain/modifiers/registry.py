@@ -41,7 +41,7 @@ def modifier(
     """Register the decorated class as the modifier `name`.
 
     Parameters are those of `ModifierFacts` and of `ModifierRules`; `rules` of the arguments and
-    `shaped_by` stand in the class.
+    `shaped_by` are attributes of the class.
 
     Raises:
         ValueError: If there is a modifier of that name.

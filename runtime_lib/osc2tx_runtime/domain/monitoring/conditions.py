@@ -19,12 +19,12 @@ class Condition:
     """A condition on the states of a phase.
 
     Attributes:
-        modifier: Name in the DSL of what states it.
-        what: What is measured, for messages: `its speed`.
+        modifier: Name of its origin in the DSL.
+        what: The measured quantity, for messages: `its speed`.
         quantity: Name in `QUANTITIES`.
         at: When it has to hold.
         measure: Reads it at the present step; None while it cannot be measured.
-        text: Says what was found, where numbers alone tell nobody; takes a reading.
+        text: Describes a reading in messages, where numbers alone are not clear.
         is_steady: It reads nothing but speed, acceleration, lane and offset of the actor itself.
         is_target: It is the target of an action (DSL 8.8.2.2), and no modifier.
     """

@@ -209,8 +209,8 @@ def _lane_of_offset(phase: Phase, leaves: bool) -> Callable[[], LanePosition | N
     """Return what gives the lane that an offset counts from, beside the actor.
 
     That is the lane at the start, which a large offset may leave; where a modifier or the action
-    states another lane, it is the present one. Who only reaches over a line at the start is still
-    in its own lane.
+    states another lane, it is the present one. An actor that only reaches over a line at the start
+    is still in its own lane.
     """
     road_map, me, lanes = phase.world.map, phase.me, lanes_from_start(phase)
 

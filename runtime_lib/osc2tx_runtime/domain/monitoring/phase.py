@@ -35,9 +35,9 @@ class Violation:
 
     Attributes:
         severity: Whether it fails the phase (ADR 6).
-        actor: Who.
+        actor: The actor.
         action: Name of the action in the trace.
-        modifier: Name of what states it.
+        modifier: Name of its origin.
         at: When it has to hold.
         source: Line of the action.
         first: Time of the first state at which it does not hold (s).
@@ -66,7 +66,7 @@ class Violation:
     what: str
 
     def words(self) -> dict[str, str | float]:
-        """Return what the trace says of it, besides its source."""
+        """Return its fields in the trace, besides its source."""
         return {
             "severity": self.severity,
             "code": self.code,
@@ -173,7 +173,7 @@ class Phase:
 
     @property
     def rests(self) -> bool:
-        """Whether all conditions hold, and go on to do so while the actor goes on as it does."""
+        """Whether all conditions hold, and continue to while the actor's motion does not change."""
         return self._is_steady and self._holds
 
     # --- what monitors read -------------------------------------------------------------------
@@ -183,7 +183,7 @@ class Phase:
         return self.world.state(self.actor)
 
     def track(self, actor: str, is_projected: bool) -> Callable[[], ActorState]:
-        """Return what reads the state of a reference: what it does, or would do (DSL 8.9.21)."""
+        """Return a reader of the actual or projected state of a reference (DSL 8.9.21)."""
         state = self.world.state
         if not is_projected:
             return lambda: state(actor)
@@ -206,7 +206,7 @@ class Phase:
         self._before, self._here = self._here, here
         self._path += math.dist(self._before[:2], here[:2])
 
-    # --- what is found ------------------------------------------------------------------------
+    # --- findings -----------------------------------------------------------------------------
 
     def observe(self, time: float) -> None:
         """Check what has to hold all the time."""

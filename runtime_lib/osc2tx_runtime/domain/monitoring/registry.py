@@ -1,4 +1,4 @@
-"""The registry of monitors: which conditions a modifier is, or why it is none."""
+"""The registry of monitors: the conditions of a modifier, or why there are none."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def unmonitored(reason: str, *names: str) -> None:
 
 
 def conditions_of(phase: Phase) -> Iterator[Condition]:
-    """Yield the conditions of an action: those it stands for, then those of its modifiers."""
+    """Yield the conditions of an action: those it implies, then those of its modifiers."""
     clarified = CLARIFIED.get(phase.action.registered.name)
     if clarified is not None:
         for each in clarified(phase.action, phase):

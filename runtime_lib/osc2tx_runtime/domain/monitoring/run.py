@@ -36,12 +36,12 @@ class Monitors:
         self.violations: list[Violation] = []
 
     def begins(self, action: BaseAction) -> None:
-        """Take note of a phase that begins; its first state is that of the settled instant."""
+        """Register a phase that begins; its first state is the one of the settled instant."""
         if isinstance(action, Action) and action.actor.id in self._context.cast():
             self._begun.append(action)
 
     def observe(self) -> None:
-        """Look at the states of a settled instant; phases whose actors go on as before rest."""
+        """Check the states of a settled instant; phases of actors with unchanged motion rest."""
         context = self._context
         time, unsteady = context.time, context.world.unsteady()
         if self._resting and (unsteady or self._unsteady):
@@ -70,7 +70,7 @@ class Monitors:
             self._begun.clear()
 
     def leaves(self, action: BaseAction) -> None:
-        """Forget a phase that is cut short: what it asks for counts no more."""
+        """Drop a phase that is interrupted: its conditions no longer count."""
         self._close(action)
 
     def ends(self, action: BaseAction) -> str | None:

@@ -42,7 +42,7 @@ def _absolute(phase: Phase, low: float, high: float, across: bool) -> Callable[[
 def _relative(
     modifier: Speed, phase: Phase, low: float, high: float, across: bool
 ) -> Callable[[], Reading]:
-    """What an actor does in a step its follower can only do in the next one."""
+    """The speed within its range relative to a reference, which is followed one step later."""
     assert modifier.reference is not None
     other, me = phase.track(modifier.reference.id, modifier.projected), phase.me
     field = "lateral_speed" if across else "v"
@@ -84,7 +84,7 @@ def acceleration(modifier: Acceleration, phase: Phase) -> Iterator[Condition]:
 
     def measure() -> Reading | None:
         if phase.elapsed == 0.0:
-            return None  # it is that of the step before the phase
+            return None  # it belongs to the step before the phase
         if any(_holds(goal()) for goal in reached):
             return None
         now, change = me().a, abs(me().a - before().a)  # it is the mean over the last step

@@ -1,7 +1,7 @@
 """Defaults for parts of actors that a scenario leaves open, by category, kind and model.
 
-Axles and hitches are typical ones; nobody publishes them for a category. They are as wide as the
-box allows, at the places that the shape of the vehicle has them.
+Axles and hitches are typical ones, as none are published per category. They are as wide as the
+box allows, at the positions given by the shape of the vehicle.
 """
 
 from __future__ import annotations
@@ -98,12 +98,12 @@ def default_axles(category: str, shape: Shape) -> tuple[Axle, ...]:
 
 
 def default_receiver(shape: Shape, said: HitchType) -> HitchReceiver:
-    """Return the hitch of a vehicle: at its rear end, of the type that the scenario says."""
+    """Return the hitch of a vehicle: at its rear end, of the declared type."""
     return HitchReceiver(said, -shape.rear, _HITCH_HEIGHT.get(said, _HITCH_HEIGHT["ball"]))
 
 
 def default_coupler(category: str, shape: Shape, said: HitchType | None) -> HitchCoupler:
-    """Return the coupler of a trailer: before the box, of the type that the scenario says."""
+    """Return the coupler of a trailer: before the box, of the declared type."""
     kind: HitchType = said or ("fifth_wheel" if category == "semi_trailer" else "ball")
     height = _HITCH_HEIGHT.get(kind, _HITCH_HEIGHT["ball"])
     return HitchCoupler(kind, shape.front + DRAWBAR, height)
@@ -123,7 +123,7 @@ def misfit(receiver: HitchReceiver, coupler: HitchCoupler) -> str | None:
 
 
 def default_infrastructure(category: str) -> tuple[IntendedInfrastructure, ...]:
-    """Return what a category of vehicles or a kind of actors moves on."""
+    """Return the infrastructure of a category of vehicles or a kind of actors."""
     return _INFRASTRUCTURE.get(category, ("driving",))
 
 
@@ -133,5 +133,5 @@ def default_role(model: str | None) -> TrafficParticipantRole | None:
 
 
 def default_trailer_category(category: str) -> TrailerCategory | None:
-    """Return what the category of a vehicle says of it as a trailer."""
+    """Return the category of a trailer that follows from the category of a vehicle."""
     return "semi_trailer" if category == "semi_trailer" else None

@@ -1,7 +1,7 @@
 """Value classes for parts of physical objects (DSL 8.6, 8.7.11 to 8.7.14).
 
-A scenario may say a part as a whole or some members of it. What it leaves open is `UNSAID` in the
-value, and the actor that the part belongs to fills it in from the catalogue.
+A scenario may declare a part as a whole or some members of it. Open members are `UNSAID` in the
+value, and the actor that the part belongs to fills them in from the catalogue.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ __all__ = [
 ]
 
 UNSAID = math.nan
-"""A number that nobody says."""
+"""A number that is left open."""
 
 _NOWHERE = Point(UNSAID, UNSAID, UNSAID)
 
@@ -106,7 +106,7 @@ class HitchCoupler:
     """The half of a hitch on the trailer.
 
     Attributes:
-        hitch_type: What receivers fit; None: not said.
+        hitch_type: Type of the matching receiver; None: left open.
         position_x: Metres before the reference point of the trailer.
         position_z: Metres above it.
         connected: Tells whether it hangs on something now.
@@ -124,22 +124,22 @@ class HitchCoupler:
 
 
 class Towable(Protocol):
-    """What a vehicle can tow: it has the other half of a hitch."""
+    """The means to tow a trailer: the other half of a hitch."""
 
     id: str
 
     def misfit(self, receiver: HitchReceiver) -> str | None:
-        """Return why a receiver, as far as it is said, does not fit; None if it does."""
+        """Return why a receiver, as far as it is declared, does not fit; None if it does."""
 
 
 def completed(said: PartT, known: PartT) -> PartT:
-    """Return what is said, and what is known where nothing is."""
+    """Return the declared values, and the known ones for all that is left open."""
     names = [each.name for each in fields(said) if is_open(getattr(said, each.name))]
     return replace(said, **{name: getattr(known, name) for name in names})
 
 
 def is_open(value: object) -> bool:
-    """Whether nobody says a member of a part."""
+    """Whether a member of a part is left open."""
     if isinstance(value, Point):
         return value.x != value.x
     return value is None or value != value

@@ -1,4 +1,4 @@
-"""Physical objects, and those of them that never move (DSL 8.7.3, 8.7.4)."""
+"""Physical objects, among them stationary ones (DSL 8.7.3, 8.7.4)."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ LIBRARY_KINDS = frozenset(
 
 ValueT = TypeVar("ValueT")
 
-_SAME = 1e-6  # m between what a scenario says and what follows from the rest of it
+_SAME = 1e-6  # m between a declared value and the value that follows from the others
 
 
 class ObjectFields(TypedDict, total=False):
@@ -77,7 +77,7 @@ class PhysicalObject(Actor, Measures):
         width: Width of the box (m).
         height: Height of the box (m).
         center_of_gravity: From the reference point (m); default: the middle of the box.
-        initial_bm: What it does while no action controls it.
+        initial_bm: Its motion while no action controls it.
     """
 
     kinds = ("physical_object", *Actor.kinds)
@@ -130,7 +130,7 @@ class PhysicalObject(Actor, Measures):
         command = Careful(None) if careful or standard else None
         self.context.leave(self.id, LONGITUDINAL, engine, command)
 
-    # --- what the scenario or the catalogue says ----------------------------------------------
+    # --- declared, or from the catalogue ------------------------------------------------------
 
     @property
     def color(self) -> Color | Rgb:
@@ -151,7 +151,7 @@ class PhysicalObject(Actor, Measures):
 
     @property
     def center_of_gravity(self) -> Point:
-        """Its centre of gravity (m), from the reference point: that of the box if nobody says."""
+        """Its centre of gravity (m), from the reference point; that of the box if left open."""
         return self._center_of_gravity or self.bounding_box.center
 
     def _said(self, member: str, value: ValueT | None) -> ValueT:
@@ -189,7 +189,7 @@ class PhysicalObject(Actor, Measures):
         return Shape(box.length, box.width, box.height, rear, wheelbase)
 
     def _rear(self, known: float) -> float:
-        """Metres from the rear end to the reference point; `known` if nobody says."""
+        """Metres from the rear end to the reference point; `known` if left open."""
         return known
 
     def _check_center(self, wanted: Point) -> None:
@@ -215,7 +215,7 @@ class PhysicalObject(Actor, Measures):
 
     @property
     def size_from(self) -> str:
-        """What the size is from: `scenario`, `model`, `category` or `default`."""
+        """The origin of the size: `scenario`, `model`, `category` or `default`."""
         if self._box.length + self._box.width + self._box.height >= 0.0:  # false for what is open
             return "scenario"
         if self.model in MODELS:
@@ -223,7 +223,7 @@ class PhysicalObject(Actor, Measures):
         return "default" if self.category is None else "category"
 
     def spec(self) -> ActorSpec:
-        """What the world must know."""
+        """Its description for the world."""
         return ActorSpec(
             id=self.id,
             kind=self.library_kind,
@@ -240,7 +240,7 @@ class PhysicalObject(Actor, Measures):
 def _box(
     whole: BoundingBox, center: Point | None, sizes: tuple[float | None, float | None, float | None]
 ) -> BoundingBox:
-    """Return what is said of a box as a whole and of its parts."""
+    """Return the declared size of a box, from the box as a whole and from its parts."""
     length, width, height = (UNSAID if size is None else size for size in sizes)
     parts = BoundingBox(center or whole.center, length, width, height)
     for part in ("length", "width", "height"):

@@ -42,7 +42,7 @@ class Path(RouteAxis):
     """A way through poses in the world.
 
     Attributes:
-        points: Poses; a yaw that is left open is that of the way.
+        points: Poses; an open yaw follows the path.
         interpolation: How they are joined.
     """
 

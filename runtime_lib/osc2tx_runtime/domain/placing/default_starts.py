@@ -63,16 +63,16 @@ class StartPlaces:
         is_free: Callable[[LanePosition], bool],
         belongs: Callable[[LanePosition], bool] = lambda _place: True,
     ) -> LanePosition:
-        """The first free default place on the lane; with a distance the one so far along its road.
+        """The first free default position on the lane; with a distance, the one there on its road.
 
-        A distance says where it is: if somebody else is there, no other road will do.
+        A distance fixes the position: if another actor is there, no other road is tried.
 
         Args:
-            actor: Who is to be placed.
+            actor: The actor to place.
             lane: The lane; None leaves it open.
             distance: Metres from the start of the road; None leaves it open.
-            is_free: Whether nobody is there.
-            belongs: Whether a place is one of those that are asked for.
+            is_free: Whether a position is free.
+            belongs: Whether a position satisfies the constraints.
 
         Raises:
             PlacementError: There is no such place.
@@ -110,7 +110,7 @@ class StartPlaces:
             if is_free(found):
                 return found
         raise PlacementError(
-            f"{actor}: somebody else is {distance:g} m from the start of road {place.road}, in"
+            f"{actor}: another actor is {distance:g} m from the start of road {place.road}, in"
             f" lane {place.lane}; give one of them another place"
         )
 
@@ -122,10 +122,10 @@ class StartPlaces:
         distance: float | None,
         is_free: Callable[[LanePosition], bool],
     ) -> LanePosition:
-        """The first free default place on a piece of road; see `default`.
+        """The first free default position on a piece of road; see `default`.
 
-        Without a distance it is from a third of it on, so that there is room for those who start
-        behind; if all of that is taken, before.
+        Without a distance it is from a third of it on, so that there is room behind it for other
+        actors; if all of that is taken, before.
         """
         section = self._map.roads[segment.road].sections[segment.section or 0]
         third = (section.end - section.begin) / 3.0
@@ -148,7 +148,7 @@ class StartPlaces:
             raise PlacementError(f"{error.message} that is part of its path, {segment}") from None
 
     def _candidates(self, lane: Lane | None, distance: float | None) -> Iterator[LanePosition]:
-        """Default start places; with a distance, places so far from the start of each road.
+        """Default start positions; with a distance, positions there on each road.
 
         Of a road that is too short the other carriageway is left out, too.
         """

@@ -11,6 +11,7 @@ from osc2tx_runtime.domain.modifiers import (
     MapModifier,
     SetTrafficLightsControlFile,
 )
+from osc2tx_runtime.domain.placing.entries import Entries
 from osc2tx_runtime.domain.placing.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.placing.placer import Placer
 from osc2tx_runtime.domain.placing.start_order import (
@@ -54,13 +55,14 @@ class ScenarioInitializer(StartRoom[ActorStart]):
         self._map_objects = map_objects
         self._world = context.world
         self._placer = Placer(context.world)
+        self._ways = context.entries.ways if isinstance(context.entries, Entries) else {}
 
     def run(self, placements: Sequence[Placement]) -> None:
         """Places every physical actor and sets the routes of those with a destination.
 
         Raises:
             PlacementError: A place does not exist, is taken, or depends on itself.
-            SettingsError: A destination is none.
+            SettingsError: A destination is invalid.
         """
         self._fill_in_roads([p for p in placements if isinstance(p.actor, Map)])
         starts = self._starts([p for p in placements if not isinstance(p.actor, Map)])
@@ -118,7 +120,7 @@ class ScenarioInitializer(StartRoom[ActorStart]):
         placement.actor.traffic_light_control.extend(cycles)
 
     def _note_sizes(self) -> None:
-        """Says in the trace which sizes are not those of the model that was asked for."""
+        """Writes to the trace which sizes differ from those of the requested model."""
         for actor in self._context.actors.values():
             if not isinstance(actor, PhysicalObject) or actor.model is None:
                 continue
@@ -147,6 +149,10 @@ class ScenarioInitializer(StartRoom[ActorStart]):
     def place(self, start: ActorStart) -> Placed:
         """Places one actor."""
         actor = start.actor
+        way = self._ways.get(actor.id)
+        if way is not None:
+            self._world.place(actor.id, way.start, way.speed, way.heading, way.tilt)
+            return self._placed_now(actor)
         if start.towed_by is not None:
             tow = self._world.state(start.towed_by.id)
             self._world.place(actor.id, pose_behind(tow, actor.shape), tow.v)
@@ -182,7 +188,7 @@ class ScenarioInitializer(StartRoom[ActorStart]):
         return Placed(box_of(state), lane)
 
     def _is_free(self, start: ActorStart, place: LanePosition) -> bool:
-        """Whether nobody is at a place, and it was not tried in vain."""
+        """Whether a position is free, and was not tried in vain."""
         return (
             not self.was_tried(start, place._replace(offset=0.0))
             and self._who_is_at(start.actor, place) is None
@@ -195,7 +201,7 @@ class ScenarioInitializer(StartRoom[ActorStart]):
     def _who_is_at(
         self, actor: PhysicalObject, at: LanePosition | Pose, heading: float | None = None
     ) -> str | None:
-        """Who stands there already."""
+        """The actors placed so far."""
         pose = self._world.map.pose(at) if isinstance(at, LanePosition) else at
         if heading is not None:
             pose = Pose(pose.x, pose.y, pose.z, heading)
@@ -205,6 +211,9 @@ class ScenarioInitializer(StartRoom[ActorStart]):
     # --- routes -------------------------------------------------------------------------------
 
     def _set_routes(self) -> None:
+        for actor_id, way in self._ways.items():
+            if isinstance(way.goal, LanePosition) and way.heading is None:
+                self._world.set_route(actor_id, self._world.map.route_to(way.goal))
         for actor_id, goal in self._context.settings.destination.items():
             if actor_id not in self._placed:
                 raise SettingsError(f"--destination {actor_id}={goal}: {actor_id} is not placed")

@@ -27,7 +27,7 @@ _MOST_CHOICES = 100_000
 
 @dataclass(frozen=True, slots=True)
 class Relation:
-    """A modifier of the map, and where it stands in the scenario."""
+    """A modifier of the map, and its position in the scenario."""
 
     modifier: MapModifier
     source: str | None
@@ -38,8 +38,8 @@ class MapSolver:
 
     Args:
         road_map: The map.
-        parts: What is declared, in its order.
-        relations: What must hold.
+        parts: The declared parts, in order.
+        relations: The relations that must hold.
     """
 
     def __init__(
@@ -133,7 +133,7 @@ class MapSolver:
         return next(rows, None) is not None
 
     def _consistent(self, part: RoadPart) -> bool:
-        """Whether what is said about a part itself holds, and no modifier has become impossible."""
+        """Whether a part's own constraints hold, and no modifier has become impossible."""
         segment = self._chosen[id(part)]
         if not part.suits(self._graph, segment):
             return False

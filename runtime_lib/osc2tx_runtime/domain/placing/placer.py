@@ -71,9 +71,9 @@ class Placer:
         """Resolves modifiers to a place.
 
         Args:
-            actor: Who is to be placed.
+            actor: The actor to place.
             modifiers: position, lane, lateral, speed, yaw, orientation.
-            now: Its present state, if it has one: what modifiers leave open stays.
+            now: Its present state, if it has one, for all that the modifiers leave open.
             spawn: Place given by the settings.
             is_free: Tells whether a default start place can be used.
             draws: Chooses from ranges; None: their middle.
@@ -234,7 +234,7 @@ class Placer:
         position: Position | None,
         is_free: Callable[[LanePosition], bool],
     ) -> LanePosition | opendrive.Pose:
-        """Where a route of the map begins, or so far from there; in any lane if none is said."""
+        """The start of a route of the map, or a distance from there; in any lane by default."""
         route = along.way
         distance = value_of(along.start_offset)
         distance += 0.0 if position is None else self._of(position.size())

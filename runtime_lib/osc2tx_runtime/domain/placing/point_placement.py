@@ -24,7 +24,7 @@ _MARGIN = 50.0  # m around the lanes that still belong to the map
 
 
 class PointPlaces:
-    """Places at, under, or so far from points."""
+    """Positions at, under, or at a distance from points."""
 
     def __init__(self, road_map: RoadMap) -> None:
         self._map = road_map
@@ -102,7 +102,7 @@ class PointPlaces:
     def near_point(
         self, actor: PhysicalObject, position: Position, distance: float, lane: Lane | None
     ) -> LanePosition:
-        """So far (m) ahead of or behind a point on the road."""
+        """The position at a distance (m) ahead of or behind a point on the road."""
         assert position.reference_point is not None
         place = self.projected(actor, position.reference_point, lane)
         wanted = distance if position.ahead else -distance

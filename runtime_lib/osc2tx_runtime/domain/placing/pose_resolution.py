@@ -29,7 +29,7 @@ __all__ = [
     "tilt_of",
 ]
 
-# What is added to an angle between axes to have the heading: the width axis points left.
+# Added to an angle between axes to get the heading: the width axis points left.
 _AXES = {"length_to_width": 0.5 * math.pi, "width_to_length": -0.5 * math.pi}
 
 ModifierT = TypeVar("ModifierT", bound=Modifier)
@@ -55,15 +55,15 @@ def heading_of(
 
     Args:
         world: The world.
-        actor: Who is to turn.
-        modifiers: Those of an action or a placement.
-        at: Where the actor is.
+        actor: The actor to turn.
+        modifiers: The modifiers of an action or a placement.
+        at: The position of the actor.
     """
     found = headings_of(world, actor, modifiers, at)
     if found is None:
         return None
     low, high = found
-    beyond = turn_between(low, at.h)  # what it is turned to the left of the least
+    beyond = turn_between(low, at.h)  # its turn to the left of the least angle
     if low == high or 0.0 <= beyond <= high - low:
         return low if low == high else at.h
     return low if abs(beyond) <= abs(turn_between(high, at.h)) else high

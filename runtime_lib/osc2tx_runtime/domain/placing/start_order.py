@@ -28,9 +28,9 @@ class ActorStart:
     """One actor to be placed.
 
     Attributes:
-        actor: Who.
+        actor: The actor.
         modifiers: Where and how.
-        source: Place in the scenario.
+        source: Position in the scenario.
         references: Actors that must be placed before.
         rank: Absolute places come before relative ones, defaults last.
         towed_by: The vehicle it is coupled to from the start.
@@ -60,7 +60,7 @@ class ActorStart:
 
     @property
     def id(self) -> str:
-        """Who."""
+        """The actor."""
         return self.actor.id
 
     @property

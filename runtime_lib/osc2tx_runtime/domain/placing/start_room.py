@@ -1,4 +1,4 @@
-"""Placement one after the other: who comes when, who takes which room, who moves to make some."""
+"""Placement of one actor after the other: their order, their room, and moves to make some."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ class Start(Protocol):
 
     @property
     def id(self) -> str:
-        """Who."""
+        """The actor."""
 
     @property
     def references(self) -> Sequence[str]:
-        """Who has to be placed before."""
+        """The actors to place before."""
 
     @property
     def rank(self) -> int:
-        """Of those that can be placed, who has the least one comes first."""
+        """Of those that can be placed, the one with the least value comes first."""
 
     @property
     def is_open(self) -> bool:
@@ -65,7 +65,7 @@ class StartRoom(ABC, Generic[StartT]):
 
     @abstractmethod
     def place(self, start: StartT) -> Placed:
-        """Places one actor; what is taken already is known.
+        """Places one actor; occupied positions are known.
 
         Raises:
             failure: There is no place for it.
@@ -97,7 +97,7 @@ class StartRoom(ABC, Generic[StartT]):
                     raise
 
     def taken_by(self, box: Box) -> str | None:
-        """Who stands there already."""
+        """The actors placed so far."""
         for other, (taken, _) in self._placed.items():
             if taken is not None and overlapping(box, taken):
                 return other

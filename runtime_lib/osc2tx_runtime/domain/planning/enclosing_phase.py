@@ -19,7 +19,7 @@ __all__ = ["phase_of"]
 
 
 def phase_of(action: BaseAction, *, strict: bool) -> DurationLimits | None:
-    """The duration with which an open-ended action ends; None if nobody can tell before.
+    """The duration with which an open-ended action ends; None if it is unknown before.
 
     Args:
         action: The action.

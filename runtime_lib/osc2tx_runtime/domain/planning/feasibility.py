@@ -22,7 +22,7 @@ _SAMPLES = 200
 
 
 def check_peak(peak: float | None, unit: str) -> None:
-    """Refuses a peak that is none."""
+    """Rejects a non-positive peak."""
     if peak is not None and peak <= 0.0:
         raise Refused(f"rate_peak {peak:g} {unit} is not positive")
 
@@ -40,9 +40,9 @@ def check_course(
     """Refuses a way over time that is beyond the limits of the actor.
 
     Args:
-        action: What is carried out.
-        modifier: What asks for it.
-        way: Metres over time, seen from something that moves.
+        action: The action.
+        modifier: The modifier that requires it.
+        way: Metres over time, relative to a moving origin.
         offset: Speed of that (m/s).
         ends: The action ends with it, at whatever speed.
     """

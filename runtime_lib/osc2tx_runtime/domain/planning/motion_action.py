@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Unpack
 
@@ -46,7 +47,7 @@ IMPOSSIBLE = (Refused, PathError, PlacementError, MapError)
 class MotionAction(Action):
     """An action that commands the motion of its actor.
 
-    What it finds `IMPOSSIBLE` is why the action fails; at the start nothing is commanded then.
+    An `IMPOSSIBLE` error is the reason why the action fails; at the start it commands nothing then.
     """
 
     _refused: str | None = None
@@ -117,7 +118,7 @@ class MotionAction(Action):
             return self.fail(error.message)
 
     def _excess(self) -> str | None:
-        """What its actor cannot do of what it has to do since the start, if that must be."""
+        """The limit that a motion exceeded since the start, if its limits must hold."""
         overloads = self.world.overloads()
         if not overloads or not self.slots or self.option() != "must_be_physical":
             return None
@@ -132,7 +133,7 @@ class MotionAction(Action):
         if self.elapsed_steps == 0:
             return Status.RUNNING  # the commands act from now on
         done, progress_of, actor_id = {}, self.context.world.progress, self.actor.id
-        # Who commands nothing goes on as it is, and may come to the end of the road as well.
+        # An actor without a command keeps moving, and may come to the end of the road as well.
         for slot in self.slots or (LONGITUDINAL,):
             progress = progress_of(actor_id, slot)
             if progress.failed is not None:
@@ -150,12 +151,12 @@ class MotionAction(Action):
 
     @property
     def limits(self) -> Limits:
-        """What the actor can do on the road as it is."""
+        """The limits of the actor, vehicle and tyres, on the present road."""
         return self.world.limits(self.actor.id)
 
     @property
     def tyres(self) -> Limits:
-        """What is possible on the road at all."""
+        """The limits that its tyres have on the present road."""
         return self.world.limits(self.actor.id, of_vehicle=False)
 
     def be_at(self, initial: InitialState) -> None:
@@ -173,7 +174,7 @@ class MotionAction(Action):
         self.effect("orientation", (heading, tilt), apply)
 
     def drawn_side(self, lanes: int) -> SideLeftRight:
-        """A side on which there are so many lanes, drawn from the seed."""
+        """A side with enough lanes, drawn from the seed."""
         own = self.place_of(self.actor.id)
         sides: tuple[SideLeftRight, ...] = ("left", "right")
         count = max(abs(lanes), 1)
@@ -233,11 +234,16 @@ class ModifiedMotion(MotionAction):
     def __init__(
         self, actor: MovableObject, *modifiers: Modifier, **options: Unpack[ActionOptions]
     ) -> None:
-        self.movable = actor  # what the action becomes may depend on it
+        self.movable = actor  # the resulting action may depend on it
         super().__init__(actor, *modifiers, **options)
         self._phase: DurationLimits | None = None
         self._given = self.modifiers
         self.planned: float | None = None
+
+    def state_at_start(self, modifiers: Sequence[Modifier]) -> None:
+        """Let the action also have modifiers that hold at its start; before setup."""
+        super().state_at_start(modifiers)
+        self._given = self.modifiers
 
     def initialise(self) -> None:
         """Read the arguments of the modifiers that are read late, and start."""
@@ -254,7 +260,7 @@ class ModifiedMotion(MotionAction):
 
     @cached_property
     def orient(self) -> Orient | None:
-        """How a vehicle is to be tilted for some time; None if nothing is said of it."""
+        """The tilt of a vehicle over time; None if it is not stated."""
         return one_of_kind(self.lasting, Orient) if self.movable.lane_bound else None
 
     @property

@@ -35,7 +35,7 @@ def turn_command(action: ModifiedMotion, turned: Yaw | Orient) -> Command | None
     """How to turn; None if it is tilted only, and lies on the road anyway.
 
     Raises:
-        Refused: It cannot turn so far from its lane, or lies on the road otherwise.
+        Refused: It cannot turn by this angle from its lane, or has to follow the road.
     """
     here, world = action.here, action.world
     heading = heading_of(world, action.movable, [turned], here)

@@ -12,7 +12,12 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.domain.modifiers import Lane, Lateral, Modifier, Orient, Position, Speed, Yaw
 from osc2tx_runtime.domain.modifiers.groups import PLACES
 from osc2tx_runtime.domain.placing.placer import Placer
-from osc2tx_runtime.domain.placing.pose_resolution import heading_of, headings_of, tilt_of
+from osc2tx_runtime.domain.placing.pose_resolution import (
+    heading_of,
+    headings_of,
+    pose_of,
+    tilt_of,
+)
 from osc2tx_runtime.domain.planning.lateral.lateral_speed_planning import lateral_speed_bounds
 from osc2tx_runtime.domain.planning.lateral.lateral_targets import lanes_wanted
 from osc2tx_runtime.domain.planning.longitudinal.goals import way_to
@@ -41,7 +46,7 @@ def hold_or_jump(action: ModifiedMotion) -> bool:
     """Sees to what has to hold at the start.
 
     Returns:
-        True if the actor is put somewhere else, which can be seen from the next pass on.
+        True if the actor is moved, which is visible from the next pass on.
 
     Raises:
         Refused: It does not hold.
@@ -122,12 +127,17 @@ def _check_measured(action: ModifiedMotion, at_start: Sequence[Modifier]) -> Non
 
 
 def _check_place(action: ModifiedMotion, position: Position) -> None:
+    if position.absolute and not position.project_on_route:
+        at, _ = pose_of(action.movable, position)
+        off = math.hypot(action.here.x - at.x, action.here.y - at.y)
+        _within(off, 0.0, 0.0, _NEAR, "its distance from its point is", "m")
+        return
     here, low, high, what = measured(action, position)
     _within(here, low, high, _NEAR, what, "m")
 
 
 def measured(action: ModifiedMotion, position: Position) -> tuple[float, float, float, str]:
-    """Where an actor is (m), between what it is to be, and what was measured.
+    """The measured position (m) of an actor, its required range, and its name in messages.
 
     Raises:
         Refused: There is no way to the reference.
@@ -162,7 +172,7 @@ class PlaceWatch:
         self.missed: str | None = None
 
     def reached(self, action: ModifiedMotion) -> bool:
-        """Whether the actor is there, or has passed the place where nobody knows the end."""
+        """Whether the actor is there, or has passed the position if its end is unknown."""
         here, low, high, what = measured(action, self._position)
         off = here - min(max(here, low), high)
         before, self._before = self._before, off

@@ -38,11 +38,11 @@ _NEAR = 0.05  # m: places so near are one
 
 @dataclass(frozen=True, slots=True)
 class MadeRoute(NetworkPath):
-    """A route that a scenario has put together; `places` are left out.
+    """A route that a scenario has composed; `places` are left out.
 
     Attributes:
-        route_elements: What it consists of, in order.
-        connect_points_by: What points of it stand for.
+        route_elements: Its elements, in order.
+        connect_points_by: Meaning of its points.
     """
 
     route_elements: Sequence[NetworkPoint | Route | Path] = ()
@@ -69,8 +69,8 @@ def poses_of_route(
 
     Args:
         road_map: The map.
-        elements: What it consists of, in order; at least one way or two points.
-        connect_by: What a point stands for.
+        elements: Its elements, in order; at least one with an extent, or two points.
+        connect_by: Meaning of a point.
 
     Raises:
         PathError: An element cannot be reached from the one before.
@@ -95,7 +95,7 @@ def poses_of_route(
 
 
 def _of_point(graph: RoadGraph, element: Element, connect_by: ConnectRoutePoints) -> Element:
-    """What a point stands for; other elements as they are."""
+    """The element that a point stands for; other elements unchanged."""
     if not isinstance(element, LanePosition | MapPose) or connect_by == "waypoint":
         return element
     pose = element if isinstance(element, MapPose) else graph.map.pose(element)

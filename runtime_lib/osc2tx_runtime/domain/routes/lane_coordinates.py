@@ -39,7 +39,7 @@ def along_lane(road_map: RoadMap, place: LanePosition) -> float:
 def place_at_distance(
     road_map: RoadMap, start: LanePosition, origin: LanePosition, distance: float
 ) -> LanePosition | None:
-    """The place on a lane that is so far (m) from a place along the road; None: it ends before.
+    """The position on a lane at a distance (m) along the road; None: the lane ends before.
 
     Args:
         road_map: The map.

@@ -1,6 +1,6 @@
 """Conversion of paths and trajectories through points of the road network to poses.
 
-Scenarios make them before the map is loaded, so the points stay what they are until an action
+Scenarios make them before the map is loaded, so the points are kept until an action
 uses the path.
 """
 
@@ -75,7 +75,7 @@ def _is_driven(road_map: RoadMap, element: Element) -> bool:
 
 
 def _elements(road_map: RoadMap, element: NetworkPoint | Route | Path) -> Iterator[Element]:
-    """An element of a route, taken apart; what is in junctions fills gaps anyway."""
+    """The parts of an element of a route; elements in junctions fill gaps anyway."""
     if isinstance(element, Path):
         yield path_in_world(road_map, element)
     elif isinstance(element, Route):

@@ -31,7 +31,7 @@ def way_through(road_map: RoadMap, places: Sequence[LanePosition]) -> tuple[Pose
 
 
 def way_between(road_map: RoadMap, start: LanePosition, goal: LanePosition) -> tuple[Pose, ...]:
-    """Points of a way along lanes, from the offset of the start to that of the goal.
+    """Points of a path along lanes, from the offset of the start to that of the goal.
 
     A lane change is spread over the last stretch on which both lanes are on one road.
 

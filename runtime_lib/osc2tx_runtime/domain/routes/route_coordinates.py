@@ -30,7 +30,7 @@ _UNKNOWN_WIDTH = 4.0  # m: of a crossing whose width nothing says
 def place_in_route(
     context: ExecutionContext, state: ActorState, route_type: OnRouteType
 ) -> RoutePoint:
-    """The place of an actor on what is under it.
+    """The position of an actor on the element under it.
 
     Raises:
         ScenarioError: There is no such route under it.

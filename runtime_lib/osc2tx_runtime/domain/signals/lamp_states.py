@@ -21,7 +21,7 @@ class TrafficLightBulb:
         icon: The symbol on it.
         map_id: Its id in the map; maps have none.
         icon_positive: The symbol shines, on dark ground.
-        state: What it does now.
+        state: Its present state.
     """
 
     color: BulbColor
@@ -33,7 +33,7 @@ class TrafficLightBulb:
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """What a box shows when it means something; its lamps are known once there is a map.
+    """The lamps for a meaning of a box, which are known once there is a map.
 
     Attributes:
         meaning: The meaning.
@@ -43,7 +43,7 @@ class Shown:
 
 
 Bulbs = Sequence[TrafficLightBulb | BulbState] | Shown
-"""Lamps in their states, plain states, or what they are to mean."""
+"""Lamps in their states, plain states, or a meaning."""
 
 
 def states_of(bulbs: Bulbs, lamps: Sequence[Lamp], what: str) -> tuple[BulbState, ...]:

@@ -21,9 +21,9 @@ ValueT = TypeVar("ValueT")
 
 
 class TrafficLightStopLine(Route):
-    """Where traffic stops for a group of lights: where the map has it, or where the scenario says.
+    """The stop line of a group of lights: from the map, or declared by the scenario.
 
-    What the scenario leaves open is as the map has it for the first light of the group. A line
+    Open members are those of the map for the first light of the group. A line
     that the scenario moves, by `offset` or to other lanes, holds for all lights of the group
     instead of those of the map. The secondary line is not one for vehicles to stop at.
 
@@ -31,11 +31,11 @@ class TrafficLightStopLine(Route):
         traffic_light_group: The group.
         route: The lane section that the line is on.
         rightmost_lane: First lane that it holds for, counted from the right, from 1.
-        leftmost_lane: Last lane that it holds for.
-        offset: Where it is on the route (m).
-        secondary_stop_offset: Where a second line is (m); default: there is none.
-        primary_stop_line_marking: How it is drawn.
-        secondary_stop_line_marking: How the second line is drawn.
+        leftmost_lane: Last lane that it is for.
+        offset: Its position on the route (m).
+        secondary_stop_offset: Position of a second line (m); default: none.
+        primary_stop_line_marking: Its marking.
+        secondary_stop_line_marking: Marking of the second line.
     """
 
     word = "traffic_light_stop_line"
@@ -120,7 +120,7 @@ class TrafficLightStopLine(Route):
         lanes = graph.lanes_of(self._route.found)
         return self._route.found, range(1, len(lanes) + 1), self._offset
 
-    # --- what is known of it ------------------------------------------------------------------
+    # --- read from the map --------------------------------------------------------------------
 
     @property
     def route(self) -> LaneSection:
@@ -158,7 +158,7 @@ class TrafficLightStopLine(Route):
 
     @property
     def secondary_stop_line_marking(self) -> StopLineMarking:
-        """How the second line is drawn; as the first one, if nothing else is said."""
+        """Marking of the second line; that of the first one by default."""
         return self._second_marking or self.primary_stop_line_marking
 
     def _known(self, member: str, value: ValueT | None) -> ValueT:

@@ -127,7 +127,7 @@ class TrafficLight(MapObject):
         return signals.states(signal) == wanted
 
     def semantic_state_to_state(self, state: SemanticTrafficLightState) -> Shown:
-        """What the box shows when it means this."""
+        """The lamps of the box for a meaning."""
         return Shown(state)
 
     def state_to_semantic_state(self, bulbs: Bulbs) -> SemanticTrafficLightState:
@@ -222,7 +222,7 @@ class TrafficLightGroup(MapObject):
 
     @property
     def cycle(self) -> TrafficLightCycle:
-        """What the `traffic_light_control` of the map lets it show.
+        """The state that the `traffic_light_control` of the map requires.
 
         Raises:
             ScenarioError: That says nothing about it.
@@ -246,7 +246,7 @@ class TrafficLightGroup(MapObject):
 
 @dataclass(frozen=True, slots=True)
 class TrafficLightPhase:
-    """What a group shows for a while.
+    """The state of a group for a while.
 
     Attributes:
         group: The group.

@@ -1,7 +1,8 @@
-"""The base classes of all actions: those of actors, and those that have none."""
+"""The base classes of all actions, with and without an actor."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar, TypedDict
 
@@ -41,9 +42,9 @@ class Action(BaseAction):
     Attributes:
         accepts: Types of modifiers the action takes; others are an `UnsupportedError` at setup.
         physical: It moves the actor, and cannot let it jump (`prefer_non_physical`).
-        actor: Who acts.
+        actor: The actor.
         modifiers: As given.
-        slots: What it claims while it runs; `__init__` of a subclass may narrow it.
+        slots: The slots that it claims while it runs; `__init__` of a subclass may narrow them.
     """
 
     accepts: ClassVar[tuple[type, ...]] = ()
@@ -63,7 +64,7 @@ class Action(BaseAction):
 
     @property
     def actor_id(self) -> str:
-        """Who acts."""
+        """The actor."""
         return self.actor.id
 
     def become(self, method: Method) -> None:
@@ -71,6 +72,10 @@ class Action(BaseAction):
         if self.slots is self.registered.slots:  # not narrowed by a subclass
             self.slots = method.slots
         super().become(method)
+
+    def state_at_start(self, modifiers: Sequence[Modifier]) -> None:
+        """Let the action also have modifiers that hold at its start; before setup."""
+        self.modifiers = (*modifiers, *self.modifiers)
 
     def takes(self, modifier: Modifier) -> bool:
         """Return whether the action carries out a modifier."""

@@ -19,7 +19,12 @@ from osc2tx_runtime.language.tree.coverage import Recording
 from osc2tx_runtime.language.tree.directives import Until
 from osc2tx_runtime.language.tree.ending import End, Ending
 from osc2tx_runtime.language.tree.events import Event
-from osc2tx_runtime.language.tree.invocation import invocations, own_nodes, unique_name
+from osc2tx_runtime.language.tree.invocation import (
+    Invocation,
+    own_nodes,
+    started_at_once,
+    unique_name,
+)
 from osc2tx_runtime.language.tree.override import Mode, guard
 from osc2tx_runtime.language.tree.parallel import Parallel
 from osc2tx_runtime.language.tree.variables import Sampling, SamplingStart
@@ -77,9 +82,9 @@ def apply_lines(root: Behaviour, source_map: SourceMap) -> None:
 
 
 def name_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:
-    """Give the nodes of a scenario names that differ, and what their random values depend on.
+    """Give the nodes of a scenario names that differ, and the keys of their random values.
 
-    That are names of the module: of the composition around, and of the node or what it does.
+    The keys are names of the module: of the composition around, and of the node or its activity.
     """
     own = set(own_nodes(tree))
     names: dict[str, None] = {}
@@ -103,7 +108,7 @@ def composition_around(node: Behaviour) -> str:
 
 
 def check_labels(scenario: ScenarioParts, tree: Behaviour) -> None:
-    """Report a label that somebody waits for and no node has."""
+    """Report a label that is waited for and that no node has."""
     known = {node.label for node in own_nodes(tree) if node.label}
     for label, moment in scenario.label_events:
         if label not in known:
@@ -168,32 +173,52 @@ def around(scenario: ScenarioParts, tree: Behaviour, whole: Node) -> Node:
     """Return a node around a tree that the module does not write."""
     whole.synthetic, whole.label = True, None
     whole.source, whole.scope = getattr(tree, "source", ""), scenario._path
+    whole.listeners = scenario.label_events
     return whole
 
 
 def invoked_placements(scenario: ScenarioParts, tree: Behaviour) -> list[Placement]:
-    """Return the placements of all scenarios that a tree invokes.
+    """Return the placements of the scenarios that start with a tree.
 
-    Raises:
-        UnsupportedError: If one of them starts later: nobody can be put anywhere then.
+    Those of scenarios that start later become conditions on the start of their actions again.
     """
     found: list[Placement] = []
-    for invocation, at_once in invocations(tree, scenario.one_of == "race"):
-        placements = invocation.scenario.placements
-        if not at_once:
-            placements = [placement for placement in placements if not placement.throughout]
-        if placements and not at_once:
-            raise UnsupportedError(
-                f"{invocation.name} places {placements[0].actor.id}, but does not start with the"
-                " scenario; place it in the scenario that runs",
-                placements[0].source,
-            )
-        found += placements
+    race = scenario.one_of == "race"
+    for node, at_once in started_at_once(tree, race):
+        if not isinstance(node, Invocation):
+            continue
+        if at_once:
+            found += node.scenario.placements
+            continue
+        for placement in node.scenario.placements:
+            if not placement.throughout:
+                _state_at_start(node, placement, race)
     return found
 
 
+def _state_at_start(invocation: Invocation, placement: Placement, race: bool) -> None:
+    """State a placement at the first action of its actor.
+
+    Raises:
+        UnsupportedError: It has none when the scenario starts.
+    """
+    for action, at_once in started_at_once(invocation, race):
+        if not at_once or not isinstance(action, Action) or action.actor is not placement.actor:
+            continue
+        stated = [m for m in placement.modifiers if m not in action.modifiers]
+        starts = [m.at_start() for m in stated if m.facts.rules.starts]
+        if len(starts) == len(stated) and all(map(action.takes, starts)):
+            action.state_at_start(starts)
+            return
+    raise UnsupportedError(
+        f"{invocation.name} places {placement.actor.id}, but does not start with the scenario; let"
+        f" an action of {placement.actor.id} state it",
+        placement.source,
+    )
+
+
 def number_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:
-    """Note where each node stands in the whole tree, those of invoked scenarios included."""
+    """Note the position of each node in the whole tree, those of invoked scenarios included."""
     for position, node in enumerate(in_order(tree, scenario.actors.values())):
         if isinstance(node, Node):
             node.position = position
@@ -203,7 +228,7 @@ def in_order(tree: Behaviour, actors: Iterable[BaseActor]) -> list[Behaviour]:
     """Return the nodes of a tree, parents first, in an order that its meaning decides.
 
     Members that run together are ordered by their actors as these are declared, then by name, then
-    by what is in them: the order of the members in the module must not show.
+    by their content: the order of the members in the module must not show.
     """
     declared = {id(actor): index for index, actor in enumerate(actors)}
 

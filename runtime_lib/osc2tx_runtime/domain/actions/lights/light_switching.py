@@ -26,7 +26,7 @@ __all__ = ["AllLamps", "OneLamp", "Saying", "SignalAction", "Switch"]
 
 
 class SignalAction(Action):
-    """What the actions share."""
+    """The common base of the actions."""
 
     @property
     def signals(self) -> Signals:
@@ -34,7 +34,7 @@ class SignalAction(Action):
         return self.context.world.signals
 
     def setup(self, **kwargs: Any) -> None:
-        """Check that the map has what is to be switched."""
+        """Check that the map has the lights to switch."""
         super().setup(**kwargs)
         try:
             self.find()
@@ -62,7 +62,7 @@ class SignalAction(Action):
             self.note(signal, self.signals.states(signal))
 
     def note(self, signal: str, states: Sequence[BulbState], ignored: str | None = None) -> None:
-        """Write to the trace what a light says and shows, and what it cannot say."""
+        """Write to the trace the meaning and the lamps of a light, and meanings it cannot show."""
         meaning = meaning_of(self.signals.lamps(signal), states)
         self.context.trace.signal(signal, meaning, states, ignored)
 
@@ -76,7 +76,7 @@ class OneLamp:
     state: BulbState
 
     def states(self, signal: str, lamps: Sequence[Lamp]) -> Mapping[int, BulbState]:
-        """That of the lamp."""
+        """The color of the lamp."""
         found = [i for i, lamp in enumerate(lamps) if lamp == (self.color, self.icon)]
         if not found:
             has = ", ".join(f"{lamp.color} {lamp.icon}" for lamp in lamps)
@@ -113,11 +113,11 @@ class Switch(SignalAction):
     """Switches the lamps of boxes at once.
 
     Args:
-        actor: Who.
-        modifiers: None are taken.
+        actor: The actor.
+        modifiers: None are accepted.
         lights: The boxes.
-        sync: Also switch the lights that keep in step with them.
-        shown: What the boxes are to show.
+        sync: Also switch the lights that are synchronized with them.
+        shown: The state to show.
         options: Duration and label.
     """
 
@@ -136,18 +136,18 @@ class Switch(SignalAction):
         self.shown = shown
 
     def find(self) -> None:
-        """Find the boxes, and see whether they can show what they are to."""
+        """Find the boxes, and check whether they can show the state."""
         for signal in self.lights(self.signals):
             self.new_states(signal)
         if self.sync:
             self._cycles()
 
     def new_states(self, signal: str) -> Mapping[int, BulbState] | None:
-        """New states of lamps by their numbers; None where the box cannot show what it is to."""
+        """New states of lamps by their numbers; None where the box cannot show the state."""
         return self.shown.states(signal, self.signals.lamps(signal))
 
     def on_start(self) -> None:
-        """Switches the lamps, also those of lights in step."""
+        """Switches the lamps, also those of synchronized lights."""
         for signal in self.lights(self.signals):
             states = self.new_states(signal)
             if states is None:
@@ -178,7 +178,7 @@ class Switch(SignalAction):
         return cycles
 
     def _in_step(self, signal: str, states: Sequence[BulbState]) -> None:
-        """Switches lights of the same synchronization group to what they show at that time."""
+        """Switches lights of the same synchronization group to their states at that time."""
         signals, cycles = self.signals, self._cycles()
         own = next((c for c in cycles if signal in c.phases[0].group.lights(signals)), None)
         time = None if own is None else time_of(own, states, signals.lamps(signal))

@@ -1,7 +1,7 @@
 """Actions of traffic light controllers (DSL 8.15.9).
 
-What a light shows lasts until it is switched again. A box or group the map does not have, lamps
-that do not fit, and cycles that cannot be played are refused before the scenario starts.
+The state of a light lasts until it is switched again. A box or group that the map does not have,
+lamps that do not fit, and invalid cycles are rejected before the scenario starts.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class PlayCycles(SignalAction):
         **options: Unpack[ActionOptions],
     ) -> None:
         super().__init__(actor, *modifiers, **options)
-        self.cycles = cycles  # those of a file are only there at setup
+        self.cycles = cycles  # cycles of a file are only available at setup
         self.playing: tuple[tuple[TrafficLightCycle, tuple[str, ...]], ...] = ()
         self._phases: dict[str, int] = {}
 

@@ -23,8 +23,8 @@ class SetLights(Action):
     """Switch the lights.
 
     Args:
-        actor: Who.
-        *modifiers: None are taken.
+        actor: The actor.
+        *modifiers: None are accepted.
         mode: `off`, `auto` (low beams while the sun is lower than 15 degrees or one sees less than
             100 m far), `daytime`, `position`, `low_beam` or `high_beam`.
         **options: Duration and label.

@@ -62,8 +62,8 @@ class ChangeAcceleration(RatedChange):
     """Reach an acceleration; fails if the actor comes to a stand before.
 
     Args:
-        actor: Who.
-        *modifiers: What they say about the lane.
+        actor: The actor.
+        *modifiers: Modifiers of the lane.
         target: Acceleration (m/s^2), within the limits of the actor.
         rate_profile: Course of the jerk; `constant`, `none` and `asap` keep it constant.
         rate_peak: Its peak (m/s^3); default: the duration, else the limits of the actor.

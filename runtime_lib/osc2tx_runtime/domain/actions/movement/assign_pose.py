@@ -38,7 +38,7 @@ class AssignPosition(Assignment):
     """Be somewhere else at once; the speed stays.
 
     Args:
-        actor: Who.
+        actor: The actor.
         *modifiers: position, lane, speed, yaw, orientation: instead of a point.
         position: Point in the world.
         route_point: Point in route coordinates.
@@ -83,8 +83,8 @@ class AssignPosition(Assignment):
 class AssignOrientation(Assignment):
     """Have a heading, pitch and roll at once.
 
-    A vehicle goes back to its lane from there, and on its wheels as soon as they roll; others keep
-    what they were told. A pitch or roll of zero leaves it to the road.
+    A vehicle returns to its lane from there, and to its wheels as soon as they roll; other actors
+    keep the assigned pose. A pitch or roll of zero leaves it to the road.
     """
 
     def __init__(

@@ -42,11 +42,11 @@ TARGETS = ("target_position", "target_xyz", "target_st", "target_odr")
 
 @action("movable_object", "change_position", slots=(LATERAL,))
 class ChangePosition(CourseAction):
-    """Go to a place; the speed is free, who stands sets out at `CRUISE`.
+    """Move to a position; the speed is free, from standstill it becomes `CRUISE`.
 
     Args:
-        actor: Who.
-        *modifiers: What they say about the speed.
+        actor: The actor.
+        *modifiers: Modifiers of the speed.
         target_position: Any kind of point.
         target_xyz: Point in the world.
         target_st: Point in route coordinates.

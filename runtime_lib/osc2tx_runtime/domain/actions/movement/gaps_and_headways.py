@@ -40,7 +40,7 @@ _DIRECTIONS: tuple[GapDirection, ...] = get_args(GapDirection)
 
 
 class _OneAxis(ModifiableAction):
-    """Controls the speed or the lane; modifiers may speak of the other one.
+    """Controls the speed or the lane; modifiers may state the other one.
 
     Attributes:
         measure: Between facing ends, or from front to front.

@@ -111,13 +111,13 @@ class ChangeLane(_OnLane):
     """End in another lane, aligned with it.
 
     Without a rate or a duration it takes `LANE_CHANGE_TIME` (3 s) for 3.5 m. The lane may be one
-    of oncoming traffic: there the actor goes on in its own direction.
+    of oncoming traffic: there the actor continues in its own direction.
 
     Args:
-        actor: Who.
-        *modifiers: What they say about the speed.
-        num_of_lanes: How many lanes away from the reference.
-        side: On which side of it; `inside` is towards opposing traffic, `same` its own lane.
+        actor: The actor.
+        *modifiers: Modifiers of the speed.
+        num_of_lanes: Number of lanes from the reference.
+        side: Side of the reference; `inside` is towards opposing traffic, `same` its own lane.
             Without a side one is drawn from the seed among those with a lane of its direction.
         reference: Default: the actor itself.
         offset: Metres left of the centre of the target lane at the end.
@@ -159,7 +159,7 @@ class ChangeLane(_OnLane):
         self._beside: int | None = None  # lane of the reference when the change was planned
 
     def look_ahead(self) -> None:
-        """See whether there can be so many lanes, unless it may be in another lane by then."""
+        """Check that the road has enough lanes, unless the actor may be in another lane by then."""
         count, place = self.num_of_lanes, self.here.lane_position
         if place is None or callable(count) or callable(self.side) or self.side in (None, "same"):
             return
@@ -236,10 +236,10 @@ class FollowLane(_OnLane):
     """Stay in a lane.
 
     Args:
-        actor: Who.
-        *modifiers: What they say about the speed.
+        actor: The actor.
+        *modifiers: Modifiers of the speed.
         offset: Metres left of its centre.
-        offset_range: Instead of it: what it may be at any time.
+        offset_range: Instead of it: its range at all times.
         rate_profile: Course of the lateral speed on the way there.
         rate_peak: Its peak (m/s).
         target: The lane of the map in which it is; None: whichever that is.

@@ -90,13 +90,13 @@ class ModifiableAction(ModifiedMotion):
 
     @cached_property
     def has_goal(self) -> bool:
-        """True if a modifier says what is to be reached."""
+        """True if a modifier states a goal."""
         return any(map(self._bounds, self.modifiers))
 
     def _bounds(self, modifier: Modifier) -> bool:
-        """Whether a modifier says what is to be reached.
+        """Whether a modifier states a goal.
 
-        The end of a route is only where the action is over that nothing else ends.
+        The end of a route only ends an action that nothing else ends.
         """
         if getattr(modifier, "at", "all") == "end":
             return True
@@ -146,7 +146,7 @@ class ModifiableAction(ModifiedMotion):
     # --- how it runs --------------------------------------------------------------------------
 
     def setup(self, **kwargs: Any) -> None:
-        """Claim what the modifiers speak of as well, and check what can be known by now."""
+        """Claim the slots that the modifiers control as well, and check what is known by now."""
         if self.has_goal and not self.follows_path:
             self._phase = phase_of(self, strict=not kwargs["context"].first_come)
         if self._phase is not None:
@@ -167,7 +167,7 @@ class ModifiableAction(ModifiedMotion):
         super().initialise()
 
     def on_started(self) -> None:
-        """Sees to what holds at the start, then commands what the modifiers say."""
+        """Establishes the conditions at the start, then commands the motion of the modifiers."""
         self._jumped = hold_or_jump(self)
         if not self._jumped:
             self._command_rest()
@@ -257,7 +257,7 @@ class ModifiableAction(ModifiedMotion):
         return status
 
     def _is_beyond_goal(self) -> bool:
-        """Whether its way ended before the last step, so that it ends without what is missing."""
+        """Whether its path ended before the last step, so that it ends without the missing part."""
         if self._to_cover is None or self.planned is None:
             return False
         step = abs(self.here.v) * self.context.dt
@@ -300,7 +300,7 @@ class ModifiableAction(ModifiedMotion):
         return self._reached and self._phase is None
 
     def _ends_with(self, slot: str) -> bool:
-        """Whether what is pursued in a slot belongs to the goal."""
+        """Whether the command in a slot belongs to the goal."""
         for modifier in self.modifiers:
             is_way = isinstance(modifier, PATH_SHAPERS) and self._bounds(modifier)
             lasting = getattr(modifier, "at", "all") == "end" or is_way

@@ -55,8 +55,8 @@ def check_modifiers(action: ModifiedMotion) -> None:
     """Refuse modifiers that contradict each other, or have no effect here.
 
     Raises:
-        UnsupportedError: They cannot be carried out together, or at that time.
-        ScenarioError: A modifier is given twice, or without what it needs.
+        UnsupportedError: They cannot be executed together, or at that time.
+        ScenarioError: A modifier is given twice, or without a required one.
     """
     calls = [_call(modifier) for modifier in action.modifiers]
     timing = Timing(action.duration is not None, action.end_is_known)

@@ -1,7 +1,7 @@
 """Actions along paths and trajectories (DSL 8.8.2.8, 8.8.2.9, 8.8.2.16, 8.8.2.17).
 
 A vehicle leaves its lane for the path and returns to the nearest lane behind its end. Along a path
-the speed is free: it stays, or another action controls it; who stands sets out at `CRUISE`.
+the speed is free: it stays, or another action controls it; from standstill it becomes `CRUISE`.
 """
 
 from __future__ import annotations
@@ -144,10 +144,10 @@ class FollowPath(_OnPath):
     """Follow a path as the limits of the actor allow.
 
     Args:
-        actor: Who.
-        *modifiers: What they say about the speed.
+        actor: The actor.
+        *modifiers: Modifiers of the speed.
         absolute: The path.
-        relative: Or a path relative to a reference, where that is at the start.
+        relative: Or a path relative to the pose of a reference at the start.
         reference: Default: the actor itself.
         transform: Frame of the relative points.
         start_offset: Metres of the path that are left out at its start.
@@ -170,7 +170,7 @@ class FollowTrajectory(_OnTrajectory):
     """Follow a trajectory as the limits of the actor allow; late arrival is no failure.
 
     Args:
-        actor: Who.
+        actor: The actor.
         *modifiers: Only `physical_movement`.
         absolute: The trajectory; its times count from the start of the action.
         relative: Or one relative to a reference, where that is at the start.

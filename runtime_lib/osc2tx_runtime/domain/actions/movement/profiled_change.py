@@ -42,9 +42,9 @@ class RatedChange(ModifiableAction):
     """Reaches a target in the speed slot.
 
     Args:
-        actor: Who.
-        *modifiers: What they say about the lane.
-        target: What is reached, in SI units.
+        actor: The actor.
+        *modifiers: Modifiers of the lane.
+        target: The target value, in SI units.
         rate_profile: Course of the first derivative.
         rate_peak: Its peak; default: the duration, else the limits of the actor.
         **options: Duration and label.

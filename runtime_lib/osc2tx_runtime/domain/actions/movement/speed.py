@@ -29,8 +29,8 @@ class ChangeSpeed(RatedChange):
     """Reach a speed.
 
     Args:
-        actor: Who.
-        *modifiers: What they say about the lane.
+        actor: The actor.
+        *modifiers: Modifiers of the lane.
         target: Speed (m/s).
         rate_profile: Course of the acceleration.
         rate_peak: Its peak (m/s^2); default: the duration, else the limits of the actor.
@@ -82,7 +82,7 @@ class ChangeSpeed(RatedChange):
 
 @action("movable_object", "keep_speed", slots=(LONGITUDINAL,), ends="open")
 class KeepSpeed(ModifiableAction):
-    """Hold the present speed: what a released slot does by itself."""
+    """Hold the present speed, as a released slot does."""
 
     commands_speed = False
     accepts: ClassVar[tuple[type, ...]] = SIDE_FREE
@@ -110,9 +110,9 @@ class AssignSpeed(Assignment):
 
 @action("movable_object", "remain_stationary", slots=(LONGITUDINAL, LATERAL), ends="open")
 class RemainStationary(ModifiableAction):
-    """Stand; an actor that moves brakes as hard as it can first, unless physics must hold.
+    """Stand still; a moving actor first brakes as hard as it can, unless physics must hold.
 
-    Where it has to stand it has to be at the start: what holds then goes on to hold.
+    Where a modifier states the position at standstill, the actor has to be there at the start.
     """
 
     accepts: ClassVar[tuple[type, ...]] = (*PLACES, PhysicalMovement)

@@ -33,7 +33,7 @@ _MEMBERS: Mapping[tuple[str, str], Find] = {
     ("road", "s_positive"): lambda graph, part: graph.sections_of_road(part.road, forwards=True),
     ("road", "s_negative"): lambda graph, part: graph.sections_of_road(part.road, forwards=False),
 }
-"""Kind of part and name of the member -> what the map has there, in order."""
+"""Kind of part and name of the member -> the elements of the map, in order."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +43,7 @@ class ConsistsOf(MapModifier):
     Attributes:
         whole: The part.
         member: Name of the member.
-        listed: What it is.
+        listed: The listed elements.
     """
 
     name = "the list of its members"
@@ -56,7 +56,7 @@ class ConsistsOf(MapModifier):
         return {"whole": self.whole} | {str(i): part for i, part in enumerate(self.listed)}
 
     def rows(self, graph: RoadGraph, known: Known) -> Iterator[Row]:
-        """Parts that have so many members."""
+        """Parts of the map whose members match the listed ones."""
         find = _MEMBERS[self.whole.kind, self.member]
         for whole in self.candidates(graph, known, "whole"):
             found = find(graph, whole)
@@ -66,7 +66,7 @@ class ConsistsOf(MapModifier):
 
 
 def listed_members(part: RoadPart) -> Iterator[ConsistsOf]:
-    """What a part says of its members."""
+    """The constraints of a part on its members."""
     for name, listed in part.listed.items():
         yield ConsistsOf(part, name, tuple(listed))
 
@@ -109,7 +109,7 @@ class PathStartsElsewhere(PathEndsElsewhere):
 
 
 def differences(path: RoadPath) -> Iterator[MapModifier]:
-    """What a path asks of others."""
+    """The constraints of a path on other parts."""
     if path.different_dest is not None:
         yield PathEndsElsewhere(path, path.different_dest)
     if path.different_origin is not None:

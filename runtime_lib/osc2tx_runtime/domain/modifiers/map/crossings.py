@@ -27,8 +27,8 @@ _SAME = 0.05  # m along a lane
 class CrossingConnects(MapModifier):
     """A crossing leads straight from the middle of one lane to that of another.
 
-    With `start_s_coord` it lies where that says, whether the map has a crosswalk there or not;
-    without it on one of the crosswalks of the map. Of lanes that nothing else is said about,
+    With `start_s_coord` it lies there, whether the map has a crosswalk there or not;
+    without it on one of the crosswalks of the map. Of lanes without other constraints,
     those for pedestrians come first.
 
     Attributes:
@@ -80,7 +80,7 @@ class CrossingConnects(MapModifier):
 
 
 def implied(crossing: Crossing) -> CrossingConnects | None:
-    """What a crossing says by its own members about the lanes that it joins."""
+    """The constraints of a crossing's own members on the lanes that it joins."""
     start, end = crossing.wanted_lanes
     if start is None and end is None and crossing.wanted_s[0] is None:
         return None

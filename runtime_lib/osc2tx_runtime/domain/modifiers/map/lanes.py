@@ -21,14 +21,14 @@ __all__ = ["CompoundLaneSide", "EndLane", "LaneSide", "NumberOfLanes", "StartLan
 @modifier("number_of_lanes", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class NumberOfLanes(MapModifier):
-    """A route has so many lanes: both directions of a road, one of a lane section.
+    """A route has a number of lanes: both directions of a road, one of a lane section.
 
     Attributes:
         route: The route; with several sections the number holds in each of them.
         num_of_lanes: Number of lanes.
-        lane_type: For whom the lanes are that are counted; `driving` if no use is given either.
-        lane_use: What they are used for.
-        directionality: In which directions.
+        lane_type: The type of the lanes that are counted; `driving` if no use is given either.
+        lane_use: Their use.
+        directionality: Their directions.
     """
 
     route: RoadPart
@@ -69,7 +69,7 @@ class NumberOfLanes(MapModifier):
 @modifier("lane_side", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class LaneSide(MapModifier):
-    """A lane is so many lanes beside another one, in the same direction.
+    """A lane lies `count` lanes beside another one, in the same direction.
 
     Attributes:
         lane1: The lane.
@@ -100,7 +100,7 @@ class LaneSide(MapModifier):
 def _beside(
     lanes: tuple[MapSegment, ...], side: SideLeftRight, count: int
 ) -> Iterator[tuple[MapSegment, MapSegment]]:
-    """Pairs of lanes, given from the right, of which one is so many beside the other."""
+    """Pairs of lanes, given from the right, of which one lies `count` lanes beside the other."""
     step = count if side == "left" else -count
     for index, second in enumerate(lanes):
         if 0 <= index + step < len(lanes):
@@ -110,7 +110,7 @@ def _beside(
 @modifier("compound_lane_side", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class CompoundLaneSide(MapModifier):
-    """A compound lane is so many lanes beside another one, over its whole length.
+    """A compound lane lies `count` lanes beside another one, over its whole length.
 
     Attributes:
         lane1: The compound lane.

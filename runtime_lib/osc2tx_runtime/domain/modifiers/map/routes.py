@@ -187,7 +187,7 @@ class RoutesOverlap(MapModifier):
 def _kinds_of_overlap(
     graph: RoadGraph, first: MapSegment, second: MapSegment
 ) -> set[RouteOverlapKind]:
-    """What `route_overlap_kind` says of two routes (DSL 8.12.23); nothing if they share nothing."""
+    """The `route_overlap_kind` of two routes (DSL 8.12.23); nothing if they share nothing."""
     one, other = _ranges(graph, first), _ranges(graph, second)
     both = [(one[road], other[road]) for road in one.keys() & other.keys()]
     if not any(min(a[1], b[1]) > max(a[0], b[0]) for a, b in both):

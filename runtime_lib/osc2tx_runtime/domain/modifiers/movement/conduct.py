@@ -126,7 +126,7 @@ class OnPath(Modifier):
 @modifier("avoid_collisions", slots=(LONGITUDINAL,))
 @dataclass(frozen=True, slots=True)
 class AvoidCollisions(Modifier):
-    """Whether to slow down for what is ahead in the lane.
+    """Whether to slow down for obstacles ahead in the lane.
 
     The standard lets all actors avoid collisions; here they do so only where a scenario asks for
     it, because scenarios of near misses and crashes are what most people write.

@@ -98,9 +98,9 @@ class Lateral(MovementModifier):
 
     Attributes:
         distance: Metres to the left, unless `side` says right.
-        distance_range: Instead of it: what it may be at any time.
+        distance_range: Instead of it: its range at all times.
         side_of: Actor from which the distance counts; None: the centre of the lane.
-        side: To which side the distance points.
+        side: Side to which the distance points.
         measure_by: Own edge `to` edge of the reference (of the lane without `side_of`); `closest`:
             between the facing sides.
         shape: Course of the distance, and its value if none is given here.
@@ -129,7 +129,7 @@ class Lateral(MovementModifier):
         return self.distance_range is None
 
     def offsets(self, own_width: float = 0.0, other_width: float = 0.0) -> tuple[float, float]:
-        """How far (m) the own centre may be left of that of the reference, now.
+        """Range (m) of the own centre to the left of the centre of the reference, now.
 
         Args:
             own_width: Width of the actor (m).

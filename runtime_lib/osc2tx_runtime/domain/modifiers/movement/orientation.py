@@ -31,9 +31,9 @@ class Yaw(MovementModifier):
 
     Attributes:
         angle: Counter-clockwise.
-        angle_range: Instead of it: what it may be at any time.
+        angle_range: Instead of it: its range at all times.
         relative_to: Reference; None: the road.
-        measure_by: What the angle is measured against: the road, north, or an axis of the own box
+        measure_by: Zero of the angle: the road, north, or an axis of the own box
             against one of the reference.
         shape: Course of the angle, and its value if none is given here: a shape of the scenario,
             for there are no common ones of angles.
@@ -61,15 +61,15 @@ class Yaw(MovementModifier):
 class Orient(MovementModifier):
     """Attitude (rad) against the road, the world or another actor: the angles that are given.
 
-    Each angle counts from the same angle of the reference. Vehicles lie on their wheels: their
-    pitch and roll are those of the road, unless physics need not hold.
+    Each angle counts from the same angle of the reference. Vehicles stay on their wheels: their
+    pitch and roll follow the road, unless physics need not hold.
 
     Attributes:
         yaw: Counter-clockwise.
         pitch: Nose down.
         roll: Right side down.
         relative_to: Reference; None: the road.
-        measure_by: What the angles are measured against; default: the reference, else the road (the
+        measure_by: Zero of the angles; default: the reference, else the road (the
             standard names both road and world; its examples have the road).
         shape: Course of the yaw, as of `yaw`.
     """

@@ -49,8 +49,8 @@ class Position(MovementModifier):
     Attributes:
         distance: Metres ahead of or behind a reference, else from the start of the road.
         time: Seconds times the speed of the one behind, instead of a distance.
-        distance_range: Instead of a distance: what it may be at any time.
-        time_range: Instead of a time: what it may be at any time.
+        distance_range: Instead of a distance: its range at all times.
+        time_range: Instead of a time: its range at all times.
         ahead_of: Reference.
         behind: Reference.
         ahead_of_point: Reference point in the world, projected on the road.
@@ -102,7 +102,7 @@ class Position(MovementModifier):
 
     @property
     def stands(self) -> bool:
-        """True for one place on the road all the time."""
+        """True for one fixed position on the road all the time."""
         return self.at == "all" and self.reference is None and self.shape is None
 
     @property

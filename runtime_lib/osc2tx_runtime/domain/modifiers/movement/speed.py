@@ -52,7 +52,7 @@ class Speed(MovementModifier):
 
     Attributes:
         speed: Speed, or difference to the reference (m/s); subtracted for `slower_than`.
-        speed_range: Instead of it: what it may be at any time.
+        speed_range: Instead of it: its range at all times.
         faster_than: Reference.
         slower_than: Reference.
         same_as: Reference.
@@ -115,7 +115,7 @@ class Speed(MovementModifier):
         return isinstance(self.shape, OwnShape) or self.course != ("none", None)
 
     def difference(self) -> tuple[float, float]:
-        """Least and greatest value (m/s) now: of the speed, or of what is added to another's."""
+        """Least and greatest value (m/s) now: of the speed, or of the difference to another's."""
         low, high = wanted(self.speed, self.speed_range, self.shape)
         return (-high, -low) if self.slower_than is not None else (low, high)
 
@@ -133,7 +133,7 @@ class ChangeSpeed(MovementModifier):
 
     Attributes:
         speed: Difference (m/s).
-        speed_range: Instead of it: what the difference may be.
+        speed_range: Instead of it: the range of the difference.
         shape: Course of the difference, and its value if none is given here.
     """
 
@@ -172,7 +172,7 @@ class Acceleration(MovementModifier):
 
     Attributes:
         acceleration: m/s^2; how fast a speed is reached if one is given as well.
-        acceleration_range: Instead of it: what it may be at any time.
+        acceleration_range: Instead of it: its range at all times.
         shape: Course of its change, and a value if none is given here.
     """
 

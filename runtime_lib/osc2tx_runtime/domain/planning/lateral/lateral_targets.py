@@ -40,7 +40,7 @@ __all__ = [
 
 
 def leads_beside(graph: RoadGraph, place: LanePosition, lanes: int) -> bool:
-    """Whether a lane has so many others to its left, here or anywhere that it leads to."""
+    """Whether a lane has enough lanes to its left, here or anywhere on its continuation."""
     lane = graph.segment_of(graph.map.lane_key(place))
     reached, seen = [lane], {lane}
     for each in reached:
@@ -109,7 +109,7 @@ def target_of_shift(action: ModifiedMotion, lanes: int) -> LanePosition:
 
 
 def jump_aside(action: ModifiedMotion, lanes: int, offset: float) -> None:
-    """Puts the actor so many lanes to the left and so far (m) left of the centre, at once.
+    """Sets the lane and the offset (m) of the actor at one instant; positive to the left.
 
     Raises:
         Refused: There is no such lane.
@@ -160,7 +160,7 @@ def lanes_wanted(action: MotionAction, lane: Lane) -> int:
 def lanes_beside(action: MotionAction, reference: str, lanes: int) -> int:
     """Number of lanes from the present one to the lane beside a reference, positive to the left.
 
-    What is left of a reference in oncoming traffic is so as it drives.
+    The left side of a reference in oncoming traffic is as its driver sees it.
 
     Raises:
         Refused: There is no such lane.

@@ -20,7 +20,7 @@ _CHOICES = 200  # times out of a range that are looked at
 
 
 def arrival(action: MotionAction, gap: KeepGap) -> Arrive | None:
-    """The command to have a gap, at the speed of the other one, when the action ends.
+    """The command to have a gap, at the speed of the reference, when the action ends.
 
     Out of a range of durations the shortest one is taken that is comfortable, else the longest.
 
@@ -28,7 +28,7 @@ def arrival(action: MotionAction, gap: KeepGap) -> Arrive | None:
         The command; None if the action ends when the gap is reached, at any time.
 
     Raises:
-        Refused: There is no way along lanes to the other one.
+        Refused: There is no path along lanes to the reference.
     """
     duration = action.duration
     if duration is None:

@@ -103,8 +103,8 @@ def stop_command(action: ModifiedMotion, *, at_once: bool = False) -> Command:
     """How to stay where it is; one that rolls may brake first, unless physics forbids to stay.
 
     Args:
-        action: What is carried out.
-        at_once: The place is one on the road, which braking would leave.
+        action: The action.
+        at_once: The position is fixed on the road, which braking would leave.
 
     Raises:
         Refused: It rolls, and must not.
@@ -172,7 +172,7 @@ def _speed(action: ModifiedMotion) -> Command | None:
 
 
 def _following(action: ModifiedMotion, speed: Speed, reference: str, other: float) -> FollowSpeed:
-    """The speed of an actor and so much more, which may have a course of its own."""
+    """The speed of an actor plus a difference, which may have a course of its own."""
     low, high = speed.difference()
     if not speed.shaped:
         return FollowSpeed(reference, speed.times, low, high - low)

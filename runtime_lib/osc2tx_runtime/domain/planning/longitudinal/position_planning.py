@@ -36,8 +36,8 @@ class _Way(NamedTuple):
 
     Attributes:
         here: Value of the quantity now (m).
-        target: What it is to be (m), where the shape does not say.
-        sign: Of its change while the actor goes on.
+        target: Its target (m), where the shape states none.
+        sign: Sign of its change while the actor moves forwards.
         speed: Rate of the quantity now (m/s).
     """
 
@@ -74,8 +74,8 @@ def check_way_to_gap(action: ModifiedMotion, position: Position, time: float | N
 
     Args:
         action: What is carried out.
-        position: Where it is to be.
-        time: Seconds until then, on the way of least effort; None: as soon as is comfortable.
+        position: The target position.
+        time: Seconds until then, with the least effort; None: as soon as is comfortable.
     """
     if position.timed:
         return  # it depends on the speed, which changes on the way
