@@ -206,13 +206,16 @@ class ScenarioWriter:
     def _narrowing(self, declaration: ir.Declaration, there: ir.Declaration) -> ArgumentView:
         """Write the call that narrows a declaration; what reads the base is computed by it."""
         name = code(literal(ir.setting_name(declaration.name)))
+        arguments: tuple[ArgumentView, ...]
         match declaration:
-            case ir.Parameter(value=value, domain=domain, is_fixed=is_fixed):
-                read = [part for part in (value, domain) if part is not None]
-                method = "fix_to" if is_fixed else "narrow_to"
-                same_unit = isinstance(there, ir.Parameter) and there.unit == declaration.unit
+            case ir.Parameter(value=value, is_fixed=True) if value is not None:
+                method, read = "fix_to", [value]
+                arguments = (code(self._calls.expressions.write(value)),)
+            case ir.Parameter(value=value, domain=domain):
+                method, read = "narrow_to", [part for part in (value, domain) if part is not None]
+                is_unit_known = isinstance(there, ir.Parameter) and there.unit == declaration.unit
                 arguments = self._choice(
-                    replace(declaration, unit=None) if same_unit else declaration
+                    replace(declaration, unit=None) if is_unit_known else declaration
                 )
             case ir.Actor(values=values) | ir.Struct(values=values):
                 read = [each.value for each in values]
