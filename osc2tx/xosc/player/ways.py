@@ -78,7 +78,7 @@ class Ways:
         return self._on_way(run, driven)
 
     def follow(self, body: Body, run: Running, way: float, time: float) -> None:
-        """Move a body along its way, by metres or to a time of it."""
+        """Move a body along its path, by metres or to a time of it."""
         if run.is_timed:
             assert run.length is not None
             x, y, _ = body.here
