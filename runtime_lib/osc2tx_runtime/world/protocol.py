@@ -54,11 +54,13 @@ LOW_BEAM_SUN_ELEVATION = 0.2617993877991494
 FOG_LIGHT_RANGE = 100.0
 """Visual range (m) below which they are so, too (UK Highway Code, rule 226)."""
 
-ControlMode = Literal["exact", "driven", "external", "autopilot"]
-"""Who moves an actor: nobody, it is where it is wished; a controller that follows; somebody else,
-from outside or of the simulator."""
+ControlMode = Literal["exact", "exact-physics", "driven", "external", "autopilot"]
+"""Who moves an actor: nobody, its poses are written, without or with rigid-body physics in the
+simulator; a controller that follows; somebody else, from outside or of the simulator."""
 EXTERNAL: frozenset[ControlMode] = frozenset({"external", "autopilot"})
 """Those in which somebody else does."""
+EXACT: frozenset[ControlMode] = frozenset({"exact", "exact-physics"})
+"""Those in which an actor is where it is commanded, and nothing of it is measured."""
 
 Note = tuple[str, Mapping[str, Any]]
 """Kind of a line of the trace, and what it says."""

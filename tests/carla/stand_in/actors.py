@@ -64,6 +64,7 @@ class Actor:
     walk: list[Any] = field(default_factory=lambda: [[1.0, 0.0, 0.0], 0.0, False])
     constant: list[float] | None = None
     physics: bool = True
+    gravity: bool = True
     lights: int = 0
     friction: float = TYRE_FRICTION
     steered: float = 0.0

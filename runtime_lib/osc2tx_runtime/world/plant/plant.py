@@ -4,7 +4,8 @@ The world turns commands into the states that its actors are to have at the end 
 brings them about, and measures what has become of them: CARLA, another simulator, a vehicle model.
 `Identity` carries them out as they are.
 
-An actor is under one control. `exact`: it is where it is wished. `driven`: a controller has it
+An actor is under one control. `exact`: it is where it is wished. `exact-physics`: so, too, as a
+rigid body that its velocities bring there. `driven`: a controller has it
 follow the wished states, and it is measured. `external` and `autopilot`: somebody else drives it,
 it is only measured.
 """
@@ -20,9 +21,7 @@ from osc2tx_runtime.world.protocol import FEATURES, ActorSpec, ControlMode, Feat
 
 from .scene import Scene
 
-__all__ = ["EXACT", "Identity", "Measurement", "Plant"]
-
-EXACT: ControlMode = "exact"
+__all__ = ["Identity", "Measurement", "Plant"]
 
 
 class Plant(Protocol):
@@ -74,7 +73,7 @@ class Identity:
 
     def control(self, actor: str) -> ControlMode:
         """Always `exact`."""
-        return EXACT
+        return "exact"
 
     def capabilities(self) -> frozenset[Feature]:
         """All there are."""

@@ -12,7 +12,7 @@ from typing import Any
 import carla
 
 from . import release_of
-from .commands import command_of
+from .commands import command_of, transform
 from .snapshots import Collisions, actor_state, light_states
 
 GLANCE = 0.5  # s to wait for a step of somebody else before it is looked for
@@ -231,12 +231,6 @@ def listens(host: str, port: int) -> bool:
             return True
     except OSError:
         return False
-
-
-def transform(pose: Sequence[float]) -> Any:
-    """Return x, y, z, pitch, yaw, roll as the library has it."""
-    x, y, z, pitch, yaw, roll = pose
-    return carla.Transform(carla.Location(x, y, z), carla.Rotation(pitch, yaw, roll))
 
 
 def written(pose: Any) -> list[float]:
