@@ -10,6 +10,7 @@ from . import dynamics
 from .blueprints import BLUEPRINTS, VEHICLES
 from .simulation import Simulation
 
+LIFE_SPAN = 20  # steps that a walker that was hit is still there
 Calls = dict[str, Callable[..., Any]]
 
 
@@ -133,6 +134,27 @@ def sticky_camera(simulation: Simulation, calls: Calls) -> None:
     calls["tick_cue"] = drifting
 
 
+def mortal_walkers(simulation: Simulation, calls: Calls) -> None:
+    """A walker that a vehicle has hit is removed after its life span."""
+    tell, tick = simulation._tell_contact, calls["tick_cue"]
+    spans: dict[int, int] = {}
+
+    def note(me: Any, other: Any) -> None:
+        if me.kind == "walker":
+            spans.setdefault(me.id, LIFE_SPAN)
+        tell(me, other)
+
+    def age() -> int:
+        for walker in list(spans):
+            spans[walker] -= 1
+            if spans[walker] == 0 and walker in simulation.actors:
+                simulation.destroy(walker)
+        return int(tick())
+
+    simulation._tell_contact = note  # type: ignore[method-assign]
+    calls["tick_cue"] = age
+
+
 FAULTS: Mapping[str, Callable[[Simulation, Calls], None]] = {
     each.__name__.replace("_", "-"): each
     for each in (
@@ -148,5 +170,6 @@ FAULTS: Mapping[str, Callable[[Simulation, Calls], None]] = {
         late_walkers,
         nameless_lights,
         sticky_camera,
+        mortal_walkers,
     )
 }

@@ -19,7 +19,7 @@ from .frames import measurement_from, transform_of, turning_of, vector_of
 from .gains import CAR, GAINS
 from .tracking import SpeedControl, Steering, walking
 
-__all__ = ["ABOVE", "CastMember", "Command", "DISPLACED", "member_of"]
+__all__ = ["ABOVE", "DISPLACED", "CastMember", "Command", "member_of"]
 
 Command = Sequence[Any]
 """Name, number of the actor in CARLA, values; see `client.commands`."""
@@ -32,6 +32,7 @@ DISPLACED = 0.05
 
 SIZE_NOTED = 0.1  # m between the sizes of scenario and simulator that are worth a line
 STILL = 0.05  # m/s
+NO_WAY = 1e-3  # m: less than that does not have a walker set a foot before the other
 LEAST_SIZE = 0.3  # m of a vehicle or walker
 KPH = 3.6  # km/h in a m/s
 
@@ -49,6 +50,7 @@ class CastMember:
         up: Metres from the ground to that origin.
         size: Length, width and height (m) in CARLA.
         foreign: Somebody else spawned it.
+        removed: It is not in CARLA any more.
         now: The latest measurement; None while it is exactly where it is wished.
     """
 
@@ -62,6 +64,7 @@ class CastMember:
     steering: Steering
     speed: SpeedControl
     foreign: bool = False
+    removed: bool = False
     now: Measurement | None = None
     _physics: bool = True
     _gravity: bool = True
@@ -129,6 +132,8 @@ class CastMember:
 
     def commands(self, setpoint: Setpoint, dt: float) -> list[Command]:
         """Return what brings its setpoint about."""
+        if self.removed:
+            return []
         if setpoint.towed or self.control == "exact":
             return self._exact(setpoint)
         if self.control == "exact-physics":
@@ -193,9 +198,10 @@ class CastMember:
         """Return what has a walker walk from one pose to another; CARLA adds half its height."""
         (x, y, z), (pitch, yaw, roll) = start[:3], goal[3:]
         way = math.dist(start[:2], goal[:2])
-        if way > 0.0:  # it walks where it looks
+        speed = way / dt if way > NO_WAY else 0.0
+        if speed:  # it walks where it looks
             yaw = math.degrees(math.atan2(goal[1] - y, goal[0] - x))
-        return ("lead", self.actor, x, y, z - self.up, pitch, yaw, roll, way / dt)
+        return ("lead", self.actor, x, y, z - self.up, pitch, yaw, roll, speed)
 
     def _driven(self, setpoint: Setpoint, now: Measurement, dt: float) -> Command:
         if not self.is_vehicle:

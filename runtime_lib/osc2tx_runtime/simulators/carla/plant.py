@@ -10,7 +10,7 @@ from osc2tx_runtime.errors import SettingsError, SimulatorError
 from osc2tx_runtime.world.actor_dimensions import Shape
 from osc2tx_runtime.world.measuring.measurement import Measurement
 from osc2tx_runtime.world.plant.scene import Scene
-from osc2tx_runtime.world.protocol import EXACT, EXTERNAL, FEATURES, ActorSpec, ControlMode, Feature
+from osc2tx_runtime.world.protocol import EXTERNAL, FEATURES, ActorSpec, ControlMode, Feature
 from osc2tx_shared.text import say
 
 from .attendance import Attendance
@@ -69,6 +69,7 @@ class CarlaPlant:
         self._surroundings = CarlaSurroundings(client)
         self._start = 0.0  # s of the episode at step 0
         self._displaced: set[str] = set()
+        self._struck: set[str] = set()  # those that took part in a contact
         self._default = self._default_control(sensors)
 
     # --- what it can --------------------------------------------------------------------------
@@ -207,12 +208,26 @@ class CarlaPlant:
             member = self._members[actor]
             state = states.get(member.actor)
             if state is None:
-                raise SimulatorError(f"{actor} is not in CARLA any more: another client removed it")
-            if setpoint.towed or not member.is_measured:
+                self._removed(actor, scene)
+                if member.now is not None:
+                    found[actor] = member.now._replace(velocity=(0.0, 0.0, 0.0))
+            elif setpoint.towed or not member.is_measured:
                 self._check_place(actor, member, state, scene)
             else:
                 found[actor] = member.measured(state)
         return found
+
+    def _removed(self, actor: str, scene: Scene) -> None:
+        """A walker that was hit is removed by CARLA after a while; nothing else ever is.
+
+        Raises:
+            SimulatorError: It was no such walker.
+        """
+        if actor not in self._struck or self._members[actor].is_vehicle:
+            raise SimulatorError(f"{actor} is not in CARLA any more: another client removed it")
+        if not self._members[actor].removed:
+            self._members[actor].removed = True
+            scene.note("simulator_removed", actor=actor)
 
     def _check_place(
         self, actor: str, member: CastMember, state: list[float], scene: Scene
@@ -234,6 +249,7 @@ class CarlaPlant:
         """Contacts as the simulator sees them; those of the trace's own test decide."""
         names = {member.actor: actor for actor, member in self._members.items()}
         for time, number, other, blueprint in looked["collisions"]:
+            self._struck.update(names[each] for each in (number, other) if each in names)
             scene.note(
                 "simulator_collision",
                 at=round(time - self._start, 3),

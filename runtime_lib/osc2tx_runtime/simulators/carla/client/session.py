@@ -12,7 +12,7 @@ from typing import Any
 import carla
 
 from . import release_of
-from .commands import command_of, transform
+from .commands import command_of
 from .snapshots import Collisions, actor_state, light_states
 
 GLANCE = 0.5  # s to wait for a step of somebody else before it is looked for
