@@ -9,7 +9,7 @@ from typing import Any
 from osc2tx_runtime.errors import SettingsError, SimulatorError
 from osc2tx_runtime.world.actor_dimensions import Shape
 from osc2tx_runtime.world.measuring.measurement import Measurement
-from osc2tx_runtime.world.plant.scene import Scene
+from osc2tx_runtime.world.plant.scene import Scene, Setpoint
 from osc2tx_runtime.world.protocol import EXTERNAL, FEATURES, ActorSpec, ControlMode, Feature
 from osc2tx_shared.text import say
 
@@ -123,20 +123,21 @@ class CarlaPlant:
         self._report(scene)
         members = self._members.items()
         first = [each for actor, member in members for each in member.first(setpoints[actor])]
-        looked = self._at_rest(self._client.ask("step", first))
+        self._attendance.take_camera(self._client, list(self._members))
+        looked = self._at_rest(self._client.ask("step", [*first, *self._view(setpoints)]))
         self._attendance.wait_for_control(
             self._client,
             [each.actor for each in self._members.values() if each.control == "external"],
             ticks=self._ticks,
         )
-        self._attendance.begin(self._client, list(self._members))
+        self._attendance.start()
         self._begin_autopilot()
         for member in self._members.values():
             if member.is_measured:
                 self._client.ask("watch_collisions", member.actor)
         kicks = [each for actor, member in members for each in member.kick(setpoints[actor])]
         self._client.ask("apply", kicks)
-        self._surroundings.begin()
+        self._surroundings.begin(ticks=self._ticks)
         self._start = looked["time"]
         return {
             actor: found if self._members[actor].foreign else found._replace(velocity=(v, 0.0, 0.0))
@@ -180,9 +181,7 @@ class CarlaPlant:
             for each in member.commands(setpoints[actor], self._dt)
         ]
         batch += self._surroundings.commands(scene, self._members)
-        viewed = self._attendance.viewed
-        if viewed is not None:
-            batch += self._attendance.view(self._members[viewed].pose(setpoints[viewed].state))
+        batch += self._view(setpoints)
         self._attendance.pause(self._dt)
         looked = self._client.ask("step", batch)
         if looked["skipped"]:
@@ -201,12 +200,24 @@ class CarlaPlant:
         self._note_collisions(scene, looked)
         return self._measured(looked, scene)
 
+    def _view(self, setpoints: Mapping[str, Setpoint]) -> list[Command]:
+        viewed = self._attendance.viewed
+        if viewed is None:
+            return []
+        return self._attendance.view(self._members[viewed].pose(setpoints[viewed].state))
+
     def _measured(self, looked: Mapping[str, Any], scene: Scene) -> Mapping[str, Measurement]:
-        states = dict(looked["actors"])
+        states, dormant = dict(looked["actors"]), looked["dormant"]
         found = {}
         for actor, setpoint in scene.setpoints.items():
             member = self._members[actor]
             state = states.get(member.actor)
+            if member.actor in dormant:
+                raise SimulatorError(
+                    f"{actor} is dormant in CARLA: this level is large, and what is far from its"
+                    ' camera and from actors named "hero" stands still'
+                    f" (--carla-view {actor} takes the camera along)"
+                )
             if state is None:
                 self._removed(actor, scene)
                 if member.now is not None:
