@@ -1,9 +1,14 @@
-"""The first lines of the process: Ctrl-C ends it quietly also while the command line is loaded."""
+"""The first lines of the process.
+
+Ctrl-C ends it quietly also while the command line is loaded, and a check whose answer is known does
+without the command line.
+"""
 
 from __future__ import annotations
 
 import os
 import signal
+import sys
 
 TYPE_CHECKING = False  # see `osc2tx/__init__.py`
 
@@ -17,9 +22,15 @@ def main() -> NoReturn:
     """Run the command line and end the process."""
     try:
         signal.signal(signal.SIGINT, lambda number, frame: os._exit(_INTERRUPTED))
+        from osc2tx.building.answers import Answer
+
+        answer = Answer(sys.argv[1:])
+        code = answer.recall()
+        if code is not None:
+            sys.exit(code)
         from osc2tx.cli import main as run
 
         signal.signal(signal.SIGINT, signal.default_int_handler)
-        run()
+        run(answer=answer)
     except KeyboardInterrupt:  # outside of the commands
         os._exit(_INTERRUPTED)

@@ -10,6 +10,7 @@ from osc2tx.config import (
     FILES_SETTINGS,
     PROJECT_SETTINGS,
     RUN_SETTINGS,
+    TEST_SETTINGS,
     Setting,
 )
 from osc2tx_runtime.running.options import OPTIONS, Option
@@ -43,6 +44,9 @@ max-time = 60
 
 [files."highway/**"]           # for all files of a pattern
 ignore = ["OSC437"]
+
+[files."refused/**"]
+verdict = "failure"            # `osc2tx test` passes if these scenarios fail
 ```
 
 A pattern counts from a folder of `sources` or from the settings file: `*` is any part of a name,
@@ -72,6 +76,9 @@ def render() -> str:
             "For `osc2tx build` without paths or without `--out`, started in the folder of the",
             "settings file or below. Paths are relative to the settings file.\n",
             _table([_row(setting) for setting in PROJECT_SETTINGS]),
+            '## In `[scenarios.NAME]` and `[files."PATTERN"]`\n',
+            "For `osc2tx test`.\n",
+            _table([_row(setting) for setting in TEST_SETTINGS]),
             '## In `[files."PATTERN"]` only\n',
             _table([_row(setting) for setting in FILES_SETTINGS]),
             '## In `[scenarios.NAME.run]` and `[files."PATTERN".run]`\n',
@@ -88,7 +95,8 @@ def render() -> str:
 
 
 def _row(setting: Setting) -> tuple[str, ...]:
-    kind = "list of paths" if setting.is_list else "path"
+    kind = "path" if setting.is_path else "text"
+    kind = f"list of {kind}s" if setting.is_list else kind
     values = ", ".join(f'`"{choice}"`' for choice in setting.choices) or kind
     default = f'`"{setting.choices[0]}"`' if setting.choices else ""
     if setting.is_flag:

@@ -27,10 +27,9 @@ from osc2tx.building.workers import compile_jobs, with_siblings
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Severity
-from osc2tx.support.paths import real_path
+from osc2tx.support.paths import SETTINGS_FILES, real_path
 from osc2tx_shared.classes import dataclass, replace
 
-SETTINGS = ("osc2tx.toml", "pyproject.toml")
 REFUSED_PARTS = ("", ".", "..", ".git")
 """Parts of paths that lead elsewhere or would be a repository."""
 
@@ -149,7 +148,7 @@ def _lay_out(root: Path, commit: str, top: Path) -> Iterator[str]:
 
 def _is_read(entry: Entry) -> bool:
     place = PurePosixPath(entry.path)
-    return place.suffix == ".osc" or place.name in SETTINGS
+    return place.suffix == ".osc" or place.name in SETTINGS_FILES
 
 
 def _leads_inside(top: Path, path: str, goal: str) -> bool:

@@ -7,6 +7,7 @@ import os
 import sys
 import time
 from collections.abc import Iterator
+from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -22,7 +23,7 @@ _KINDS = (".py", ".osc", ".json", ".toml", ".j2", ".xodr")
 # version.
 _OURS = ("osc2tx_shared.classes", "osc2tx_shared.rules", "osc2tx_runtime", "osc2tx_shared.text")
 _LIBRARIES = ("antlr4", "black", "jinja2", "lxml", "pint")
-_STARTED = time.time_ns()
+STARTED = time.time_ns()
 _VERSIONS = f"{__version__} {sys.version_info[:3]}"
 
 
@@ -31,7 +32,8 @@ def digest(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()[:32]
 
 
-def tool_stamp(cache: Path) -> str | None:
+@cache
+def tool_stamp(folder: Path) -> str | None:
     """Return what identifies this osc2tx: its files, its libraries, the Python that runs it.
 
     The version alone would not do: between two versions the compiler, the templates and the
@@ -39,18 +41,20 @@ def tool_stamp(cache: Path) -> str | None:
     the same code have the same stamp; they are read again once sizes or times of files changed, as
     for Python's own cache of compiled modules.
 
+    It is worked out once: this process goes on with the files that it began with.
+
     Args:
-        cache: Folder of the cache, which remembers the stamp of this installation.
+        folder: Folder of the cache, which remembers the stamp of this installation.
 
     Returns:
         The stamp; `None` if it is unknown, as a file changed after this process began.
     """
     files = list(_files())
-    if any(status.st_mtime_ns > _STARTED for _, _, status in files):
+    if any(status.st_mtime_ns > STARTED for _, _, status in files):
         return None
     seen = [f"{path} {status.st_size} {status.st_mtime_ns}" for _, path, status in files]
     place = (
-        cache / "stamps" / digest("\n".join((_VERSIONS, *seen)).encode("utf-8", "surrogateescape"))
+        folder / "stamps" / digest("\n".join((_VERSIONS, *seen)).encode("utf-8", "surrogateescape"))
     )
     known = read_own(place)
     if known is not None and len(known) == 32 and known.isalnum():

@@ -42,7 +42,7 @@ from osc2tx_shared.classes import replace
 if TYPE_CHECKING:
     from osc2tx.options import CompileOptions
 
-FORMAT = 4
+FORMAT = 5
 MOST_RECORDS = 4  # of one text: with imports as several branches have them
 MOST_FILES = 128  # in each of the 256 folders of a kind
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"

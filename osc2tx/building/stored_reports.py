@@ -42,7 +42,8 @@ class ReportWriter:
 
     def scenario(self, entry: ScenarioEntry) -> list[Any]:
         """Return an entry as a list."""
-        return [self._index(entry.source), entry.name, entry.level, list(entry.open), entry.summary]
+        texts = [entry.name, entry.level, list(entry.open), entry.summary]
+        return [self._index(entry.source), *texts, entry.is_runnable, dict(entry.values)]
 
     def sources(self) -> list[Any]:
         """Return the texts after the first: name, path, digest if it is one of the library."""
@@ -112,8 +113,8 @@ class ReportReader:
 
     def scenario(self, entry: Sequence[Any]) -> ScenarioEntry:
         """Return the level of a scenario."""
-        index, name, level, openings, summary = entry
-        return ScenarioEntry(self._sources[index], name, level, tuple(openings), summary)
+        index, name, level, openings, *others = entry
+        return ScenarioEntry(self._sources[index], name, level, tuple(openings), *others)
 
     def _span(self, place: Sequence[int]) -> Span:
         index, start, end = place

@@ -11,9 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from osc2tx.building.results import FileResult
-from osc2tx.support.paths import real_path
-
-SETTINGS = ("osc2tx.toml", "pyproject.toml")
+from osc2tx.support.paths import SETTINGS_FILES, real_path
 
 Snapshot = dict[str, tuple[int, int] | None]
 
@@ -52,12 +50,12 @@ def _snapshot(paths: Sequence[str | Path], files: Iterable[str]) -> Snapshot:
     for path in map(Path, paths):
         found[str(path)] = None if path.is_dir() else _stamp(str(path))
         for parent in (path, *real_path(path).parents):
-            for name in SETTINGS:
+            for name in SETTINGS_FILES:
                 found[str(parent / name)] = _stamp(str(parent / name))
         for folder, folders, names in os.walk(path):
             folders[:] = [name for name in folders if not name.startswith(".")]
             for name in names:
-                if name.endswith(".osc") or name in SETTINGS:
+                if name.endswith(".osc") or name in SETTINGS_FILES:
                     place = os.path.join(folder, name)
                     found[place] = _stamp(place)
     return found

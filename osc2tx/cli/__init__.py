@@ -19,6 +19,7 @@ from typing import NoReturn
 
 import click
 
+from osc2tx.building.answers import Answer
 from osc2tx.cli.reporting import BUG_REPORT, Exit, Session, report_failure
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError
@@ -33,11 +34,13 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "check": ("osc2tx.cli.check:check", "Report errors and warnings in scenario files."),
     "build": ("osc2tx.cli.build:build", "Write a py_trees module for every scenario file."),
     "run": ("osc2tx.cli.run:run", "Run a scenario in the embedded world."),
+    "test": ("osc2tx.cli.test:test", "Run scenarios as tests; fail if one does not end well."),
     "campaign": ("osc2tx.cli.campaign:campaign", "Run a scenario many times, with other values."),
     "verify": ("osc2tx.cli.verify:verify", "Check whether a trace does what its scenario states."),
     "report": ("osc2tx.cli.report:report", "Make pages of traces: one run, two, or a folder."),
     "fmt": ("osc2tx.cli.fmt:fmt", "Lay scenario files out in the style of the standard."),
     "tree": ("osc2tx.cli.tree:tree", "Draw the behavior tree of a scenario."),
+    "graph": ("osc2tx.cli.graph:graph", "Show who uses what in a project."),
     "map": ("osc2tx.cli.map:map", "Describe a road map, and report its errors."),
     "world": ("osc2tx.cli.world:world", "Check a simulator against the requirements of runs."),
     "config": ("osc2tx.cli.config:config", "Show the effective settings and their origins."),
@@ -85,17 +88,22 @@ def cli() -> None:
     """Compile OpenSCENARIO DSL into readable py_trees modules, and run them."""
 
 
-def main(arguments: Sequence[str] | None = None) -> NoReturn:
-    """Run the command line and end the process."""
+def main(arguments: Sequence[str] | None = None, answer: Answer | None = None) -> NoReturn:
+    """Run the command line and end the process.
+
+    Args:
+        arguments: The command line; that of the process if left out.
+        answer: Where the answer to it is kept, if it is one to keep.
+    """
     gc.set_threshold(200_000, 30, 30)  # objects made at start stay: collect rarely
-    code = _exit_code(sys.argv[1:] if arguments is None else arguments)
+    session = Session(answer=answer)
+    code = _exit_code(sys.argv[1:] if arguments is None else arguments, session)
     gc.freeze()  # the process ends: no need to look for garbage in large trees
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # and there is nothing left to interrupt
     sys.exit(code)
 
 
-def _exit_code(arguments: Sequence[str]) -> int:
-    session = Session()
+def _exit_code(arguments: Sequence[str], session: Session) -> int:
     try:
         if PRINTED_BY_CLICK.intersection(arguments):
             expect_output()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,8 @@ import click
 from osc2tx.building.jobs import find_jobs, run_all
 from osc2tx.building.result_cache import check_jobs
 from osc2tx.cli.options import (
+    affected_option,
+    affected_sources,
     cache_option,
     compile_options,
     sources_or_stated,
@@ -25,8 +28,11 @@ from osc2tx.cli.standard_input import (
 )
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx_shared.cache import cache_folder
+from osc2tx_shared.text import StreamName, recorded
 
 if TYPE_CHECKING:
+    from osc2tx.building.answers import Answer
+    from osc2tx.building.results import FileResult
     from osc2tx.compilation.driver import Compilation
 
 
@@ -34,6 +40,7 @@ if TYPE_CHECKING:
 @click.argument("paths", metavar="[PATH]...", nargs=-1, type=click.Path())
 @compile_options
 @target_options
+@affected_option
 @click.option("--no-cache", is_flag=True, help="Check unchanged files again as well.")
 @cache_option
 @workers_option
@@ -42,6 +49,7 @@ if TYPE_CHECKING:
 def check(
     paths: tuple[str, ...],
     given: GivenOptions,
+    affected: str | None,
     no_cache: bool,
     cache: Path | None,
     workers: int | None,
@@ -54,7 +62,8 @@ def check(
     """
     if is_standard_input(paths, stdin_filename):
         return _check_input(compilation_of_standard_input(stdin_filename, given), reporter)
-    paths = sources_or_stated(paths, "check")
+    asked = sources_or_stated(paths, "check")
+    paths = affected_sources(asked, affected, given)
     configs = ConfigFiles()
     jobs = find_jobs(paths, given, configs)
     is_kept = not no_cache and cache_folder(cache) is not None
@@ -67,14 +76,34 @@ def check(
             configs=configs,
             cache=cache,
         )
-    code, report = reporter.report(results, [result.bug for result in results if result.bug])
-    for result in results:
-        for entry in result.scenarios:
-            reporter.say(f"{result.job.name}: {entry.summary}")
-    reporter.say(f"checked {count_of(len(results), 'file')}: {found(report)}")
+    with recorded() as printed:
+        code, report = reporter.report(results, [result.bug for result in results if result.bug])
+        for result in results:
+            for entry in result.scenarios:
+                reporter.say(f"{result.job.name}: {entry.summary}")
+        reporter.say(f"checked {count_of(len(results), 'file')}: {found(report)}")
     if any(Path(path).is_dir() for path in paths):
-        code = max(code, reporter.warn(configs.unmatched_tables()))
+        return max(code, reporter.warn(configs.unmatched_tables()))
+    if is_kept and cache is None and reporter.session.answer is not None:
+        _keep_answer(reporter.session.answer, code, printed, results)
     return code
+
+
+def _keep_answer(
+    answer: Answer,
+    code: Exit,
+    printed: Sequence[tuple[StreamName, str]],
+    results: Sequence[FileResult],
+) -> None:
+    """Keep what was printed on files, if all that decides it is known."""
+    files: list[str] = []
+    for result in results:
+        if result.bug or result.dependencies is None or result.source is None:
+            return
+        links = (*result.job.roots, *map(Path, result.job.options.import_paths))
+        files += [str(result.job.path), *map(str, links)]
+        files += [each.asked for each in result.dependencies if each.found]
+    answer.keep(code, printed, files)
 
 
 def _check_input(compilation: Compilation, reporter: Reporter) -> Exit:

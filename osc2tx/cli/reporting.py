@@ -17,6 +17,7 @@ from typing import Any, Literal, TypeAlias, get_args
 
 import click
 
+from osc2tx.building.answers import Answer
 from osc2tx.compilation.file_reports import Reportable, apply_suppressions
 from osc2tx.diagnostics import Severity
 from osc2tx.diagnostics.report import FileFault, Report, display_name, make_report
@@ -73,9 +74,11 @@ class Session:
 
     Attributes:
         has_document: Whether a program that reads our output has got its document.
+        answer: Where the answer to the command line is kept.
     """
 
     has_document: bool = False
+    answer: Answer | None = None
 
 
 @dataclass(frozen=True, slots=True)

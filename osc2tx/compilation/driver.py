@@ -326,6 +326,11 @@ class Compilation:
     @property
     def scenarios(self) -> tuple[ScenarioEntry, ...]:
         """The levels as plain data, for reports."""
+        if not self.levels or self.model is None or self.analysis is None:
+            return ()
+        from osc2tx.analysis.fixed_values import fixed_values
+
+        runnable = self._runnable()
         return tuple(
             ScenarioEntry(
                 source=found.scenario.span.source,
@@ -333,8 +338,23 @@ class Compilation:
                 level=found.level.value,
                 open=tuple(opening.text for opening in found.open),
                 summary=str(found),
+                is_runnable=(
+                    found.scenario.actor is None and found.scenario.qualified_name in runnable
+                ),
+                values=fixed_values(self.model, found.scenario, self.analysis.constraints),
             )
             for found in self.levels
+        )
+
+    def _runnable(self) -> frozenset[str]:
+        """Return the scenarios that can run by themselves, as far as they were lowered."""
+        lowered = self.__dict__.get("ir")
+        if lowered is None:
+            return frozenset()
+        return frozenset(
+            each.name
+            for each in lowered.scenarios
+            if not (each.is_invoked or each.is_imported or each.is_action)
         )
 
     @property

@@ -25,6 +25,7 @@ from osc2tx.config.settings import (
     FILES_SETTINGS,
     PROJECT_SETTINGS,
     RUN_SETTINGS,
+    TEST_SETTINGS,
     Setting,
 )
 
@@ -34,6 +35,7 @@ __all__ = [
     "FILES_SETTINGS",
     "PROJECT_SETTINGS",
     "RUN_SETTINGS",
+    "TEST_SETTINGS",
     "Config",
     "ConfigError",
     "ConfigFiles",

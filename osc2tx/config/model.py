@@ -9,7 +9,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from osc2tx.config.settings import COMPILE_SETTINGS, RUN_SETTINGS
+from osc2tx.config.settings import COMPILE_SETTINGS, RUN_SETTINGS, VERDICTS
 from osc2tx.options import ONLY_VERSIONS, CompileOptions, XmlOptions
 from osc2tx.support.paths import real_path
 from osc2tx_shared.classes import dataclass, replace
@@ -86,12 +86,14 @@ class ScenarioConfig:
         run: Run option to its text, in the syntax of the command line.
         campaign: Option of `osc2tx campaign run`, likewise.
         ignore: Codes of warnings that are not reported.
+        verdict: What a test of its scenarios is to end with.
     """
 
     options: GivenOptions = GivenOptions()
     run: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     campaign: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     ignore: tuple[str, ...] = ()
+    verdict: str | None = None
 
     def given(self) -> GivenOptions:
         """Return its compile options, and its run options as far as XML holds them."""
@@ -208,6 +210,16 @@ class Config:
         """Return the codes of warnings that are not reported in a file."""
         return frozenset(code for _, table in self.tables_for(source) for code in table.ignore)
 
+    def verdict(self, source: Path) -> str:
+        """Return what a test of the scenarios of a file is to end with."""
+        stated = (table.verdict for _, table in self.tables_for(source))
+        return next((each for each in stated if each is not None), VERDICTS[0])
+
+    def is_source(self, path: Path) -> bool:
+        """Return whether a file is one of the `sources`, or below one."""
+        place = real_path(path.parent) / path.name
+        return any(place.is_relative_to(real_path(source)) for source in self.sources)
+
     def settings_in_force(self, source: Path | None, given: GivenOptions) -> Iterator[InForce]:
         """Yield what counts for a file, or for a folder, with where it is from."""
         tables = self.tables_for(source) if source else []
@@ -239,6 +251,10 @@ class Config:
         for name, table in tables:
             if table.ignore:
                 yield InForce("ignore", list(table.ignore), self._origin(name))
+        for name, table in tables:
+            if table.verdict is not None:
+                yield InForce("verdict", table.verdict, self._origin(name))
+                break
 
     def _origin(self, table: str) -> Origin:
         return Origin(".".join(part for part in (self.prefix, table) if part), self.path)

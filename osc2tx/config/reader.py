@@ -14,11 +14,12 @@ from osc2tx.config.settings import (
     PROJECT_SETTINGS,
     RUN_SETTINGS,
     TABLES,
+    TEST_SETTINGS,
     Setting,
 )
 from osc2tx.diagnostics import CODES, Severity
 from osc2tx.diagnostics.suggestions import did_you_mean
-from osc2tx.support.paths import real_path
+from osc2tx.support.paths import SETTINGS_FILES, real_path
 
 EMBEDDED = "embedded"  # the world whose options are all known here
 
@@ -29,7 +30,7 @@ def read_folder(folder: Path) -> Config | None:
     Raises:
         ConfigError: If it is unreadable or says something unknown.
     """
-    own, project = folder / "osc2tx.toml", folder / "pyproject.toml"
+    own, project = (folder / name for name in SETTINGS_FILES)
     if own.is_file():
         return _Reader(own, "").config(_read_toml(own))
     if project.is_file():
@@ -88,7 +89,7 @@ class _Reader:
     def _scenario(
         self, where: tuple[str, ...], table: object, more: Sequence[Setting] = ()
     ) -> ScenarioConfig:
-        keys = [setting.key for setting in (*COMPILE_SETTINGS, *more)]
+        keys = [setting.key for setting in (*COMPILE_SETTINGS, *TEST_SETTINGS, *more)]
         checked = self._table(table, where, (*keys, "run", "campaign"))
         inner = (*where, "run")
         settings = {item.key: item for item in RUN_SETTINGS}
@@ -102,6 +103,7 @@ class _Reader:
             {key: texts[key] for key in run},
             self._campaign(checked.get("campaign", {}), (*where, "campaign")),
             self._ignored(self._texts(checked, more, where).get("ignore", ()), where),
+            self._chosen(TEST_SETTINGS, checked, where).get("verdict"),
         )
 
     def _ignored(self, codes: tuple[str, ...], where: tuple[str, ...]) -> tuple[str, ...]:
@@ -124,8 +126,14 @@ class _Reader:
         return Setting(key, is_list=is_list, is_flag=is_flag, is_single=not (is_list or is_flag))
 
     def _options(self, table: Mapping[str, object], where: tuple[str, ...]) -> GivenOptions:
+        return GivenOptions(**self._chosen(COMPILE_SETTINGS, table, where))
+
+    def _chosen(
+        self, settings: Sequence[Setting], table: Mapping[str, object], where: tuple[str, ...]
+    ) -> dict[str, Any]:
+        """Return the values of those settings that are there."""
         found: dict[str, Any] = {}
-        for setting in COMPILE_SETTINGS:
+        for setting in settings:
             if setting.key not in table:
                 continue
             value = table[setting.key]
@@ -139,7 +147,7 @@ class _Reader:
                 problem = f"`{setting.key}` is {_shown(value)}: write {_any_of(setting.choices)}"
                 raise self._error(where, problem)
             found[setting.key] = str(value)
-        return GivenOptions(**found)
+        return found
 
     def _texts(
         self, table: Mapping[str, object], settings: Sequence[Setting], where: tuple[str, ...]

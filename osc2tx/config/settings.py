@@ -70,6 +70,11 @@ PROJECT_SETTINGS = (
     Setting("out", "Folder of the outputs.", is_path=True),
     Setting("map_paths", "Folders with maps, for all commands.", is_list=True, is_path=True),
 )
+VERDICTS = ("success", "failure", "timeout", "error", "skip")
+# In the tables of scenarios and of patterns of files.
+TEST_SETTINGS = (
+    Setting("verdict", "Expected result of a test; `skip`: no test of these files.", VERDICTS),
+)
 # In the table of a pattern of files, besides those of a scenario.
 FILES_SETTINGS = (
     Setting("ignore", "Codes of warnings that are not reported in these files.", is_list=True),

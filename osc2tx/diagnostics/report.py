@@ -17,13 +17,25 @@ MOST_FILES_APART = 5  # with the same diagnostic; of more, it is shown once
 
 @dataclass(frozen=True, slots=True)
 class ScenarioEntry:
-    """A scenario: its file, its name, its level (§6.3), its open values, and a summary line."""
+    """A scenario of a file.
+
+    Attributes:
+        source: The file.
+        name: Its name.
+        level: How far it is worked out (§6.3).
+        open: What is open.
+        summary: All this in one line.
+        is_runnable: Whether it can run by itself and no other one of the file invokes it.
+        values: What it fixes, by path, as one would write it.
+    """
 
     source: SourceFile
     name: str
     level: str
     open: tuple[str, ...]
     summary: str = ""
+    is_runnable: bool = False
+    values: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

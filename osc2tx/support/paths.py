@@ -1,10 +1,13 @@
-"""How the names of generated files end."""
+"""Names of settings files and of generated files, and paths without links."""
 
 from __future__ import annotations
 
 import os
 import re
 from pathlib import Path
+
+SETTINGS_FILES = ("osc2tx.toml", "pyproject.toml")
+"""Names of settings files; in one folder, the first that is there counts."""
 
 MODULE = ".py"
 SOURCE_MAP = ".map.json"

@@ -51,10 +51,13 @@ _OPTION = "--update-generated"
 _updates = False  # whether pytest was started with it
 
 
-def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the option; called by pytest."""
+def pytest_addoption(parser: pytest.Parser, pluginmanager: pytest.PytestPluginManager) -> None:
+    """Add the option, and those of scenarios as tests; called by pytest."""
     help = "let assert_build_fresh write what differs instead of failing"
     parser.getgroup("osc2tx").addoption(_OPTION, action="store_true", help=help)
+    from osc2tx.testing import scenario_tests
+
+    pluginmanager.register(scenario_tests, "osc2tx-scenarios")
 
 
 def pytest_configure(config: pytest.Config) -> None:

@@ -29,7 +29,8 @@ MAY_IMPORT: dict[str, set[str]] = {
     "ir": {"diagnostics"},
     "lowering": {"analysis", "catalogue", "ir", "semantics", "syntax.ast"}
     | {"diagnostics", "options"},
-    "backends": {"catalogue", "diagnostics", "ir", "options", "resources", "support"},
+    "xosc": {"diagnostics", "options"},
+    "backends": {"catalogue", "diagnostics", "ir", "options", "resources", "support", "xosc"},
     # what runs them
     "formatter": {"diagnostics", "syntax"},
     "config": {"diagnostics", "options", "support"},
@@ -41,10 +42,11 @@ MAY_IMPORT: dict[str, set[str]] = {
     "campaigns": {"version"},
     "cli": {"backends", "building", "campaigns", "compilation", "config", "reference"}
     | {"diagnostics", "options", "resources", "support", "version"},
-    "start": {"cli"},
+    "start": {"building", "cli"},
     "__main__": {"start"},
     "api": {"building", "compilation", "config", "diagnostics", "options", "support"},
-    "testing": {"building", "cli", "compilation", "config", "diagnostics"} | {"campaigns"},
+    "testing": {"building", "cli", "compilation", "config", "diagnostics"}
+    | {"campaigns", "support"},
     "": {"api", "diagnostics", "version"},
 }
 
@@ -55,10 +57,9 @@ OTHERS = {
     "semantics": {"pint"},
     "backends/py_trees": {"black", "jinja2"},
     "backends/xosc/facts": {"osc2tx_runtime"},  # sizes, courses and maps are the world's own
-    "backends/xosc/xml": {"lxml"},
     # rows are chosen here, run there
     "campaigns": {"distributed", "optuna", "osc2tx_runtime", "scipy"},
-    "cli": {"click", "osc2tx_runtime", "rich"},
+    "cli": {"click", "osc2tx_runtime", "pytest", "rich"},
     "testing": {"osc2tx_runtime", "pytest"},
 }
 

@@ -63,6 +63,18 @@ def format_free(model: SemanticModel, parameter: ParameterDomain) -> str:
     return parameter.name
 
 
+def format_value(model: SemanticModel, parameter: ParameterDomain) -> str:
+    """Return the value of a fixed parameter: `high`, `60kph`, `true`; a string without quotes."""
+    value = parameter.value
+    if isinstance(value, sym.EnumMemberSymbol):
+        return value.name
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return value if isinstance(value, str) else str(value).lower()
+    unit = unit_of(model, parameter.constraints)
+    fits = unit is not None and unit.type == parameter.type
+    return format_number(value, unit if fits else None)
+
+
 def unit_of(model: SemanticModel, constraints: tuple[Constraint, ...]) -> sym.UnitSymbol | None:
     """Return the unit that the last of some constraints uses."""
     for constraint in reversed(constraints):

@@ -37,6 +37,8 @@ def render_json(report: Report, *, version: str) -> str:
                 "name": entry.name,
                 "level": entry.level,
                 "open": list(entry.open),
+                "runnable": entry.is_runnable,
+                "values": dict(entry.values),
             }
             for entry in report.scenarios
         ],

@@ -11,6 +11,7 @@ from osc2tx.lowering.behavior.durations import with_bounds
 from osc2tx.lowering.context import LoweringContext, Receiver, present, statement_comments
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.lowering.values.expressions import lower_expression
+from osc2tx.lowering.values.references import path_of
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
 
@@ -142,7 +143,7 @@ def event_of_object(
         object_ = lower_expression(ctx, path.base)
     else:
         object_ = None if ctx.receiver is None else ctx.receiver.value
-    name = None if object_ is None else _path_of(object_)
+    name = None if object_ is None else path_of(object_)
     if object_ is None or name is None:
         ctx.unsupported(
             "OSC506",
@@ -183,16 +184,6 @@ def event_parameter(ctx: LoweringContext, parameter: sym.ParameterSymbol) -> ir.
         type=lower_type(parameter.type),
         default=None if default is None else lower_expression(ctx, default),
     )
-
-
-def _path_of(object_: ir.Expression) -> str | None:
-    match object_:
-        case ir.FieldRef(name=name):
-            return name
-        case ir.Attribute(base=base, name=name) if (path := _path_of(base)) is not None:
-            return f"{path}.{name}"
-        case _:
-            return None
 
 
 def _lower_condition(ctx: LoweringContext, node: ast.EventCondition) -> ir.Condition | None:

@@ -31,7 +31,13 @@ from osc2tx.lowering.constraints.parameter_domains import (
     as_type,
     written_domain,
 )
-from osc2tx.lowering.constraints.parameter_settings import Instance, Setting, is_known_here, is_last
+from osc2tx.lowering.constraints.parameter_settings import (
+    Instance,
+    Setting,
+    is_known_here,
+    is_last,
+    is_last_of_object,
+)
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.declarations.map_fields import NOT_SEARCHED_BY, SEARCHED_BY, reads_map
 from osc2tx.lowering.values.expressions import lower_expression
@@ -241,12 +247,18 @@ class ConstraintLowering:
         self._used.update(found[1])
         return found[0]
 
-    def _earlier(self, key: Key) -> list[Constraint]:
-        """Return the constraints that relate a parameter to earlier ones."""
+    def _earlier(self, key: Key, *, among_members: bool = False) -> list[Constraint]:
+        """Return the constraints that relate a parameter to earlier ones.
+
+        Args:
+            key: The parameter.
+            among_members: Also those that relate a member to earlier ones of the same object.
+        """
         found = []
         for constraint in self.found.by_key.get(key, ()):
             others = [k for k in constraint.operations.keys if k != key]
             after = isinstance(key[0], ast.Node) or is_last(key, others)
+            after = after or (among_members and is_last_of_object(key, others))
             if others and after and not constraint.is_default:
                 found.append(constraint)
         return found
@@ -288,7 +300,8 @@ class ConstraintLowering:
 
     def _by_cases(self, key: Key, type_: types.Type) -> ir.Expression | None:
         """Return what a parameter is in each of the cases that constraints tell apart."""
-        cases = cases_of(self.ctx, self._earlier(key), key, type_)
+        constraints = self._earlier(key, among_members=True)
+        cases = cases_of(self.ctx, constraints, key, type_)
         self._used.update(case.constraint for case in cases)
         return value_by_cases(cases) if cases else None
 

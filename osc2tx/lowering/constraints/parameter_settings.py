@@ -50,10 +50,18 @@ def is_known_here(constraint: Constraint, key: Key) -> bool:
 
 def is_last(key: Key, others: list[Key]) -> bool:
     """Whether a plain parameter stands below others in the same text."""
-    last = key[0]
-    return isinstance(last, sym.FieldSymbol) and all(
-        isinstance(first, sym.FieldSymbol)
-        and first.span.source == last.span.source
-        and first.span.start < last.span.start
-        for first, *_ in others
+    return all(_is_above(first, key[0]) for first, *_ in others)
+
+
+def is_last_of_object(key: Key, others: list[Key]) -> bool:
+    """Whether a member stands below other members of the same object."""
+    return all(other[:-1] == key[:-1] and _is_above(other[-1], key[-1]) for other in others)
+
+
+def _is_above(upper: sym.Symbol | ast.Node, lower: sym.Symbol | ast.Node) -> bool:
+    return (
+        isinstance(upper, sym.FieldSymbol)
+        and isinstance(lower, sym.FieldSymbol)
+        and upper.span.source == lower.span.source
+        and upper.span.start < lower.span.start
     )

@@ -284,13 +284,30 @@ def _without_object(
         values.append(
             ir.FieldValue(
                 path=each.path,
-                value=ir.rewrite(each.value, replacement),
+                value=_decided(ir.rewrite(each.value, replacement)),
                 span=each.span,
                 comments=each.comments,
             )
         )
         pending.pop()
     return tuple(values)
+
+
+def _decided(value: ir.Expression) -> ir.Expression:
+    """Return the case that counts of a value by cases, where both sides of a condition are known.
+
+    Fields of the same object that have their defaults are known: no run sets them.
+    """
+    while isinstance(value, ir.Conditional) and isinstance(value.condition, ir.Binary):
+        sides = [_constant(side) for side in (value.condition.left, value.condition.right)]
+        if value.condition.operator != "==" or None in sides:
+            break
+        value = value.when_true if sides[0] == sides[1] else value.when_false
+    return value
+
+
+def _constant(value: ir.Expression) -> bool | int | float | str | None:
+    return value.value if isinstance(value, ir.Literal | ir.EnumValue) else None
 
 
 def _default_at(

@@ -2,8 +2,8 @@
 
 In order of control flow: a `scenario` (`scenario_values`, `scenario_parts`) makes its tree of the
 nodes in `tree`; `registry` finds the class of an `action` by its `method`. All nodes share the
-`context` of a run: its `settings`, its `slots` and its `trace`, and who is `resting`. What the
-language needs of actors and of modifiers is in `declared` and `modifier`; `source_map` says which
+`context` of a run: its `settings`, its `slots` and its `trace`, and the nodes that are `resting`.
+The language's view of actors and modifiers is in `declared` and `modifier`; `source_map` says which
 line of the scenario is which.
 """
 

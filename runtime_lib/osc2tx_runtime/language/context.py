@@ -1,12 +1,12 @@
 """The state of one run that all nodes share: clock, events, slots, effects.
 
-Nothing a node does in a pass may change what another node reads in the same pass. So nodes hand
-their wishes in here:
+No action of a node in a pass may change the values that another node reads in the same pass. So
+nodes hand in their requests here:
 
 - `post`, `assign`: an event, a new value become visible with the next pass;
-- `effect`: a change of state at one instant (assign_speed, set_lights), carried out together with
-  all others once the events of the instant have come to rest; a new snapshot follows;
-- `claim`, `command`, `release`: who moves an actor, from the settled instant on (`commit`).
+- `effect`: a change of state at one instant (assign_speed, set_lights), applied together with
+  all others once no event of the instant is pending; a new snapshot follows;
+- `claim`, `command`, `release`: the owners of slots, from the settled instant on (`commit`).
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ MAX_PASSES = 1000
 
 
 class PostedEvent(Protocol):
-    """What a run needs of an event."""
+    """The interface of an event for a run."""
 
     name: str
 
@@ -42,7 +42,7 @@ class PostedEvent(Protocol):
         ...
 
     def problem(self, given: Iterable[str]) -> str:
-        """Return what is wrong with the names of arguments."""
+        """Return the error in the names of arguments."""
         ...
 
     def complete(self, given: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -51,14 +51,14 @@ class PostedEvent(Protocol):
 
 
 class AssignedVariable(Protocol):
-    """What a run needs of a sampled variable."""
+    """The interface of a sampled variable for a run."""
 
     name: str
     value: Any
 
 
 class Monitors(Protocol):
-    """What a run needs of what checks the phases of actions."""
+    """The interface of a checker of the phases of actions."""
 
     def begins(self, action: Any) -> None:
         """Take note of the start of an action."""
@@ -69,7 +69,7 @@ class Monitors(Protocol):
         ...
 
     def leaves(self, action: Any) -> None:
-        """Take note that it is cut short."""
+        """Note that it is interrupted."""
         ...
 
     def observe(self) -> None:
@@ -81,10 +81,10 @@ class ExecutionContext:
     """One run.
 
     Attributes:
-        world: The world; its snapshot is that of the present step.
+        world: The world; its snapshot is the present step.
         settings: Settings of the run.
         actors: Actors by id, in the order of their declaration.
-        objects: What the scenario declares of the map.
+        objects: Parts of the map that the scenario declares.
         events: Declared events by name.
         trace: Takes the lines of the trace.
         dt: Length of a step in seconds.
@@ -101,10 +101,10 @@ class ExecutionContext:
         random: Seeded generator. For draws inside nodes use `random_for`: two parallel nodes
             that draw from one generator would depend on the order of their visit.
         collisions: Time in seconds and the two actors of each new contact.
-        first_come: What has a duration or an `until` ends with whichever comes first.
-        label_events: (label, `start` | `end` | `fail`) to the event somebody waits for.
-        resting: Who in the tree has nothing to do until it is woken.
-        monitors: Checks the phases of actions; None: nobody does.
+        first_come: Members with a duration or an `until` end with whichever comes first.
+        label_events: (label, `start` | `end` | `fail`) to the event that is waited for.
+        resting: Nodes of the tree without work until they are woken.
+        monitors: Checks the phases of actions; None: no checks.
     """
 
     def __init__(
@@ -161,7 +161,7 @@ class ExecutionContext:
         return whole_steps(seconds, self.dt)
 
     def due(self, seconds: float, late: float) -> tuple[int, float]:
-        """Return the step at which so many seconds are over that begin now, and how late that is.
+        """Return the first step at or after a time (s) from now, and how late it is.
 
         Args:
             seconds: How long.
@@ -174,7 +174,7 @@ class ExecutionContext:
     def cast(self) -> tuple[str, ...]:
         """Return the ids of the placed actors, in the order of their declaration.
 
-        Those of invoked scenarios come last, by path.
+        Actors of invoked scenarios come last, by path.
         """
         if self._cast is None:
             placed = set(self.world.actors())
@@ -284,7 +284,7 @@ class ExecutionContext:
         self.settled = True
         return True
 
-    # --- who controls what ---
+    # --- owners of slots ---
 
     def claim(self, actor_id: str, slot: str, owner: Owner) -> None:
         """Make an action the owner of a slot; two live owners at a settled instant conflict."""
@@ -296,9 +296,9 @@ class ExecutionContext:
         """Give a slot up. Without a new owner the actor holds its speed or keeps its lane.
 
         Args:
-            actor_id: Who is moved.
-            slot: How.
-            owner: Who had it.
+            actor_id: The actor.
+            slot: The slot.
+            owner: The previous owner.
             momentary: It had it for no time, to change a state.
         """
         self.slots.release((actor_id, slot), owner)
@@ -334,15 +334,15 @@ class ExecutionContext:
         """Ask for a change of state at this instant.
 
         Args:
-            key: What changes, as in ("speed", "hero").
-            owner: Who wants it.
-            value: New value: two actions that are not in sequence may only want equal ones.
-            apply: Carries it out at this instant: calls of the world and the trace.
+            key: The changed quantity, as in ("speed", "hero").
+            owner: The action that changes it.
+            value: New value: two actions that are not in sequence may only set equal ones.
+            apply: Applies it at this instant: calls of the world and the trace.
         """
         self.effects.add(key, Effect(owner, value, apply))
 
     def commit(self) -> None:
-        """Carry out what the settled instant brought."""
+        """Apply the results of the settled instant."""
         self.slots.send(self.world)
 
     def note_collision(self, step: int, one: str, other: str) -> None:

@@ -15,7 +15,7 @@ class _NotGiven:
 
 
 not_given: Any = _NotGiven()
-"""What a field of a user's own type is that its file never speaks of, and that nobody gives."""
+"""Value of a field of a user's own type that is neither mentioned in its file nor given."""
 
 
 class DeclaredObject:
@@ -29,7 +29,7 @@ class DeclaredObject:
 
 
 class BaseActor(DeclaredObject):
-    """What the language knows of an actor; the domain model says what it is.
+    """The language's view of an actor; the domain model extends it.
 
     Args:
         name: Role name.
@@ -58,7 +58,7 @@ def as_type(value: object, kind: type[ObjectT]) -> ObjectT:
     """Return an actor or a struct as one of a more special type.
 
     Raises:
-        ScenarioError: If it is none.
+        ScenarioError: If there is none.
     """
     if isinstance(value, kind):
         return value

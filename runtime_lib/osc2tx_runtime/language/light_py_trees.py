@@ -1,8 +1,8 @@
-"""py_trees without what only its viewers and demos need, until somebody asks for that.
+"""py_trees without the modules of its viewers and demos, which are loaded on first use.
 
 `import py_trees` loads all of its modules, and with them pydot and multiprocessing: a fifth of the
 start of a run, which needs five of its modules. Imported from here, each of the others is loaded
-when one of its names is first used; nobody sees a difference.
+when one of its names is first used; the difference is invisible.
 """
 
 from __future__ import annotations

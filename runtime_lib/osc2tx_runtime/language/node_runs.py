@@ -41,7 +41,7 @@ class NodeRuns:
         """Return the nodes of a tree as a JSON array.
 
         Args:
-            nodes: Each node and what `OutlineNode` says of it, parents before members.
+            nodes: Each node with its `OutlineNode`, parents before members.
         """
         found = []
         for node, words in nodes:

@@ -21,10 +21,10 @@ class OutlineNode:
         node: The node itself.
         last: For each level from the root down, whether the branch ends there.
         kind: `serial`, `action`, `wait`, …
-        text: What the node is called or does.
-        label: The label of an action or a directive, which `text` begins with; empty without one.
-            What a composition is called is its text.
-        source: Where the scenario says so, `file:line`; empty if nothing is known.
+        text: Name of the node, or what it does.
+        label: The label of an action or a directive, with which `text` begins; empty without one.
+            The name of a composition is its text.
+        source: Position in the scenario, `file:line`; empty if unknown.
     """
 
     node: Behaviour
@@ -35,7 +35,7 @@ class OutlineNode:
     source: str
 
     def words(self) -> dict[str, int | str]:
-        """Return what the trace says of the node: a label only if it has one."""
+        """Return the fields of the node in the trace: a label only if it has one."""
         words: dict[str, int | str] = {"depth": len(self.last), "kind": self.kind}
         words["text"] = self.text
         if self.label:
@@ -74,7 +74,7 @@ def _label(node: Behaviour) -> str:
 
 
 def _text(node: Behaviour) -> str:
-    """The name, without what the kind says already; a label with what is done under it."""
+    """The name, without the kind if it repeats it; a label with the activity under it."""
     kind, label = _kind(node), _label(node)
     if isinstance(node, BaseAction) and label:
         return f"{label}: {node.action_name}"

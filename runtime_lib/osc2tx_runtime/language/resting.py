@@ -1,9 +1,9 @@
 """Nodes that have nothing to do, and what wakes them.
 
-A node that would only find out again that nothing has changed rests; a composition whose members
-all rest does so too, and a tree that rests as a whole is not visited. What a node waits for is
-asked here, in each pass, or comes by itself: news of an actor, a time. Events, new values of
-variables and effects wake all.
+A node without any change to find rests; a composition whose members all rest does so too, and a
+tree that rests as a whole is not visited. The conditions of a node are checked here, in each pass,
+or arrive by themselves: news of an actor, a time. Events, new values of variables and effects wake
+all.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ NEVER = sys.maxsize
 
 
 class Resting:
-    """Who rests.
+    """The resting nodes.
 
     Attributes:
-        nodes: They; nobody needs to pulse them.
+        nodes: The nodes; they need no pulse.
     """
 
     def __init__(self) -> None:
@@ -87,7 +87,7 @@ class Resting:
             above = above.parent
 
     def wake_all(self) -> None:
-        """Have all visited again; those who have nothing to do come back."""
+        """Have all nodes visited again; nodes without work come back."""
         self.nodes.clear()
         self._with.clear()
         self._until.clear()

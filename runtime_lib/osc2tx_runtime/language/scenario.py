@@ -39,7 +39,7 @@ class BaseScenario(ScenarioParts):
         settings: Of the run.
         caller: The scenario that invokes this one; `invoke` gives it.
         **arguments: Values of parameters, before those of the settings; for an invoked scenario
-            also the actors that take the place of the declared ones.
+            also the actors that replace the declared ones.
     """
 
     def __init__(
@@ -71,7 +71,7 @@ class BaseScenario(ScenarioParts):
     # --- used by generated classes ---
 
     def cast(self, name: str, declared: ActorT) -> ActorT:
-        """Return who plays a role: the actor that the invoker hands in, else the declared one.
+        """Return the actor of a role: the one that the invoker hands in, else the declared one.
 
         Of maps and environments there is one in a run: all scenarios share it.
 
@@ -102,9 +102,9 @@ class BaseScenario(ScenarioParts):
 
         Args:
             actor: The actor.
-            *modifiers: What holds at the start.
-            throughout: The first action sees to all of it anyway: where the scenario is invoked
-                in the middle of a run, nobody is placed.
+            *modifiers: Conditions at the start.
+            throughout: The first action establishes all of it anyway: where the scenario is invoked
+                in the middle of a run, no actor is placed.
         """
         source = self._source_map.of_placement(len(self.placements))
         self.placements.append(Placement(actor, modifiers, source, throughout))
@@ -125,8 +125,8 @@ class BaseScenario(ScenarioParts):
 
         Args:
             expression: Gives the new value.
-            trigger: When: an event, a condition or a boolean function; `"start"` and `"end"` are
-                those of this scenario.
+            trigger: When: an event, a condition or a boolean function; `"start"` and `"end"` refer
+                to this scenario.
             default: Value before the first sample; without it the variable cannot be read before.
             condition: With an event: only an occurrence at which this is true counts.
             name: Name in the scenario, where its attribute cannot have it (`from`).
@@ -168,7 +168,7 @@ class BaseScenario(ScenarioParts):
     ) -> Behaviour:
         """Invoke another scenario: `self.invoke("p1", Approach, actor=self.ego, lead=self.car1)`.
 
-        Its random values depend on the seed and on the label; without one on its name and those
+        Its random values depend on the seed and on the label; without one on its name and the names
         of the actors, not on the order of invocations.
 
         Args:
@@ -176,7 +176,7 @@ class BaseScenario(ScenarioParts):
                 `@label.end`, for settings (`--set label.gap=12`) and in the trace.
             actor: Its `actor`, for a scenario of an actor.
             duration: Seconds, or (least, most) seconds, that it takes.
-            known_as: Its name in settings and in the trace if it has no label; else that of the
+            known_as: Its name in settings and in the trace if it has no label; else the name of the
                 scenario, numbered in the order of the calls.
             **arguments: Its parameters (a range is drawn from) and actors.
 
@@ -203,7 +203,7 @@ class BaseScenario(ScenarioParts):
         Args:
             overridden: Label of the behavior that ends.
             by: Label of the behavior that overrides it.
-            mode: `when_active`: it also does not start while the other one runs.
+            mode: `when_active`: it also does not start while the other behavior runs.
         """
         self._overrides.append((overridden, by, mode))
 

@@ -22,7 +22,7 @@ ActorT = TypeVar("ActorT", bound=BaseActor)
 
 
 class ScenarioParts(ScenarioValues):
-    """What a scenario has declared, and what its tree is assembled from.
+    """The declarations of a scenario, from which its tree is assembled.
 
     Args:
         settings: Of the run.
@@ -34,15 +34,15 @@ class ScenarioParts(ScenarioValues):
         source: Scenario file.
         one_of: How `OneOf` chooses: `race`, `first` or `seeded`.
         first_come: Durations and `until` end with whichever comes first, as in dialect `carla`.
-        is_main: It runs if nobody says which one of its module is to.
+        is_main: It is the default scenario of its module.
         settings: Of the run.
         actors: Declared actors by id, in order; the scenario that runs also has those of all that
             it invokes.
         map_objects: Declared traffic lights and groups of them; likewise.
         events: Declared events by name, in order; likewise.
         parameters: Values of the parameters, in order; likewise.
-        placements: What `placement` asked for; likewise, once there is a tree.
-        label_events: (label, `start` | `end` | `fail`) to the event that somebody waits for.
+        placements: The requests of `placement`; likewise, once there is a tree.
+        label_events: (label, `start` | `end` | `fail`) to the event that is waited for.
     """
 
     name: ClassVar[str] = ""
@@ -98,7 +98,7 @@ class ScenarioParts(ScenarioValues):
 
 @dataclass(frozen=True, slots=True)
 class Caller:
-    """Who invokes a scenario, and how.
+    """The invocation of a scenario.
 
     Attributes:
         scenario: The scenario that invokes.

@@ -15,29 +15,29 @@ from osc2tx_runtime.world.protocol import ControlMode
 from osc2tx_shared.classes import dataclass
 
 MOST_STEPS = 100_000_000
-"""What a run may take at most: hours of computing."""
+"""Upper limit of the length of a run: hours of computing."""
 
 __all__ = ["FAIL_ON", "RunSettings", "check_known", "near"]
 
 FAIL_ON = ("collision", "off_road", "red_light")
-"""What a run may be told to fail on."""
+"""The criteria of a failed run."""
 
 
 @dataclass(frozen=True, slots=True)
 class RunSettings:
-    """What a run needs besides the scenario; every field has a default.
+    """The settings of a run besides the scenario; every field has a default.
 
     Attributes:
         map_path: Folders searched for map files, before the maps of this package; a file among
             them is used as the map itself.
         world: Name of the world to run in.
-        world_options: Values of the options of its own, by `Option.field`.
-        control: Who moves an actor, by id; `""` stands for all others. Without: the world says.
-        expect: What the scenario has external actors do is expected of them, not an error.
-        physics: What to do about motions that tyres cannot do: `warn` or `fail`.
-        conduct: `as_told`: actors do what they are told; `standard`: they also avoid collisions and
-            obey lights, unless the scenario says otherwise (DSL 8.9.18).
-        fail_on: What makes a run fail whatever the scenario says, see `FAIL_ON`.
+        world_options: Values of its own options, by `Option.field`.
+        control: Control mode of an actor, by id; `""` stands for all others. Default: of the world.
+        expect: Commands to external actors become expectations, not errors.
+        physics: Response to motions beyond the limits of tyres: `warn` or `fail`.
+        conduct: `as_told`: actors follow the scenario alone; `standard`: they also avoid collisions
+            and obey lights, unless the scenario states otherwise (DSL 8.9.18).
+        fail_on: Further criteria of failure, see `FAIL_ON`.
         signal: Events given from outside: name to time in seconds.
         spawn: Start position of actors: id to (road id, lane id, road s in metres).
         destination: Where vehicles go: id to an actor id or `ROAD,LANE,S`.
@@ -49,7 +49,7 @@ class RunSettings:
         trace: Where to write the trace (JSON Lines).
         report: Where to write the report (HTML).
         allow_external: Functions of the user that the scenario may call, `module.function`.
-        draws: Gives what a parameter is drawn with, by its name; without: the seed does.
+        draws: Gives the random number of a parameter, by its name; default: from the seed.
     """
 
     map_path: tuple[Path, ...] = ()
@@ -75,7 +75,7 @@ class RunSettings:
 
     @property
     def draws_from(self) -> int | str:
-        """What the draws of parameters depend on."""
+        """The origin of the random numbers of parameters."""
         return f"{self.seed}/draw {self.draw}" if self.draw else self.seed
 
     def __post_init__(self) -> None:

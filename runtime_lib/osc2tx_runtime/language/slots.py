@@ -45,7 +45,7 @@ class Slots:
         return bool(self._touched or self._passed)
 
     def leave(self, key: SlotKey, command: Command | None) -> None:
-        """Let a slot pursue a command while it has no owner; None holds what is."""
+        """Let a slot pursue a command while it has no owner; None holds the present motion."""
         if command is not self._left.get(key):
             self._left[key] = command
             self._touched[key] = None
@@ -63,9 +63,9 @@ class Slots:
             self._touched[key] = None
 
     def pass_through(self, key: SlotKey, owner: Owner) -> None:
-        """Note an owner that had the slot for no time, and changed what it is about.
+        """Note an owner that had the slot for no time, and changed a state that it controls.
 
-        What was sent before no longer counts, and who has the slot beside it is in conflict.
+        Earlier commands no longer count, and a simultaneous owner of the slot is in conflict.
         """
         self._passed.setdefault(key, []).append(owner)
 
@@ -103,7 +103,7 @@ class Slots:
                     yield key, owner, live
 
     def send(self, world: World) -> None:
-        """Hand the commands that changed to the world; an unowned slot gets what it is left to."""
+        """Hand the changed commands to the world; an unowned slot gets its default."""
         for key in sorted(self._touched):
             owners = self._owners.get(key, {})
             command = next(iter(owners.values()), self._left.get(key))
@@ -123,7 +123,7 @@ class Effect(NamedTuple):
 
 
 class Effects:
-    """Changes of state of the present instant, by what they change."""
+    """Changes of state of the present instant, by quantity."""
 
     def __init__(self) -> None:
         self._wanted: dict[tuple[str, ...], dict[Owner, Effect]] = {}
@@ -144,19 +144,19 @@ class Effects:
         self._wanted.setdefault(key, {})[effect.owner] = effect
 
     def withdraw(self, owner: Owner) -> None:
-        """Forget what an owner wants."""
+        """Forget the requests of an owner."""
         for effects in self._wanted.values():
             effects.pop(owner, None)
 
     def is_pending(self, owner: Owner | None = None) -> bool:
-        """Whether something, or what an owner wants, is not carried out yet."""
+        """Whether a request, or one of an owner, is not applied yet."""
         if not self._wanted:
             return False
         wanted = self._wanted.values()
         return any(wanted) if owner is None else any(owner in each for each in wanted)
 
     def contested(self) -> Iterator[tuple[tuple[str, ...], Effect, Effect]]:
-        """Yield what is to change differently from what another action made it, or wants it."""
+        """Yield the quantities for which two actions request different values."""
         for key in sorted(self._wanted):
             effects = [*self._done.get(key, ()), *self._wanted[key].values()]
             for index, one in enumerate(effects):
@@ -165,7 +165,7 @@ class Effects:
                         yield key, one, other
 
     def apply(self) -> None:
-        """Carry out what is wanted, by name of what it changes."""
+        """Apply the requests, by name of the quantity."""
         wanted, self._wanted = self._wanted, {}
         for key in sorted(wanted):
             if effects := list(wanted[key].values()):

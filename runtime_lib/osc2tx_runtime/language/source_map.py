@@ -20,19 +20,19 @@ __all__ = ["SourceMap", "read_source_map"]
 VERSION = 3
 
 Entry = tuple[int, int]
-"""Line and column, both from 1; None in place of one for what is from another file."""
+"""Line and column, both from 1; None for an element from another file."""
 
 
 @dataclass(frozen=True, slots=True)
 class SourceMap:
-    """What the map says about one scenario.
+    """The map of one scenario.
 
     Attributes:
-        file: Scenario file as shown to people.
+        file: Scenario file, as shown to readers.
         fields: Line and column of the fields, by name.
-        constraints: Those of the `keep` calls, in their order.
-        placements: Those of the `place` calls, in their order.
-        nodes: Those of the nodes, in pre-order.
+        constraints: Positions of the `keep` calls, in order.
+        placements: Positions of the `place` calls, in order.
+        nodes: Positions of the nodes, in pre-order.
     """
 
     file: str
@@ -81,7 +81,7 @@ def read_source_map(scenario: type, name: str, file: str) -> SourceMap:
 
 
 def parse_source_map(entry: Mapping[str, Any], file: str) -> SourceMap:
-    """Return the map of one scenario from its JSON object; what is no line is left out."""
+    """Return the map of one scenario from its JSON object; invalid entries are left out."""
     fields = _table(entry.get("fields"))
     return SourceMap(
         file=file,

@@ -54,11 +54,11 @@ def to_json(value: Any, *, exact: bool = False) -> str:
 
 
 OnSample = Callable[[str, Mapping[str, Any]], None]
-"""Takes `cover` or `record`, and what the trace says of the value."""
+"""Takes `cover` or `record`, and the fields of the value in the trace."""
 
 
 class TracedAction(Protocol):
-    """What the trace says of an action."""
+    """The fields of an action in the trace."""
 
     action_name: str
     source: str
@@ -66,7 +66,7 @@ class TracedAction(Protocol):
 
     @property
     def actor_id(self) -> str | None:
-        """Who acts, if somebody does."""
+        """The actor, if there is one."""
         ...
 
 
@@ -78,7 +78,7 @@ class TraceWriter:
 
     Args:
         enabled: Keep lines at all.
-        on_sample: Is told of the value of each coverage item, also if no lines are kept.
+        on_sample: Called with the value of each coverage item, also if no lines are kept.
 
     Attributes:
         lines: The lines so far, without line ends.
@@ -138,13 +138,13 @@ class TraceWriter:
         self.other(0, "lights", actor=actor_id, mode=mode)
 
     def environment(self, **values: Any) -> None:
-        """Note new values of the environment, SI units; those of one instant are one line."""
+        """Note new values of the environment, SI units; values of one instant are one line."""
         self._environment.update(values)
 
     def signal(
         self, signal_id: str, state: str, bulbs: Iterable[str], ignored: str | None = None
     ) -> None:
-        """Note what a traffic light says and shows, and what it was asked for but cannot say."""
+        """Note the meaning and lamps of a traffic light, and requested meanings it cannot show."""
         more = {} if ignored is None else {"ignored": ignored}
         self.other(2, "signal", signal=signal_id, state=state, bulbs=list(bulbs), **more)
 
@@ -179,7 +179,7 @@ class TraceWriter:
             self._listed(7, kind, values)
 
     def criterion(self, name: str, what: str) -> None:
-        """Note what is against a criterion of `--fail-on`."""
+        """Note a violation of a criterion of `--fail-on`."""
         if self.enabled:
             self._listed(9, "criterion", {"name": name, "what": what})
 
@@ -204,7 +204,7 @@ class TraceWriter:
         Args:
             rank: Order of the kinds within an instant.
             kind: Kind of the line.
-            **values: What it says.
+            **values: Its fields.
         """
         if self.enabled:
             subject = to_json(next(iter(values.values()), None))
@@ -242,7 +242,7 @@ class TraceWriter:
         written = self._written
         for actor_id, state in states:
             before = written.get(actor_id)
-            if before is None or before[0] != state:  # what stands still is written once
+            if before is None or before[0] != state:  # an actor at standstill is written once
                 text = f'"kind":"state","actor":{quoted(actor_id)},{state_json(state)}}}'
                 before = written[actor_id] = (state, text)
             lines.append(t + before[1])
@@ -296,7 +296,7 @@ def state_json(state: ActorState) -> str:
 
 
 def _tilt_json(state: ActorState) -> str:
-    """Return pitch and roll, of those who are not level."""
+    """Return pitch and roll, of actors that are not level."""
     if not (state.pitch or state.roll):
         return ""
     return f',"pitch":{number(state.pitch)},"roll":{number(state.roll)}'

@@ -1,13 +1,14 @@
 """The world in which a scenario runs.
 
 Input: placed actors and one command per actor and slot. Output: states, collisions. Start reading
-at `protocol` (what every world offers); `embedded` implements it. Folders, in the order of a step:
+at `protocol` (the interface of every world); `embedded` implements it. Folders, in the order of a
+step:
 
 - `commands` are given by actions, `checks` examine those of foreign code.
 - `motion` moves one actor over one step, with `longitudinal`, `lateral`, `geometry` and `grip`.
-- `plant` hands the commanded states to what moves the actors (a simulator, or nothing) and takes
-  its measurements back; `tracking` decides from them whether goals are reached; `drivers` let an
-  external driver steer instead.
+- `plant` hands the commanded states to the system that moves the actors (a simulator, or none) and
+  takes its measurements back; `tracking` decides from them whether goals are reached; `drivers` let
+  an external driver steer instead.
 - `measuring` computes distances, velocities and contacts; `surroundings` traffic lights and sky.
 
 Invariants: fixed step, sequences and ordered dicts only, no clock, no random numbers. Commands

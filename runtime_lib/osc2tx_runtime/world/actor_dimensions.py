@@ -84,14 +84,14 @@ class Shape:
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What an actor can do.
+    """The limits of an actor.
 
     Attributes:
         acceleration: Largest gain of speed (m/s^2).
         deceleration: Largest loss of speed (m/s^2).
         jerk: Largest change of acceleration (m/s^3).
         lateral: Largest lateral acceleration of a lane change (m/s^2), and comfortable in bends.
-        road: What the road has to do with it, for messages: " on a wet road".
+        road: Condition of the road that reduces them, for messages: " on a wet road".
         overturn: Lateral acceleration (m/s^2) at which it tips over; infinite: its tyres slide
             before.
     """
@@ -105,13 +105,13 @@ class Limits:
 
 
 TYRES = Limits(RATE_CAP, RATE_CAP)
-"""What not even those keep to who need not keep to the limits of their vehicle."""
+"""Limits that also actors keep whose vehicle limits are switched off."""
 
 # Where vehicles tip over in a steady bend: one round number for each kind, a choice of ours,
 # as the thresholds spread with load and build. Heavy ones: several authorities ask for at least
-# 0.40 g of tank trucks, and of 17 that were tilted 14 would be below it when loaded as far as they
-# may be (J. R. Billing, J. D. Patten, An Assessment of Tank Truck Roll Stability, National Research
-# Council of Canada); what it depends on is in C. B. Winkler, R. D. Ervin, Rollover of Heavy
+# 0.40 g of tank trucks, and of 17 that were tilted 14 would be below it at their maximum load
+# (J. R. Billing, J. D. Patten, An Assessment of Tank Truck Roll Stability, National Research
+# Council of Canada); the influences on it are in C. B. Winkler, R. D. Ervin, Rollover of Heavy
 # Commercial Vehicles (UMTRI-99-19, 1999). Half the track of a car is more than the height of its
 # centre of gravity, so it slides first; vans stand higher, and get a little less than dry grip.
 _LIGHT = 0.8 * 9.80665

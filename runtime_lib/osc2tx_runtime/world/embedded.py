@@ -78,7 +78,7 @@ class EmbeddedWorld:
         self._changes: dict[str, StateChange] = {}
         self._changed: Sequence[str] = ()
         self._unsteady: Sequence[str] = ()
-        self._outside: tuple[CommandedActor, ...] = ()  # driven by somebody else
+        self._outside: tuple[CommandedActor, ...] = ()  # external drivers and autopilots
         self._couplings = Couplings()
         self._lights = Lights()
         self._surroundings = Surroundings(dt)
@@ -98,7 +98,7 @@ class EmbeddedWorld:
         return self._plant.name
 
     def control(self, actor: str) -> ControlMode:
-        """Who moves an actor."""
+        """The control mode of an actor."""
         return self._plant.control(actor)
 
     def begin(self) -> None:
@@ -134,7 +134,7 @@ class EmbeddedWorld:
         tilt: Tilt = LEVEL,
         aside: float = 0.0,
     ) -> None:
-        """Puts an actor somewhere before step 0; `Start` says what the arguments mean."""
+        """Places an actor before step 0; `Start` describes the arguments."""
         start = Start(at, speed or 0.0, heading, tilt, aside)
         self._cast[actor] = placed(self._specs[actor], start, self.map, self._surroundings.road)
         self._cast = {each: self._cast[each] for each in self._specs if each in self._cast}
@@ -164,7 +164,7 @@ class EmbeddedWorld:
         return member.motion or self._track.of(actor, member.state, self.dt, lies=lies)
 
     def projected(self, state: ActorState, seconds: float) -> ActorState:
-        """Where an actor would be after some time if it went on in its lane at its speed."""
+        """The position of an actor after a time if it continued in its lane at its speed."""
         return projected(self.map, state, seconds)
 
     def along(self, a: ActorState, b: ActorState) -> float | None:
@@ -182,7 +182,7 @@ class EmbeddedWorld:
         return nearest_ahead(self.map, me, others, self._surroundings.sight)
 
     def stop_line(self, me: ActorState, route: Route | None, reach: float) -> StopLine | None:
-        """First line within so many metres at which a light asks to stop; None if none does."""
+        """First line within a distance (m) at which a light requires a stop; None without one."""
         place = me.lane_position
         if place is None or not self.signals.lit():
             return None
@@ -199,7 +199,7 @@ class EmbeddedWorld:
         return grip(self._surroundings.road)
 
     def limits(self, actor: str, *, of_vehicle: bool = True) -> Limits:
-        """What an actor can do on the road as it is; without its own limits what tyres can."""
+        """Limits of an actor on the present road: of its vehicle and tyres, or of tyres alone."""
         member = self._member(actor)
         return member.limits if of_vehicle else member.tyres
 
@@ -216,7 +216,7 @@ class EmbeddedWorld:
         return (*self._unsteady, *self._changes) if self._changes else self._unsteady
 
     def reference(self, actor: str) -> ActorState:
-        """State that commands start from: as it was wished, abreast of where the actor is."""
+        """State that commands start from: the commanded one, abreast of the actor."""
         return self._member(actor).reference
 
     def deviation(self, actor: str, slots: Sequence[str]) -> Deviation | None:
@@ -241,21 +241,21 @@ class EmbeddedWorld:
         return self._friction.overloads
 
     def warnings(self) -> Sequence[str]:
-        """What a simulator could not do as it was wanted, up to now."""
+        """Deviations of a simulator from the commands so far."""
         return self._scene.warnings()
 
     def capabilities(self) -> frozenset[Feature]:
-        """What it has beside moving actors."""
+        """Its capabilities besides moving actors."""
         return self._plant.capabilities()
 
     def take_notes(self) -> Sequence[Note]:
-        """Hands over what a simulator has to say of the last step."""
+        """Hands over the reports of a simulator on the last step."""
         return self._scene.take_notes()
 
     # --- writing ------------------------------------------------------------------------------
 
     def command(self, actor: str, slot: str, command: Command | None) -> None:
-        """Sets what a slot pursues; None: hold the speed, keep the lane."""
+        """Sets the command of a slot; None: hold the speed, keep the lane."""
         member = self._member(actor)
         if command is not None and self._couplings.is_towed(actor):
             raise ScenarioError(f"{actor} is towed, so it cannot move by itself")
@@ -274,7 +274,7 @@ class EmbeddedWorld:
         """Changes a state at once; what one instant assigns holds together.
 
         Raises:
-            ScenarioError: Somebody else drives the actor.
+            ScenarioError: The actor has an external driver.
         """
         member = self._member(actor)
         if not member.follows:
@@ -287,7 +287,7 @@ class EmbeddedWorld:
         ):
             problem = problem_of(value, wanted)
             if problem:
-                raise ScenarioError(f"{actor} cannot be put so: {in_words(name, problem)}")
+                raise ScenarioError(f"{actor}: invalid assignment: {in_words(name, problem)}")
         before = self._changes.get(actor, StateChange())
         change = before.with_also(speed, acceleration, at, heading, tilt)
         self._changes[actor] = change
@@ -300,7 +300,7 @@ class EmbeddedWorld:
             self._contacts.put(self._ids.index(actor), member.state)
 
     def attach(self, tow: str, trailer: str | None) -> None:
-        """Couples a trailer to a vehicle; None uncouples what it tows."""
+        """Couples a trailer to a vehicle; None uncouples its trailer."""
         before = self._couplings.attach(tow, trailer)
         if before is not None:
             self._member(before).pursue_speed(Standstill())
@@ -312,7 +312,7 @@ class EmbeddedWorld:
         return self._couplings.trailer_of(tow)
 
     def set_lights(self, actor: str, mode: LightMode) -> LightState:
-        """Switches lights; returns what they are now."""
+        """Switches lights; returns their new states."""
         self._member(actor)
         return self._lights.switch(actor, mode, self._surroundings.automatic_light)
 
@@ -377,7 +377,7 @@ class EmbeddedWorld:
             self._lights.follow(self._surroundings.automatic_light)
 
     def _take_changes(self) -> tuple[frozenset[str], frozenset[str]]:
-        """Hands over who was put somewhere, or turned, and to whom a speed was assigned."""
+        """Hands over the actors that were placed or turned, and those with an assigned speed."""
         changes, self._changes = self._changes, {}
         return (
             frozenset([each for each, change in changes.items() if change.jumps or change.turns]),
@@ -385,7 +385,7 @@ class EmbeddedWorld:
         )
 
     def _wish(self, member: CommandedActor, towed: Collection[str]) -> ActorState:
-        """State that an actor is to have at the next step; who is towed is drawn along later."""
+        """Commanded state of an actor at the next step; trailers are moved later."""
         if member.follows and member.spec.movable and member.spec.id not in towed:
             return member.moved(self, self.map)
         return member.state

@@ -39,7 +39,7 @@ __all__ = [
 ]
 
 Feature = Literal["lanes", "lights", "map", "towing", "traffic_lights", "weather"]
-"""What an action or modifier may need of a world."""
+"""Capability of a world that an action or modifier may require."""
 
 FEATURES: frozenset[Feature] = frozenset(get_args(Feature))
 
@@ -55,28 +55,28 @@ FOG_LIGHT_RANGE = 100.0
 """Visual range (m) below which they are so, too (UK Highway Code, rule 226)."""
 
 ControlMode = Literal["exact", "exact-physics", "driven", "external", "autopilot"]
-"""Who moves an actor: nobody, its poses are written, without or with rigid-body physics in the
-simulator; a controller that follows; somebody else, from outside or of the simulator."""
-EXTERNAL: frozenset[ControlMode] = frozenset({"external", "autopilot"})
-"""Those in which somebody else does."""
+"""How an actor moves: exactly as commanded, without or with rigid-body physics in the simulator; by
+a controller that follows the commands; by another driver, external or of the simulator."""
 EXACT: frozenset[ControlMode] = frozenset({"exact", "exact-physics"})
-"""Those in which an actor is where it is commanded, and nothing of it is measured."""
+"""The modes in which an actor has the commanded state, and nothing is measured."""
+EXTERNAL: frozenset[ControlMode] = frozenset({"external", "autopilot"})
+"""The modes with another driver."""
 
 Note = tuple[str, Mapping[str, Any]]
-"""Kind of a line of the trace, and what it says."""
+"""Kind of a line of the trace, and its fields."""
 
 LightMode = Literal["off", "auto", "daytime", "position", "low_beam", "high_beam"]
 
 
 @dataclass(frozen=True, slots=True)
 class ActorSpec:
-    """What a world must know to make an actor.
+    """Description of an actor for a world.
 
     Attributes:
         id: Name of the actor in the scenario.
         kind: Most derived actor kind of the DSL, e.g. `vehicle`.
         shape: Bounding box and reference point.
-        limits: What it can do.
+        limits: Its limits.
         model: Blueprint or other name of a model; None if the scenario leaves it open.
         lane_bound: True if it follows lanes where it can (vehicles).
         movable: False for stationary objects.
@@ -100,7 +100,7 @@ class Progress:
     """How far the command of a slot has got at the present step.
 
     Attributes:
-        done: The goal is reached; the command goes on to hold it.
+        done: The goal is reached; the command continues to hold it.
         failed: Why the goal cannot be reached; None while it can.
     """
 
@@ -129,7 +129,7 @@ class World(Protocol):
     """A world in steps of fixed length.
 
     Commands given at step k act from k to k+1; progress is that of step k until `step` is called.
-    What is assigned, attached, switched and set at step k is so at once, and can be read.
+    Values that are assigned, attached, switched or set at step k are valid at once, and readable.
     """
 
     dt: float
@@ -141,7 +141,7 @@ class World(Protocol):
         """What moves its actors: `embedded`, or a simulator."""
 
     def control(self, actor: str) -> ControlMode:
-        """Who moves an actor."""
+        """The control mode of an actor."""
 
     def begin(self) -> None:
         """Puts the actors where they were placed, before step 0."""
@@ -161,13 +161,13 @@ class World(Protocol):
         tilt: Tilt = LEVEL,
         aside: float = 0.0,
     ) -> None:
-        """Puts an actor somewhere before step 0; who heads beside its lane is in none yet."""
+        """Places an actor before step 0; one not aligned with its lane is in none yet."""
 
     def state(self, actor: str) -> ActorState:
         """State of an actor at the present step."""
 
     def reference(self, actor: str) -> ActorState:
-        """State that commands start from: as it was wished, abreast of where the actor is."""
+        """State that commands start from: the commanded one, abreast of the actor."""
 
     def deviation(self, actor: str, slots: Sequence[str]) -> Deviation | None:
         """How far an actor is from its reference; None unless it is driven towards it."""
@@ -179,7 +179,7 @@ class World(Protocol):
         """Ids of the placed actors in the order in which they were added."""
 
     def command(self, actor: str, slot: str, command: Command | None) -> None:
-        """Sets what a slot pursues; None: hold the speed, keep the lane."""
+        """Sets the command of a slot; None: hold the speed, keep the lane."""
 
     def progress(self, actor: str, slot: str) -> Progress:
         """Progress of the command in a slot."""
@@ -203,7 +203,7 @@ class World(Protocol):
         """Changes a state at once; what one instant assigns holds together."""
 
     def attach(self, tow: str, trailer: str | None) -> None:
-        """Couples a trailer to a vehicle; None uncouples what it tows."""
+        """Couples a trailer to a vehicle; None uncouples its trailer."""
 
     def trailer_of(self, tow: str) -> str | None:
         """Id of the trailer that a vehicle tows."""
@@ -212,16 +212,16 @@ class World(Protocol):
         """Decides which branch the actor takes at forks."""
 
     def limits(self, actor: str, *, of_vehicle: bool = True) -> Limits:
-        """What an actor can do on the road as it is; without its own limits what tyres can."""
+        """Limits of an actor on the present road: of its vehicle and tyres, or of tyres alone."""
 
     def grip(self, me: ActorState) -> float:
         """Largest acceleration (m/s^2) that the road can transmit to wheels in any direction."""
 
     def stop_line(self, me: ActorState, route: Route | None, reach: float) -> StopLine | None:
-        """First line within so many metres at which a light asks to stop; None if none does."""
+        """First line within a distance (m) at which a light requires a stop; None without one."""
 
     def set_lights(self, actor: str, mode: LightMode) -> LightState:
-        """Switches lights; returns what they are now."""
+        """Switches lights; returns their new states."""
 
     def lights(self, actor: str) -> LightState:
         """Lights at the present step."""
@@ -232,7 +232,7 @@ class World(Protocol):
     def set_environment(self, values: Mapping[str, float]) -> Mapping[str, LightState]:
         """Changes the environment at once; names that are left out stay.
 
-        Returns the actors whose automatic lights switch, with what they are now.
+        Returns the actors whose automatic lights switch, with their new states.
         """
 
     def environment(self) -> Mapping[str, float]:
@@ -248,10 +248,10 @@ class World(Protocol):
         """Motions up to now that no tyre can transmit, in order of time."""
 
     def warnings(self) -> Sequence[str]:
-        """What the world could not do as it was wanted, up to now, in a run that goes on."""
+        """Deviations of the world from the commands so far, in a run that continues."""
 
     def take_notes(self) -> Sequence[Note]:
         """Hands over lines for the trace, as kind and values, since the last call."""
 
     def capabilities(self) -> frozenset[Feature]:
-        """What it has beside moving actors."""
+        """Its capabilities besides moving actors."""

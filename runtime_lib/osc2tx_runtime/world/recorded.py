@@ -21,7 +21,7 @@ class RecordedWorld(EmbeddedWorld):
     Args:
         road_map: The road map.
         dt: Length of a step (s).
-        controls: Who moved the actors, by id; `exact` for all others.
+        controls: Control modes of the actors, by id; `exact` for all others.
     """
 
     def __init__(self, road_map: RoadMap, dt: float, controls: Mapping[str, ControlMode]) -> None:
@@ -29,7 +29,7 @@ class RecordedWorld(EmbeddedWorld):
         self._controls = controls
 
     def control(self, actor: str) -> ControlMode:
-        """Who moved an actor."""
+        """The control mode of an actor."""
         return self._controls.get(actor, "exact")
 
     def unsteady(self) -> tuple[str, ...]:
@@ -73,5 +73,5 @@ class RecordedWorld(EmbeddedWorld):
 
 
 def _number(value: Any) -> float:
-    """A number of a trace; what is unknown there is no number."""
+    """A number of a trace; NaN if it is unknown there."""
     return math.nan if value is None else float(value)

@@ -26,7 +26,7 @@ class StepInputs(Protocol):
         """State of an actor."""
 
     def projected(self, state: ActorState, seconds: float) -> ActorState:
-        """Where an actor would be after some time if it went on in its lane at its speed."""
+        """The position of an actor after a time if it continued in its lane at its speed."""
 
     def along(self, a: ActorState, b: ActorState) -> float | None:
         """Route distance (m) from a to b; None if not connected."""
@@ -38,7 +38,7 @@ class StepInputs(Protocol):
         """Free metres to the nearest actor ahead in the way, and its speed (m/s) along it."""
 
     def stop_line(self, me: ActorState, route: Route | None, reach: float) -> StopLine | None:
-        """First line within so many metres at which a light asks to stop; None if none does."""
+        """First line within a distance (m) at which a light requires a stop; None without one."""
 
     def bend(self, me: ActorState, route: Route | None, limits: Limits) -> float:
         """Speed (m/s) at the next step at which a driver approaches the bends ahead."""

@@ -15,6 +15,7 @@ from osc2tx_shared.text.escapes import in_json, in_xml, visible, without_command
 from osc2tx_shared.text.printing import (
     READER_HAS_GONE,
     OutputError,
+    StreamName,
     clear_status,
     complain,
     expect_output,
@@ -22,6 +23,8 @@ from osc2tx_shared.text.printing import (
     is_watched,
     put,
     put_document,
+    recorded,
+    replay,
     say,
     show_status,
 )
@@ -29,6 +32,7 @@ from osc2tx_shared.text.printing import (
 __all__ = [
     "READER_HAS_GONE",
     "OutputError",
+    "StreamName",
     "clear_status",
     "complain",
     "expect_output",
@@ -38,6 +42,8 @@ __all__ = [
     "is_watched",
     "put",
     "put_document",
+    "recorded",
+    "replay",
     "say",
     "show_status",
     "visible",

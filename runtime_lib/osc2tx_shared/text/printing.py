@@ -5,14 +5,16 @@ from __future__ import annotations
 import os
 import re
 import sys
-from contextlib import suppress
-from typing import Literal, TextIO
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
+from typing import Literal, TextIO, TypeAlias
 
 from osc2tx_shared.text.escapes import visible, without_commands
 
 __all__ = [
     "READER_HAS_GONE",
     "OutputError",
+    "StreamName",
     "clear_status",
     "complain",
     "expect_output",
@@ -20,6 +22,8 @@ __all__ = [
     "is_watched",
     "put",
     "put_document",
+    "recorded",
+    "replay",
     "say",
     "show_status",
 ]
@@ -27,10 +31,12 @@ __all__ = [
 UNWRITABLE = 4
 READER_HAS_GONE = 141  # as shells have it: 128 + SIGPIPE
 
+StreamName: TypeAlias = Literal["stdout", "stderr"]
+
 _COLOR = re.compile("(\x1b\\[[0-9;]*m)")
 
 
-def _stand_in(name: Literal["stdout", "stderr"]) -> bool:
+def _stand_in(name: StreamName) -> bool:
     """Put a stream in the place of one that the process was started without.
 
     Libraries take it for granted that there is one, and a file of ours must not get its number.
@@ -83,12 +89,12 @@ def expect_output() -> None:
 
 def say(line: str) -> None:
     """Print a line; what would end it is escaped."""
-    _write("stdout", f"{without_commands(visible(line))}\n")
+    _print("stdout", f"{without_commands(visible(line))}\n")
 
 
 def complain(line: str) -> None:
     """Print a line on standard error."""
-    _write("stderr", f"{without_commands(visible(line))}\n")
+    _print("stderr", f"{without_commands(visible(line))}\n")
 
 
 def put(text: str, *, err: bool = False, colored: bool = False) -> None:
@@ -101,12 +107,29 @@ def put(text: str, *, err: bool = False, colored: bool = False) -> None:
     """
     clean = _clean_colored if colored else _clean
     lines = map(clean, text.removesuffix("\n").split("\n"))
-    _write("stderr" if err else "stdout", "\n".join(lines) + "\n")
+    _print("stderr" if err else "stdout", "\n".join(lines) + "\n")
 
 
 def put_document(text: str) -> None:
     """Print a document for programs as it is: whoever made it has escaped what stands in it."""
-    _write("stdout", text)
+    _print("stdout", text)
+
+
+@contextmanager
+def recorded() -> Iterator[list[tuple[StreamName, str]]]:
+    """Yield a list of what is printed meanwhile, without the lines of `show_status`."""
+    printed: list[tuple[StreamName, str]] = []
+    _RECORDS.append(printed)
+    try:
+        yield printed
+    finally:
+        _RECORDS.remove(printed)
+
+
+def replay(printed: Iterable[tuple[StreamName, str]]) -> None:
+    """Print once more what was recorded; it is clean already."""
+    for name, text in printed:
+        _print(name, text)
 
 
 def show_status(text: str) -> None:
@@ -129,7 +152,16 @@ def _clean_colored(line: str) -> str:
     return "".join(parts)
 
 
-def _write(name: Literal["stdout", "stderr"], text: str) -> None:
+_RECORDS: list[list[tuple[StreamName, str]]] = []
+
+
+def _print(name: StreamName, text: str) -> None:
+    _write(name, text)
+    for printed in _RECORDS:
+        printed.append((name, text))
+
+
+def _write(name: StreamName, text: str) -> None:
     """Write to a stream of the process; what it has no characters for is escaped.
 
     Raises:

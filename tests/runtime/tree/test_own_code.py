@@ -200,7 +200,7 @@ def test_what_an_effect_assigns_is_checked(
         action.effect("place", 1, lambda: action.context.world.assign("ego", **assigned))
 
     told = ended(capsys, on_start=start)
-    assert told.startswith("own.osc:7: error[OSC801]: ego cannot be put so: ")
+    assert told.startswith("own.osc:7: error[OSC801]: ego: invalid assignment: ")
 
 
 # --- worlds ---

@@ -1,4 +1,4 @@
-"""The base classes of all actions: those of actors, and those that have none."""
+"""The base classes of all actions, with and without an actor."""
 
 from __future__ import annotations
 
@@ -41,9 +41,9 @@ class Action(BaseAction):
     Attributes:
         accepts: Types of modifiers the action takes; others are an `UnsupportedError` at setup.
         physical: It moves the actor, and cannot let it jump (`prefer_non_physical`).
-        actor: Who acts.
+        actor: The actor.
         modifiers: As given.
-        slots: What it claims while it runs; `__init__` of a subclass may narrow it.
+        slots: The slots that it claims while it runs; `__init__` of a subclass may narrow them.
     """
 
     accepts: ClassVar[tuple[type, ...]] = ()
@@ -63,7 +63,7 @@ class Action(BaseAction):
 
     @property
     def actor_id(self) -> str:
-        """Who acts."""
+        """The actor."""
         return self.actor.id
 
     def become(self, method: Method) -> None:

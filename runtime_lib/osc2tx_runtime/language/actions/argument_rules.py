@@ -25,7 +25,7 @@ class GivenValues:
         return name in self._values
 
     def word(self, name: str) -> str | None:
-        """Return a value as the DSL writes it, if it is a word there; of an object what it is."""
+        """Return a value as the DSL writes it, if it is a word there; of an object its type."""
         value = self._values[name]
         if isinstance(value, bool):
             return str(value).lower()

@@ -57,7 +57,7 @@ class BaseAction(Leaf):
 
     @property
     def actor_id(self) -> str | None:
-        """Who acts; None if nobody does."""
+        """The actor; None for an action without one."""
         return None
 
     def become(self, method: Method) -> None:
@@ -72,7 +72,7 @@ class BaseAction(Leaf):
     # --- what subclasses write ---
 
     def on_start(self) -> None:
-        """Start: sample what the action needs, hand in commands. The slots are claimed."""
+        """Start: sample the inputs of the action, hand in commands. The slots are claimed."""
 
     def on_update(self) -> Status:
         """Return RUNNING, SUCCESS or `self.fail(reason)`; called each pass, at the start too."""
@@ -116,7 +116,7 @@ class BaseAction(Leaf):
     # --- how it runs ---
 
     def look_ahead(self) -> None:
-        """See whether the map has what is asked for, when all is placed and set up.
+        """Check that the map has the requested elements, after placement and setup.
 
         Raises:
             BeyondMapError: Wherever its actor can be by then, it has not.
@@ -143,7 +143,7 @@ class BaseAction(Leaf):
         return limits.judge(RUNNING if holds else status, holds or self.registered.ends == "open")
 
     def fills_its_time(self) -> bool:
-        """Return whether what it has reached goes on for its duration."""
+        """Return whether the reached state continues for its duration."""
         return self.registered.ends != "goal"
 
     def _content(self) -> Status:
@@ -156,12 +156,12 @@ class BaseAction(Leaf):
         return RUNNING if pending else status
 
     def lateness(self) -> float:
-        """Return that of the duration, if it ends the action."""
+        """Return the status of the duration, if it ends the action."""
         late = None if self._limits is None else self._limits.late
         return super().lateness() if late is None else late
 
     def judge_end(self, status: Status) -> Status:
-        """Fail if what has to hold in its phase does not; what is cut short is not judged."""
+        """Fail if a condition of its phase does not hold; an interrupted phase is not judged."""
         monitors = self.context.monitors
         if monitors is None:
             return status
@@ -192,7 +192,7 @@ class BaseAction(Leaf):
         """Release the slots of the actor.
 
         Args:
-            momentary: It had them for no time, and changed what they are about.
+            momentary: It had them for no time, and changed a state that they control.
         """
 
     def _deviation(self) -> Deviation | None:
@@ -201,7 +201,7 @@ class BaseAction(Leaf):
 
 
 def registered_as(factory: type[BaseAction]) -> Method:
-    """Return how a class is registered; one that is not has a goal and no slots."""
+    """Return the registration of a class; without one, a goal and no slots."""
     method: Method | None = getattr(factory, "method", None)
     return Method(None, factory.__name__, (), "goal") if method is None else method
 
@@ -212,7 +212,7 @@ def full_name(actor_id: str | None, name: str) -> str:
 
 
 def with_blame(action: BaseAction, function: Callable[[], T]) -> T:
-    """Call a function of an action; what an action of the user's own raises is a mistake of its.
+    """Call a function of an action; exceptions of a user's own action are reported as its errors.
 
     Raises:
         ScenarioError: If the class of the action does not come from this library.
@@ -224,9 +224,9 @@ def with_blame(action: BaseAction, function: Callable[[], T]) -> T:
 
 
 class RefusedAction(BaseAction):
-    """Stands for an action that nobody carries out, or whose arguments are wrong.
+    """Stands for an action without a class, or with wrong arguments.
 
-    When it is made nobody knows its place in the scenario; at setup, before the first step, it
+    Its position in the scenario is unknown when it is made; at setup, before the first step, it
     does, and refuses the run. Until then the tree can be shown and counted like any other.
 
     Args:

@@ -22,14 +22,14 @@ class Method:
     Attributes:
         kind: Actor kind of the DSL (`vehicle`); None for an action that has no actor.
         name: Method name (`change_lane`).
-        slots: What it controls of the actor: LONGITUDINAL, LATERAL, both or nothing. An action that
-            moves as its modifiers say controls nothing itself.
+        slots: Slots of the actor that it controls: LONGITUDINAL, LATERAL, both or none. An action
+            that moves as its modifiers state controls none itself.
         ends: `goal` when its goal is reached, `at_once` with a goal that is reached in the instant
-            in which it starts, `open` only with its surroundings, `instant` at once. What is
-            instant has no goal either, so like an `emit` it bounds no composition.
-        places: Whether its arguments say where the actor is.
+            in which it starts, `open` only with its surroundings, `instant` immediately. An
+            instantaneous action has no goal either, so like an `emit` it bounds no composition.
+        places: Whether its arguments state where the actor is.
         paces: Whether it sets or holds the speed of the actor.
-        needs: What a world must have to carry it out.
+        needs: Capabilities of the world that it requires.
         undeclared: Why the library does not declare it, if it does not.
     """
 

@@ -20,18 +20,18 @@ SIDE = "place across the lane"
 
 @dataclass(frozen=True, slots=True)
 class ModifierFacts:
-    """What a modifier is.
+    """The facts about a modifier.
 
     Attributes:
-        rules: What it does to other modifiers of the same action.
-        slots: What it controls of the actor: LONGITUDINAL, LATERAL, both or nothing.
-        places: Whether it says where the actor is.
-        paces: Whether it says how fast the actor is, or where it is at each time.
-        bounds: Whether an open-ended action is over when what it says is reached.
+        rules: Its effect on other modifiers of the same action.
+        slots: Slots of the actor that it controls: LONGITUDINAL, LATERAL, both or none.
+        places: Whether it states where the actor is.
+        paces: Whether it states the speed of the actor, or its position at each time.
+        bounds: Whether an open-ended action ends when the state of the modifier is reached.
         placement: Whether an actor can start with it.
         orders: Parameters that only state an order, such as `faster_than`,
-        amounts: whose amount stands in one of these, or stays open.
-        needs: What a world must have to carry it out.
+        amounts: whose amount is given by one of these, or stays open.
+        needs: Capabilities of the world that it requires.
         undeclared: Why the library does not declare it, if it does not.
     """
 
@@ -53,8 +53,8 @@ class Modifier:
 
     Attributes:
         name: Name in the DSL.
-        facts: What is stated of it at its registration.
-        rules: Which parameters go together; the compiler knows them as well.
+        facts: Facts stated at its registration.
+        rules: Rules for its parameters; the compiler knows them as well.
     """
 
     name: ClassVar[str] = ""
@@ -75,7 +75,7 @@ class Modifier:
         return getattr(self, "at", "all") == "start" and self.facts.rules.starts
 
     def given(self) -> dict[str, Any]:
-        """Parameters with values that are not those of a modifier without arguments."""
+        """Parameters with values other than those of a modifier without arguments."""
         kind = type(self)
         if kind not in _DEFAULTS:
             _DEFAULTS[kind] = tuple((field.name, field.default) for field in fields(kind))
@@ -86,4 +86,4 @@ class Modifier:
 
 
 _DEFAULTS: dict[type[Modifier], tuple[tuple[str, object], ...]] = {}
-"""What the parameters of modifiers are without arguments, of those that were looked at."""
+"""Parameters of modifiers without arguments, by class, as far as they were needed."""

@@ -18,9 +18,9 @@ class Placement:
     """Where and how an actor starts.
 
     Attributes:
-        actor: Who.
+        actor: The actor.
         modifiers: position, lane, speed and so on, as written.
-        source: Place in the scenario.
+        source: Position in the scenario.
         throughout: All of it holds later as well.
     """
 

@@ -74,7 +74,7 @@ class MethodRegistry:
     def extend(self) -> None:
         """Import the modules that installed packages name in the entry point group.
 
-        Happens once, when a method is asked for that nobody has registered: it takes time.
+        Happens once, when an unregistered method is requested: it takes time.
 
         Raises:
             ScenarioError: If such a module cannot be imported.
@@ -112,9 +112,9 @@ class MethodRegistry:
             ends: When it ends.
             places: Its arguments say where the actor is.
             paces: It sets or holds the speed; by default if it claims the longitudinal slot.
-            needs: What a world must have to carry it out.
+            needs: Capabilities of the world that it requires.
             undeclared: Why the library does not declare an action of ours.
-            replace: Take the place of a registered class instead of reporting it.
+            replace: Replaces a registered class instead of reporting it.
 
         Raises:
             ValueError: If the method is registered already.
@@ -166,8 +166,8 @@ class MethodRegistry:
     def bind(self, actor: BaseActor | None, name: str) -> Callable[..., BaseAction]:
         """Return the constructor of the action `name`, for one actor or without one.
 
-        What it cannot make refuses the run at its line, before the first step: an action that
-        nobody registered, and arguments that it does not take.
+        An invalid call rejects the run at its line, before the first step: an unregistered action,
+        or unknown arguments.
         """
         kinds: tuple[str | None, ...] = (None,) if actor is None else type(actor).kinds
         actor_id, acting = (None, ()) if actor is None else (actor.id, (actor,))
@@ -211,7 +211,7 @@ class MethodRegistry:
 
 
 def called(actor_id: str | None, name: str, arguments: str) -> str:
-    """Return a call as the scenario has it, `ego.drive(...)`, to name its node."""
+    """Return a call as written in the scenario, `ego.drive(...)`, as the name of its node."""
     return f"{name}{arguments}" if actor_id is None else f"{actor_id}.{name}{arguments}"
 
 
@@ -265,10 +265,10 @@ action = methods.action
 
 
 def carried_out(declared: type[ClassT]) -> type[ClassT]:
-    """Let the registry carry out the methods that a class declares: `self.ego.drive(...)`.
+    """Let the registry execute the methods that a class declares: `self.ego.drive(...)`.
 
-    They are there for their types and docstrings; what they are called with goes to the class that
-    is registered for the actor, and is checked there.
+    They exist for their types and docstrings; their arguments go to the class that is registered
+    for the actor, and are checked there.
     """
     for name, method in vars(declared).copy().items():
         if not name.startswith("_"):
@@ -281,7 +281,7 @@ def user_action(name: str, declared: type | None = None) -> Any:
 
     Args:
         name: Its name in the registry.
-        declared: Its type, as the scenario declares it: the defaults are those of its `__call__`.
+        declared: Its declared type: the defaults are those of its `__call__`.
     """
     defaults = _defaults(declared)
 

@@ -77,9 +77,9 @@ def apply_lines(root: Behaviour, source_map: SourceMap) -> None:
 
 
 def name_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:
-    """Give the nodes of a scenario names that differ, and what their random values depend on.
+    """Give the nodes of a scenario names that differ, and the keys of their random values.
 
-    That are names of the module: of the composition around, and of the node or what it does.
+    The keys are names of the module: of the composition around, and of the node or its activity.
     """
     own = set(own_nodes(tree))
     names: dict[str, None] = {}
@@ -103,7 +103,7 @@ def composition_around(node: Behaviour) -> str:
 
 
 def check_labels(scenario: ScenarioParts, tree: Behaviour) -> None:
-    """Report a label that somebody waits for and no node has."""
+    """Report a label that is waited for and that no node has."""
     known = {node.label for node in own_nodes(tree) if node.label}
     for label, moment in scenario.label_events:
         if label not in known:
@@ -174,8 +174,8 @@ def around(scenario: ScenarioParts, tree: Behaviour, whole: Node) -> Node:
 def invoked_placements(scenario: ScenarioParts, tree: Behaviour) -> list[Placement]:
     """Return the placements of all scenarios that a tree invokes.
 
-    Raises:
-        UnsupportedError: If one of them starts later: nobody can be put anywhere then.
+    UnsupportedError: If one of them starts later: actors cannot be placed then. UnsupportedError:
+        If one of them starts later: nobody can be put anywhere then.
     """
     found: list[Placement] = []
     for invocation, at_once in invocations(tree, scenario.one_of == "race"):
@@ -193,7 +193,7 @@ def invoked_placements(scenario: ScenarioParts, tree: Behaviour) -> list[Placeme
 
 
 def number_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:
-    """Note where each node stands in the whole tree, those of invoked scenarios included."""
+    """Note the position of each node in the whole tree, those of invoked scenarios included."""
     for position, node in enumerate(in_order(tree, scenario.actors.values())):
         if isinstance(node, Node):
             node.position = position
@@ -203,7 +203,7 @@ def in_order(tree: Behaviour, actors: Iterable[BaseActor]) -> list[Behaviour]:
     """Return the nodes of a tree, parents first, in an order that its meaning decides.
 
     Members that run together are ordered by their actors as these are declared, then by name, then
-    by what is in them: the order of the members in the module must not show.
+    by their content: the order of the members in the module must not show.
     """
     declared = {id(actor): index for index, actor in enumerate(actors)}
 

@@ -4,8 +4,8 @@ A node's work is `pulse()`: one call per pass that returns the new status. py_tr
 `tick()` is kept for viewers and visitors, but costs every node a pass through all its ancestors;
 `pulse()` calls go straight down the tree.
 
-A node is left in one of three ways, which `stop` tells apart by the status it is given:
-SUCCESS (it ended, by itself or because its open end was reached), FAILURE, INVALID (cut short).
+A node is left in one of three ways, which `stop` tells apart by the status it is given: SUCCESS (it
+ended, by itself or because its open end was reached), FAILURE, INVALID (interrupted).
 """
 
 from __future__ import annotations
@@ -81,11 +81,11 @@ class Node(Behaviour):
     """What leaves and compositions share.
 
     Attributes:
-        source: Place in the scenario, `hello_world.osc:57`; the line comes from the source map.
-        position: Place in the whole tree, as the modules have it; what happens at one instant is
-            told in this order.
-        draws: What random values of the node depend on besides the seed: names in the module.
-        label: Name that `@label.end` and its like refer to; None without one.
+        source: Position in the scenario, `hello_world.osc:57`; the line comes from the source map.
+        position: Position in the whole tree, as written in the modules; occurrences of one instant
+            are reported in this order.
+        draws: Key of the node's random values, besides the seed: names in the module.
+        label: Name that `@label.end` and similar events refer to; None without one.
         open_ended: Never ends by itself; what surrounds it ends it.
         instant: Takes no time (emit, call, assignments), so it bounds no composition.
         service: Accompanies the others (on, sampled variables); no interval rule counts it.
@@ -120,7 +120,7 @@ class Node(Behaviour):
     _failed: PostedEvent | None = None
 
     def __getattr__(self, name: str) -> Any:
-        """Say what a tree needs that is ticked before it is set up for a run."""
+        """Describe the need for a setup when a tree is ticked without one."""
         if name == "context":
             raise ScenarioError(NEEDS_RUN)
         raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
@@ -129,7 +129,7 @@ class Node(Behaviour):
         """Take the `context` of the run.
 
         Raises:
-            ScenarioError: Somebody else than a run sets it up.
+            ScenarioError: It is set up outside a run.
         """
         if "context" not in kwargs:
             raise ScenarioError(NEEDS_RUN)
@@ -159,12 +159,12 @@ class Node(Behaviour):
         return self.started_late if self.context.step == self._first_step else 0.0
 
     def lasted(self, late: float) -> float:
-        """Return how long (s) it has taken, up to so many seconds before this step."""
+        """Return its duration (s) so far, up to a time (s) before this step."""
         context = self.context
         return (context.step - self._first_step) * context.dt + self.started_late - late
 
     def situation(self) -> str:
-        """Return what there is to say of a node that is still running; nothing, as a rule."""
+        """Return a description of a node that is still running; empty by default."""
         return ""
 
     def waits_in_vain(self) -> bool:
@@ -197,9 +197,9 @@ class Node(Behaviour):
                 yield node
 
     def stop(self, new_status: Status = INVALID) -> None:
-        """Leave the node; what runs inside is left first.
+        """Leave the node; running children are left first.
 
-        An end with success becomes a failure if what is ended with it fails; `status` says so.
+        An end with success becomes a failure if a child that ends with it fails; `status` says so.
         """
         if self.status is RUNNING:
             late = self.lateness() if new_status is SUCCESS else 0.0
@@ -223,7 +223,7 @@ class Node(Behaviour):
         return status
 
     def _stop_children(self, new_status: Status) -> Status:
-        """Running children end with an ended parent and are cut short otherwise.
+        """Running children end with an ended parent and are interrupted otherwise.
 
         Returns:
             The status; a failure if it was success and one of them fails by its end.
@@ -334,7 +334,7 @@ def ended_late(child: Behaviour) -> float:
 
 
 def place_key(node: Named) -> tuple[int, str]:
-    """Return the sort key of a node: its place in the tree; where nobody set it, its name."""
+    """Return the sort key of a node: its position in the tree; its name where it has none."""
     return getattr(node, "position", 0), node.name
 
 

@@ -34,7 +34,7 @@ Member = tuple[Behaviour, Callable[[], Status]]
 
 
 class Composition(Node):
-    """What the three compositions share: their members and their duration."""
+    """The common base of the three compositions: their members and their duration."""
 
     _limits: DurationLimits | None = None
     _members: tuple[Member, ...] = ()
@@ -157,9 +157,9 @@ class Serial(Composition, SequenceComposite):
     """Members one after another, without a gap.
 
     Args:
-        name: Label, or what the composition does.
+        name: Label, or a description.
         *members: In order.
-        duration: Seconds, or (least, most) seconds, that the whole takes.
+        duration: Total duration: seconds, or (least, most) seconds.
     """
 
     def __init__(self, name: str, *members: Behaviour, duration: Duration | None = None) -> None:
@@ -223,9 +223,9 @@ class OneOf(Composition, ParallelComposite):
     ties), a failing member leaves it, and it fails when all have failed.
 
     Args:
-        name: Label, or what the composition does.
+        name: Label, or a description.
         *members: The alternatives.
-        duration: Seconds, or (least, most) seconds, that the whole takes.
+        duration: Total duration: seconds, or (least, most) seconds.
     """
 
     def __init__(self, name: str, *members: Behaviour, duration: Duration | None = None) -> None:

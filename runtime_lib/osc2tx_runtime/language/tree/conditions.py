@@ -1,6 +1,6 @@
 """Conditions: rise, fall, elapsed, every, and functions of the scenario.
 
-A condition is sampled once per snapshot: the state of the world is that of the step, and sampled
+A condition is sampled once per snapshot: the state of the world belongs to the step, and sampled
 variables may change between two passes of an instant (`context.snapshot` counts). At the start of
 the run none is true before the actors are where their first assignments put them. It starts with
 its use: `rise` and `fall` take their first sample there, which is no edge; `elapsed` and `every`
@@ -172,7 +172,7 @@ class Edge:
 
     Args:
         function: The function.
-        target: What it turns to.
+        target: The value it changes to.
         context: The run.
 
     Attributes:
@@ -209,7 +209,7 @@ class Edge:
         if context.snapshot != self._sampled:
             if context.is_placing:
                 return False
-            if self._value is None:  # its first sample is that of the actors in their places
+            if self._value is None:  # its first sample: the actors are in their start positions
                 self._value, self._sampled = evaluate(self._function), context.snapshot
                 self.is_vain = self._value is self._target
                 return False

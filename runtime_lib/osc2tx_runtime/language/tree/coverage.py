@@ -54,9 +54,9 @@ class CoverageItem:
         buckets: Boundaries between slices.
         at: When it is sampled.
         ignore: Which values do not count.
-        illegal: Which values must not be.
-        target: How often each slice should be hit.
-        text: What it is about.
+        illegal: Forbidden values.
+        target: Number of hits required in each slice.
+        text: Description.
     """
 
     name: str
@@ -125,7 +125,7 @@ class Recording(Leaf):
         self._step: dict[str, int] = {}
 
     def initialise(self) -> None:
-        """Sample what the start samples, and start watching."""
+        """Sample the values triggered by the start, and start watching."""
         self._watches, self._step, self._cut_short_at = [], {}, None
         for item in self._items.values():
             if isinstance(item.at, Event):
@@ -134,7 +134,7 @@ class Recording(Leaf):
                 self._record(item)
 
     def update(self) -> Status:
-        """Sample what is due."""
+        """Sample all values that are due."""
         for item, happened in self._watches:
             if happened() and (
                 isinstance(happened, Occurrences)
@@ -145,7 +145,7 @@ class Recording(Leaf):
         return RUNNING
 
     def terminate(self, new_status: Status) -> None:
-        """Sample what the end of the scenario samples; one that is cut short has no end."""
+        """Sample the values triggered by the end of the scenario; an interrupted one has no end."""
         if new_status is not SUCCESS:
             self._cut_short_at = self.context.step
             return

@@ -165,7 +165,7 @@ class Until(Node, Decorator):
     whose duration asks for more. Where whatever comes first counts (`context.first_come`), it ends
     with its own result.
 
-    The label of the behavior is that of the whole: its end is the end of both.
+    The label of the behavior belongs to the whole: its end is the end of both.
 
     Args:
         behavior: What runs.
@@ -208,7 +208,7 @@ class Until(Node, Decorator):
         self._happened = [watch(condition, None, self.context) for condition in self.conditions]
 
     def lateness(self) -> float:
-        """Return that of the first condition that ended it, else of the behavior."""
+        """Return the status of the first condition that ended it, else of the behavior."""
         return ended_late(self.decorated) if self._late is None else self._late
 
     def waits_in_vain(self) -> bool:
@@ -251,7 +251,7 @@ class Until(Node, Decorator):
         return self.fail(f"{self.name} ends it after {after:g} s, its duration is {limits.text}")
 
     def _may_end(self) -> bool:
-        """Return whether the behavior may end without what it is to go on until.
+        """Return whether the behavior may end before the condition of its `until`.
 
         It may at the most of a range of durations: no end before that was its own.
         """

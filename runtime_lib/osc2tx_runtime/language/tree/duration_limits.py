@@ -77,7 +77,7 @@ class DurationLimits:
         return self._node.generator("duration").uniform(low, high)
 
     def length(self, content: int | None, open_ended: bool) -> int | None:
-        """Return how many steps the node takes, given those of its content."""
+        """Return the steps of the node, given the steps of its content."""
         low, high = self._steps()
         if open_ended:
             return None if self.until else self._node.context.steps(self._open_length())
@@ -98,7 +98,7 @@ class DurationLimits:
 
     @property
     def text(self) -> str:
-        """What it asks for, for messages."""
+        """The required duration, for messages."""
         low, high = self._seconds
         if low == high:
             return f"{low:g} s"

@@ -74,11 +74,11 @@ class Ending(Node, Decorator):
         return None
 
     def lateness(self) -> float:
-        """Return that of the tree, if it came to its end."""
+        """Return the status of the tree, if it came to its end."""
         return ended_late(self.decorated) if self.decorated.status is SUCCESS else 0.0
 
     def pulse(self) -> Status:
-        """Run the tree, then see whether it said that it is over; failures count first."""
+        """Run the tree, then check whether it declared its end; failures count first."""
         if self.status is not RUNNING:
             self._begin()
         resting = self.context.resting.nodes

@@ -82,7 +82,7 @@ class Event:
         return self if self.alias is None else self.alias.meant()
 
     def problem(self, given: Iterable[str]) -> str:
-        """Return what is wrong with the names of arguments; nothing for an undeclared list."""
+        """Return the error in the names of arguments; nothing for an undeclared list."""
         if self.parameters is None:
             return ""
         names = list(given)
@@ -171,7 +171,7 @@ def watch_event(event: Event, only_if: Guard | None, context: ExecutionContext) 
 
 
 class Occurrences:
-    """Watches what is posted: by emit, by a label, from outside. Each occurrence counts once.
+    """Watches posted events: from emit, a label, or outside. Each occurrence counts once.
 
     Attributes:
         matching: Arguments of the occurrences when it was last true, in canonical order.

@@ -69,7 +69,7 @@ def timeout_reason(root: Behaviour, context: ExecutionContext) -> str:
 
 
 def timeout_place(root: Behaviour) -> str:
-    """Return the place of the first leaf that is still running; empty where there is none."""
+    """Return the position of the first leaf that is still running; empty without one."""
     return next((source_of(leaf) for leaf in running_leaves(root)), "")
 
 
@@ -81,7 +81,7 @@ def running_leaves(root: Behaviour) -> list[Behaviour]:
 
 
 def with_situation(text: str, node: Behaviour) -> str:
-    """Return a text about a running node with what there is to say of it."""
+    """Return a text about a running node with its situation."""
     situation = node.situation() if isinstance(node, Node) else ""
     return f"{text}, while {situation}" if situation else text
 

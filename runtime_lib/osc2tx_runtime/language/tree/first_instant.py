@@ -1,4 +1,4 @@
-"""What the tree does with its actors at the very start, before a condition is asked."""
+"""The actions of the tree at the very start, before a condition is evaluated."""
 
 from __future__ import annotations
 

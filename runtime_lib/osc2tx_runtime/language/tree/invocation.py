@@ -21,7 +21,7 @@ __all__ = ["Invocation", "check_recursion", "draw_key", "invocations", "own_node
 class Invocation(Serial):
     """Runs the tree of an invoked scenario; one node of the caller's tree.
 
-    What is below belongs to the invoked scenario: its places, labels and events.
+    Its descendants belong to the invoked scenario: its positions, labels and events.
 
     Args:
         name: Label, or actor and scenario.

@@ -35,7 +35,7 @@ def call_arguments() -> str:
 
 
 def function_text(function: Callable[..., object]) -> str:
-    """Return what a lambda computes, `ego.speed > 3`; of any other function its name."""
+    """Return the expression of a lambda, `ego.speed > 3`; of any other function its name."""
     code = getattr(function, "__code__", None)
     name = str(getattr(function, "__name__", "function"))
     if code is None or name != "<lambda>":
@@ -53,7 +53,7 @@ def function_text(function: Callable[..., object]) -> str:
 def failing_part(error: BaseException) -> tuple[str, str]:
     """Return the expression of a module that raised an error, and the member that it computes.
 
-    The member is `keep` for a demand, a name for what is given one; both may be empty.
+    The member is `keep` for a constraint, a name for the value of one; both may be empty.
     """
     text = member = ""
     trace = error.__traceback__

@@ -81,7 +81,7 @@ class On(Node, SequenceComposite):
         return self.status
 
     def _hear(self) -> None:
-        """Queue what happened; what is true for an instant counts once."""
+        """Queue occurrences; a condition that is true for an instant counts once."""
         watched = self._happened
         if isinstance(watched, Occurrences):
             self._queue += watched.matching

@@ -31,7 +31,7 @@ class Overridden(Node, Decorator):
     so it does not matter which of the two is visited first.
 
     Args:
-        behavior: What is overridden.
+        behavior: The overridden behavior.
     """
 
     synthetic = True
@@ -54,14 +54,14 @@ class Overridden(Node, Decorator):
         self._pulse_child = pulse_of(child)
         self.open_ended = isinstance(child, Node) and child.open_ended
         self.instant = isinstance(child, Node) and child.instant
-        self.may_end = True  # so an open-ended behavior may stand in the middle of a serial
+        self.may_end = True  # so an open-ended behavior may be in the middle of a serial
 
     def initialise(self) -> None:
         """Remember the pass of the start."""
         self._begun = self.context.tick
 
     def lateness(self) -> float:
-        """Return that of the behavior, if it came to its end."""
+        """Return the status of the behavior, if it came to its end."""
         return ended_late(self.decorated) if self.decorated.status is SUCCESS else 0.0
 
     def pulse(self) -> Status:
@@ -77,7 +77,7 @@ class Overridden(Node, Decorator):
         ending = [name for name, a, _ in self._by if a.started_since(self._begun, tick)]
         if ending:
             self._note("ended", ending)
-            for node in self.decorated.children:  # cut short; the behavior itself has ended
+            for node in self.decorated.children:  # interrupted; the behavior itself has ended
                 if node.status is RUNNING:
                     node.stop(INVALID)
             if self.context.monitors is not None:
@@ -96,7 +96,7 @@ class Overridden(Node, Decorator):
 
 
 def guard(node: Node) -> Overridden:
-    """Return the guard around a node; put one there if there is none."""
+    """Return the guard around a node; create it if there is none."""
     above = node.parent
     if isinstance(above, Overridden):
         return above

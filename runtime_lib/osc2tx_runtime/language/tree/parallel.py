@@ -52,13 +52,13 @@ class Parallel(Composition, ParallelComposite):
     `On` and samples beside the members see all that happens at the last instant: the end waits
     until it is settled.
 
-    Other overlaps than `start` bound the starts and ends of the other members relative to those
-    of the first, the primary one (`parallel_schedule`). The order of the others has no influence.
+    Other overlaps than `start` bound the starts and ends of the other members relative to the
+    first, the primary one (`parallel_schedule`). The order of the others has no influence.
 
     Args:
-        name: Label, or what the composition does.
+        name: Label, or a description.
         *members: In the order of the source.
-        overlap: How they lie in time; None is `start`, or `any` with a `start_to_start`.
+        overlap: Their relation in time; None is `start`, or `any` with a `start_to_start`.
         duration: Seconds, or (least, most) seconds, that the whole takes.
         start_to_start: Seconds, or (least, most) seconds, from the start of the first member to
             that of each other.
@@ -130,7 +130,7 @@ class Parallel(Composition, ParallelComposite):
         return RUNNING
 
     def _lasting(self) -> list[Behaviour]:
-        """Return the members the rules of time apply to; zero-time ones and `on` are none."""
+        """Return the members with rules of time; zero-time ones and `on` have none."""
         return [c for c in self.children if not is_instant(c) and not is_service(c)]
 
     def _plan(self) -> Schedule | None:
@@ -186,7 +186,7 @@ class Parallel(Composition, ParallelComposite):
         return ", ".join(texts)
 
     def _is_open(self) -> bool:
-        # Zero-time members bound nothing: `parallel: drive(); emit e` goes on.
+        # Zero-time members bound nothing: `parallel: drive(); emit e` continues.
         lasting = [child for child in self.children if not is_instant(child)]
         return bool(lasting) and all(is_open(child) for child in lasting)
 

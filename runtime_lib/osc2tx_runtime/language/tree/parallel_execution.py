@@ -34,8 +34,8 @@ class _Runner:
 class Course:
     """One execution of a scheduled `parallel`.
 
-    In every pass all running members are advanced first; then it is judged, from what all of
-    them did, who is ended and who starts. So the order of the members has no influence.
+    In every pass all running members are advanced first; then the results of all of them decide
+    which members end and start. So the order of the members has no influence.
 
     Args:
         owner: The composition.
@@ -153,7 +153,7 @@ class Course:
         return ""
 
     def _apart(self, step: int) -> list[str]:
-        """Return who starts only after another has ended."""
+        """Return the members that start only after another has ended."""
         late = [r for r in self._all if r.end is None and not r.running]
         early = [r for r in self._all if r.end is not None and r.end <= step]
         pairs = [(one, other) for one in early for other in late if other.start is not None]

@@ -41,7 +41,7 @@ class Span:
         return self == FREE
 
     def meet(self, other: Span) -> Span:
-        """Return what is in both; `low` is above `high` where nothing is."""
+        """Return the intersection; `low` is above `high` where it is empty."""
         return Span(max(self.low, other.low), min(self.high, other.high))
 
     def nearest(self, steps: Steps) -> int:
@@ -73,7 +73,7 @@ class Schedule:
     """A plan.
 
     Attributes:
-        starts: Start of each member in steps from that of the composition, the primary first;
+        starts: Start of each member in steps from the start of the composition, the primary first;
             None for one that starts when the primary ends.
         primary_length: Steps of the primary; None where the run decides.
         end_to_end: Bounds for the ends of the secondaries.
@@ -170,7 +170,7 @@ def _whole(length: int, offsets: Sequence[int], lengths: Sequence[int]) -> int:
 
 
 def _fitting(primary: int, length: int, sts: Span, ete: Span) -> Span:
-    """Return the offsets of a member of known length, that of the primary being known too."""
+    """Return the offsets of a member of known length, with a primary of known length."""
     fitting = sts.meet(Span(ete.low + primary - length, ete.high + primary - length))
     return fitting.meet(Span(-length, primary))
 
@@ -178,9 +178,9 @@ def _fitting(primary: int, length: int, sts: Span, ete: Span) -> Span:
 def open_primary_length(
     secondaries: Sequence[Part], sts: Span, ete: Span, least: int
 ) -> int | None:
-    """Return how long an open-ended primary goes on; None where the run decides.
+    """Return the duration of an open-ended primary; None where the run decides.
 
-    It goes on as long as the last secondary, as far as the bounds allow.
+    It continues as long as the last secondary, as far as the bounds allow.
     """
     bounded = [part for part in secondaries if not part.open_ended]
     if not bounded:
@@ -208,7 +208,7 @@ def open_primary_length(
 
 
 def unknown(parts: Sequence[Part]) -> str:
-    """Return the names of the members whose length only the run tells."""
+    """Return the names of the members whose length is only known in the run."""
     return " and ".join(sorted(p.name for p in parts if p.length is None and not p.open_ended))
 
 
@@ -220,7 +220,7 @@ def offset_of(
     ete: Span,
     secondaries: Sequence[Part],
 ) -> int | None:
-    """Return the start of a secondary after that of the primary; None for at its end."""
+    """Return the start of a secondary after the start of the primary; None for at its end."""
     if part.open_ended:
         if length is None and ete.high < 0:
             raise Unplannable(f"the length of {primary.name} cannot be determined")

@@ -27,7 +27,7 @@ class Sampled:
 
     Args:
         expression: Gives the new value.
-        trigger: When it is sampled; `start` and `end` are those of its scenario.
+        trigger: When it is sampled; `start` and `end` refer to its scenario.
         default: Value before the first sample; MISSING for none.
         condition: With an event: only an occurrence at which this is true counts.
         name: Name in the scenario, where its attribute cannot have it (`from`).
@@ -65,9 +65,9 @@ class Sampled:
 class Sampling(Leaf):
     """Samples the variables of a scenario for as long as that runs.
 
-    What an event samples is known to all that it starts (§7.3.10): it is sampled before the nodes
-    of the pass in which the event is visible. What a condition samples is visible from the next
-    pass on, so no order shows.
+    A value sampled by an event is visible to all members that the event starts (§7.3.10): it is
+    sampled before the nodes of the pass in which the event is visible. A value sampled by a
+    condition is visible from the next pass on, so no order shows.
     """
 
     open_ended = True
@@ -99,7 +99,7 @@ class Sampling(Leaf):
         self.context.samplers.remove(self._sample_at_events)
 
     def update(self) -> Status:
-        """Sample what is due."""
+        """Sample all values that are due."""
         for variable, happened in zip(self._variables, self._watches, strict=True):
             if not isinstance(happened, Occurrences) and happened():
                 self._sample(variable, happened)
@@ -110,7 +110,7 @@ class Sampling(Leaf):
         return RUNNING
 
     def _sample_at_events(self) -> None:
-        """Sample what the events sample that are visible now."""
+        """Sample the values triggered by the events that are visible now."""
         for variable, happened in zip(self._variables, self._watches, strict=True):
             if isinstance(happened, Occurrences) and happened():
                 self._sample(variable, happened)
@@ -129,7 +129,7 @@ class Sampling(Leaf):
 
 
 class SamplingStart(Leaf):
-    """Samples what the start of a scenario samples: all that happens in it can read it."""
+    """Samples the values triggered by the start of a scenario, for all its members to read."""
 
     instant = True
     synthetic = True

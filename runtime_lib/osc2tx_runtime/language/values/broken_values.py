@@ -18,7 +18,7 @@ class NotKeptError(Exception):
     """A relation that `keep` demands does not hold.
 
     Args:
-        place: Where it stands in the scenario.
+        place: Its position in the scenario.
     """
 
     def __init__(self, place: str) -> None:
@@ -38,8 +38,8 @@ def not_kept(
     Args:
         broken: The relation.
         parameters: All values.
-        units: Those of them that have one.
-        tried: How often others were drawn, ` in 1000 draws`; empty if none were.
+        units: Units of the values that have one.
+        tried: Number of further draws, ` in 1000 draws`; empty without any.
         rivals: Relations that it contradicts.
     """
     text = _relation(broken)
@@ -66,8 +66,8 @@ def not_computed(
 
     Args:
         error: Why.
-        source_map: Where things stand in the scenario.
-        kept: How many demands hold before it.
+        source_map: Positions in the scenario.
+        kept: Number of constraints that hold before it.
         tried: See `not_kept`.
     """
     text, _ = failing_part(error)
@@ -77,12 +77,12 @@ def not_computed(
 
 
 def place_of(error: Exception, source_map: SourceMap, kept: int) -> str | None:
-    """Return where the value or demand stands in the scenario that raised an error.
+    """Return the position of the value or constraint that raised an error.
 
     Args:
-        error: What was raised.
-        source_map: Where things stand in the scenario.
-        kept: How many demands hold before it.
+        error: The error.
+        source_map: Positions in the scenario.
+        kept: Number of constraints that hold before it.
     """
     _, member = failing_part(error)
     if member == "keep":

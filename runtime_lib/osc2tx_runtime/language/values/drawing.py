@@ -1,4 +1,4 @@
-"""Draws all values of a scenario, again and again until what is demanded of them holds."""
+"""Draws all values of a scenario, again and again until its constraints hold."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ class Drawing:
     """The draws of one scenario.
 
     Args:
-        source: What all draws of the run depend on, its seed.
-        key: What those of this scenario do besides.
-        source_map: Where things stand in the source.
+        source: Common origin of all draws of the run, its seed.
+        key: Further origin of the draws of this scenario.
+        source_map: Positions in the source.
         parameters: The values, as they are declared.
-        units: Those of them that have one.
-        attempts: How often values are drawn until a walk looks for some; 1 if there are no others.
+        units: Units of the values that have one.
+        attempts: Number of draws before a walk searches for values; 1 if there are no others.
 
     Attributes:
         has_drawn: Whether a value was drawn, so that another draw may help.
@@ -57,7 +57,7 @@ class Drawing:
         self.has_drawn = False
 
     def draws_for(self, what: str) -> Draws:
-        """Return draws that depend on the seed and on what is drawn, not on an order."""
+        """Return draws that depend on the seed and on the drawn value, not on an order."""
         if self._walk is not None:
             return self._walk.draws_for(what)
         again = f"/{self._attempt}" if self._attempt else ""

@@ -47,7 +47,7 @@ def external_function(
 
 
 def as_kind(result: Any, kind: type, path: str, source: str) -> Any:
-    """Return a result as what the scenario declares.
+    """Return a result converted to the declared type.
 
     Raises:
         ScenarioError: If it is something else.

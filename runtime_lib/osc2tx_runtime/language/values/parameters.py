@@ -138,17 +138,17 @@ def choose(
 ) -> Any:
     """Return the value of a parameter: as given, else set, else drawn, else its default.
 
-    A range is drawn from whether the value is used or not, so that setting one parameter does
-    not change what is drawn for the next.
+    A range is drawn from whether the value is used or not, so that setting one parameter does not
+    change the draws of the next.
 
     Args:
         name: Name, in an invoked scenario with the path before it.
-        default: Value, or what it is drawn from, SI units; a type if a value must be given.
-        domain: What is allowed; the default itself where that is a range or choice.
+        default: Value, or a range or choice to draw from, SI units; a type if one must be given.
+        domain: The allowed values; the default itself where that is a range or choice.
         generator: Draws.
-        given: Value, or what the caller lets it be drawn from; None for none.
-        settings: What `--set` sets.
-        unit: In which messages speak of it.
+        given: Value, or a range from the caller; None for none.
+        settings: The values of `--set`.
+        unit: Its unit in messages.
 
     Raises:
         ScenarioError: If a given value is outside of the domain.
@@ -182,7 +182,7 @@ def choose(
 def draw(
     name: str, given: Domain, domain: Domain | None, generator: Draws, unit: Unit | None
 ) -> Any:
-    """Return a value from what the caller gives and the scenario allows.
+    """Return a value from that of the caller and the domain of the scenario.
 
     Raises:
         ScenarioError: If that is nothing, or without end.
@@ -200,7 +200,7 @@ def draw(
 
 
 def outside(value: Any, domain: Domain | None, unit: Unit | None) -> str:
-    """Return what is wrong with a value that is not in its domain."""
+    """Return the error of a value outside its domain."""
     if domain is None or value in domain:
         return ""
     return f"{shown_value(value, unit)}: the scenario allows {domain.shown(unit)}"
@@ -210,7 +210,7 @@ def fit(name: str, value: float | str, like: Any, unit: Unit | None) -> Any:
     """Return a value of the settings in the type of the parameter it is for.
 
     Raises:
-        SettingsError: If it is none of that type, or in a unit of something else.
+        SettingsError: If it is no value of that type, or its unit has another dimension.
     """
     if isinstance(like, bool):
         if isinstance(value, bool):

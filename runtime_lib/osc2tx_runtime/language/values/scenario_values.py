@@ -21,12 +21,12 @@ AnyT = TypeVar("AnyT")
 
 
 class ScenarioValues:
-    """What a scenario chooses before it runs. Generated classes use it in `declare`.
+    """The values that a scenario chooses before it runs. Generated classes use it in `declare`.
 
     Args:
         settings: Of the run.
         arguments: Values that the caller gives.
-        source_map: Where things stand in the source.
+        source_map: Positions in the source.
         caller: The values of the scenario that runs, for one that it invokes.
         path: Labels of the invocations down to this scenario, for names in settings.
         key: What draws depend on besides the seed: not on an order of invocations.
@@ -102,9 +102,9 @@ class ScenarioValues:
     ) -> Any:
         """Return the value of a parameter.
 
-        An argument of the class counts before `--set`, that before a draw from a range, that
-        before the default. Setting one parameter does not change what is drawn for another.
-        Parameters of invoked scenarios are set by path: `--set p1.gap=12`.
+        An argument of the class counts before `--set`, that before a draw from a range, that before
+        the default. Setting one parameter does not change the draws of another. Parameters of
+        invoked scenarios are set by path: `--set p1.gap=12`.
 
         Args:
             name: Name of the parameter.
@@ -123,7 +123,7 @@ class ScenarioValues:
         Args:
             name: Name of the parameter.
             kind: Type of its value.
-            domain: What the value must keep to.
+            domain: The domain of the value.
             unit: See `parameter`.
 
         Raises:
@@ -135,7 +135,7 @@ class ScenarioValues:
     def argument(self, name: str, default: AnyT) -> AnyT:
         """Return a list, range or object: as the caller gives it, else its default.
 
-        Settings cannot give it, so it is none of the parameters.
+        Settings cannot give it, so it is not a parameter.
         """
         self._composite.add(name)
         value: AnyT = self._arguments.get(name, default)
@@ -151,7 +151,7 @@ class ScenarioValues:
             path = f"{self._path}.{name}" if self._path else name
             raise SettingsError(
                 f"parameter `{path}` has no value, and `--set` cannot give it one:"
-                " who invokes the scenario must"
+                " the invocation of the scenario must"
             )
         value: AnyT = self.argument(name, self._arguments[name])
         return value
@@ -187,7 +187,7 @@ class ScenarioValues:
     def required_global(
         self, name: str, kind: type[ValueT], domain: Domain | None = None, *, unit: AnyUnit = ""
     ) -> ValueT:
-        """Return the value of a global parameter that nobody fixes: `--set` must."""
+        """Return the value of a global parameter without a constant: `--set` must give it."""
         value: ValueT = self._global(name, kind, domain, unit)
         return value
 

@@ -38,7 +38,7 @@ class Draws(Protocol):
 
 
 class _Share:
-    """Draws that are always so far from the start of a range."""
+    """Draws at a fixed fraction of each range."""
 
     __slots__ = ("share",)
 
@@ -70,7 +70,7 @@ class Walk:
         self._tries = 0
 
     def draws_for(self, name: str) -> Draws:
-        """Return what a value is drawn with."""
+        """Return the random number of a value."""
         if name not in self._shares:
             self._shares[name] = self._generator.random()
         return _Share(self._shares[name])
@@ -93,7 +93,7 @@ class Walk:
         return self._height() is None
 
     def can_rise(self, height: int) -> bool:
-        """Whether a short climb from here, where so many demands hold, leads to more of them."""
+        """Whether a short climb from here meets more constraints than the number given."""
         here, self._tries = dict(self._shares), 0
         reached: int | None = height
         while reached == height and self._tries < SHORT_CLIMB:
@@ -105,7 +105,7 @@ class Walk:
         """Exchange shares, never down; return the height after it.
 
         Values in an order (`a < b`, `b < c`, …) have it in one arrangement of any shares: where the
-        ranges are the same, what is found is drawn exactly from all that are in order.
+        ranges are the same, the result is drawn exactly from all ordered values.
         """
         names = list(self._shares)
         for _ in range(EXCHANGES if len(names) > 1 else 0):
@@ -133,7 +133,7 @@ class Walk:
         return reached
 
     def _slide(self, direction: dict[str, float], least: int | None) -> int | None:
-        """Move along a line to a point that is drawn from what is high enough of it.
+        """Move along a line to a random point that is high enough on it.
 
         Args:
             direction: Change of the shares.
@@ -158,7 +158,7 @@ class Walk:
 
 
 def _ends(here: dict[str, float], direction: dict[str, float]) -> tuple[float, float]:
-    """Return how far a line goes back and on until a share is none, or all."""
+    """Return the range of a line until a share is zero, or one."""
     lows, highs = [], []
     for name, share in here.items():
         rate = direction[name]

@@ -85,8 +85,8 @@ def read_value(name: str, text: str, unit: Unit | None) -> float:
 
     Args:
         name: Of the parameter.
-        text: As it was written; a plain number is none of our business.
-        unit: That of the parameter; None if it has none.
+        text: As it was written; a plain number is not handled here.
+        unit: The unit of the parameter; None if it has none.
 
     Raises:
         SettingsError: If it is no number with a unit, or the unit is one of something else.

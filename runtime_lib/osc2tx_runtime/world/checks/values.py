@@ -47,7 +47,7 @@ def problem_of(value: object, wanted: Any) -> str:
 
 @cache
 def _check_for(wanted: Hashable) -> Check:
-    """Return the check for a type, which is put together once."""
+    """Return the check for a type, which is built once."""
     if wanted is Any or wanted is object:
         return lambda value: ""
     if get_origin(wanted) in (Union, types.UnionType):
@@ -97,7 +97,7 @@ def _number_problem(value: Any) -> str:
 
 
 def _problem_in(value: Any) -> str:
-    """Return what is wrong in the fields of a data class or a named tuple."""
+    """Return the error in the fields of a data class or a named tuple."""
     kind: Any = type(value)
     for name, check in _fields(kind):
         problem = check(getattr(value, name))
@@ -107,7 +107,7 @@ def _problem_in(value: Any) -> str:
 
 
 def _problem_inside(value: Any, checks: list[Check]) -> str:
-    """Return what is wrong in a mapping, a tuple of fixed length, or a sequence."""
+    """Return the error in a mapping, a tuple of fixed length, or a sequence."""
     rows = value.items() if isinstance(value, Mapping) else [value]
     if len(checks) == 1:
         rows = [(each,) for each in value]
@@ -154,10 +154,10 @@ _SIMULATORS = "osc2tx_runtime.simulators."
 
 
 class CheckedCalls:
-    """Calls an object, and names it when it fails or answers what is not of the type it should be.
+    """Calls an object, and names it when it fails or returns a value of the wrong type.
 
     Args:
-        part: What it is for the run: `plant`, `world`.
+        part: Its role in the run: `plant`, `world`.
         object_: The object. What the embedded world raises is passed on as it is; one that speaks
             to a simulator fails as a rule for what that answered.
     """
@@ -168,7 +168,7 @@ class CheckedCalls:
 
     @staticmethod
     def _translated(factory: type) -> type[ScenarioError] | None:
-        """What exceptions become; None for those of the embedded world, which are bugs."""
+        """The class that exceptions become; None for bugs of the embedded world."""
         if is_own(factory):
             return ScenarioError
         return SimulatorError if factory.__module__.startswith(_SIMULATORS) else None
@@ -196,5 +196,5 @@ class CheckedCalls:
         return found
 
     def refuse(self, name: str, problem: str) -> NoReturn:
-        """Raises what is wrong with the answer of a method, as a `ScenarioError`."""
+        """Raises the error in the answer of a method, as a `ScenarioError`."""
         raise ScenarioError(f"{self._told}: {name}: {problem}")

@@ -69,8 +69,8 @@ class Turn(Command):
 
     Attributes:
         heading: None: the present one.
-        course: Instead of a heading: what it is at any time since the start.
-        pitch: rad; None: as the road has it, or as it was told before.
+        course: Instead of a heading: its course over time since the start.
+        pitch: rad; None: that of the road, or as set before.
         roll: Likewise.
     """
 
@@ -85,7 +85,7 @@ class Sideways(Command):
     """Lateral: a speed (m/s) to the left across the lane, reached and then held.
 
     Attributes:
-        speed: The speed, or the difference to that of the reference.
+        speed: The speed, or the difference to the speed of the reference.
         reference: Another actor whose lateral speed counts.
         factor: Multiplies its lateral speed.
         course: How the speed is reached; None: at once.
@@ -110,7 +110,7 @@ class Slant(Command):
 
     Attributes:
         angle: The heading.
-        course: Instead of it: what it is at any time since the start.
+        course: Instead of it: its course over time since the start.
     """
 
     angle: float
@@ -123,13 +123,13 @@ class Beside(Command):
 
     Attributes:
         reference: The other actor.
-        left: Metres that the own reference point is to be left of the other one.
+        left: Required distance (m) of the own reference point to the left of the other one.
         time: Instead: seconds in which the sides would meet at the lateral speed; the actor
             approaches the reference with the gap over this time.
-        spread: How many metres more to the left it may be.
-        projected: The other one counts as if it went on as it does at the start.
+        spread: Allowed distance (m) to the left of that.
+        projected: The reference counts as extrapolated from its motion at the start.
         duration: Seconds after which the distance is to be reached; None: as is comfortable.
-        course: Instead of a distance: how far left it is to be at any time since the start.
+        course: Instead of a distance: its course over time since the start.
     """
 
     reference: str

@@ -88,11 +88,11 @@ class AccelerationChange(Command):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Careful(Command):
-    """Longitudinal: another command, but never so fast as to run into what is ahead.
+    """Longitudinal: another command, slowed down to avoid obstacles ahead.
 
     Attributes:
-        course: What to do with a free road; None: hold the speed.
-        headway: Seconds to keep behind what is ahead.
+        course: Command on a free road; None: hold the speed.
+        headway: Time gap (s) to an obstacle.
         gap: Metres to keep behind it at standstill.
     """
 
@@ -124,8 +124,8 @@ class FollowSpeed(Command):
         reference: The other actor.
         factor: Multiplies its speed.
         difference: Least difference (m/s).
-        spread: How much more (m/s) the difference may be.
-        course: Instead of a difference: what it is at any time since the start.
+        spread: Allowed surplus (m/s) of the difference.
+        course: Instead of a difference: its course over time since the start.
     """
 
     reference: str
@@ -145,8 +145,8 @@ class KeepGap(Command):
         measure: Between facing ends ("gap"), fronts ("headway") or reference points.
         distance: Metres; exclusive with `time`.
         time: Seconds times the speed of the trailing one.
-        spread: How much more (m or s) it may be.
-        projected: The other one counts as if it went on as it does at the start.
+        spread: Allowed surplus (m or s).
+        projected: The reference counts as extrapolated from its motion at the start.
     """
 
     reference: str
@@ -177,7 +177,7 @@ class Arrive(Command):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Cover(Command):
-    """Longitudinal: have covered so many metres at any time since the start, then stand.
+    """Longitudinal: cover a distance over time since the start, then stand.
 
     Attributes:
         course: The metres.
@@ -190,12 +190,12 @@ class Cover(Command):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class GapCourse(Command):
-    """Longitudinal: be so far ahead of another actor at any time since the start, then hold it.
+    """Longitudinal: have a distance to another actor over time since the start, then hold it.
 
     Attributes:
         reference: The other actor.
         course: Metres between the reference points; negative: behind it.
-        projected: The other one counts as if it went on as it does at the start.
+        projected: The reference counts as extrapolated from its motion at the start.
         exact: The speed may jump.
     """
 

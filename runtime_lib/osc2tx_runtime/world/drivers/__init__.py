@@ -1,1 +1,1 @@
-"""External drivers: what they observe and answer, and the vehicle model that carries it out."""
+"""External drivers: their observations and controls, and the model of the driven vehicle."""

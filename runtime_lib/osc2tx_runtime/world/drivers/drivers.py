@@ -1,4 +1,4 @@
-"""A plant in which some vehicles are driven from outside; all others are where they are wished."""
+"""A plant in which some vehicles have external drivers; all others are exact."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class DriversPlant:
         return FEATURES
 
     def shape(self, spec: ActorSpec) -> Shape | None:
-        """That of the scenario."""
+        """The shape of the scenario."""
         return None
 
     def begin(self, scene: Scene) -> Mapping[str, Measurement]:

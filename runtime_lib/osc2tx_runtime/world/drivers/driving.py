@@ -1,4 +1,4 @@
-"""What an external driver sees, and what it answers: the interface for what is under test."""
+"""Observation and control of an external driver: the interface for a system under test."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ __all__ = ["Control", "Driver", "LaneView", "Observation", "OtherActor"]
 
 @dataclass(frozen=True, slots=True)
 class Control:
-    """What a driver wants of its vehicle until it is asked again.
+    """The controls of a driver, valid until the next ones.
 
-    The vehicle does what it can: its limits, the steering of its front wheels, and the grip of the
-    road hold. It does not roll backwards when it brakes.
+    The vehicle follows them within its limits, the steering of its front wheels, and the grip of
+    the road. It does not roll backwards when it brakes.
 
     Attributes:
         acceleration: m/s^2 along its axis; negative brakes.
@@ -72,7 +72,7 @@ class OtherActor:
 class Observation:
     """The world as an external driver sees it at one step.
 
-    World axes are those of the map (x, y in metres, counter-clockwise angles in radians), and
+    World axes are the axes of the map (x, y in metres, counter-clockwise angles in radians), and
     the reference point of a vehicle is the middle of its rear axle.
 
     Attributes:
@@ -81,7 +81,7 @@ class Observation:
         acceleration: m/s^2 over the last step.
         pose: Of the reference point.
         shape: Size of the vehicle, with its wheelbase.
-        limits: What it can do on the road as it is.
+        limits: Its limits on the present road.
         lane: The lane under it; None off the road.
         route: Places on the centre of the lanes ahead, every `ROUTE_STEP` metres, at forks along
             the destination of the actor; empty off the road.
@@ -104,7 +104,7 @@ class Observation:
 
 
 class Driver(Protocol):
-    """Somebody who drives an actor of the scenario, made anew for each run: `Driver()`."""
+    """The driver of an actor of the scenario, made anew for each run: `Driver()`."""
 
     def step(self, observation: Observation, dt: float) -> Control:
         """Decide what to do until the next step, `dt` seconds from now."""

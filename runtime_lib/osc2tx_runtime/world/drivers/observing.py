@@ -24,7 +24,7 @@ SIGHT = 200.0
 
 
 def observe(scene: Scene, setpoint: Setpoint, lines: StopLines) -> Observation:
-    """What the driver of an actor sees at the begin of a step."""
+    """The observation of the driver of an actor at the begin of a step."""
     me, sight = setpoint.now, min(SIGHT, scene.environment.get("visual_range", math.inf))
     place, route = me.lane_position, setpoint.route
     return Observation(

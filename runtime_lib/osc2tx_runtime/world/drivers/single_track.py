@@ -31,12 +31,12 @@ class SingleTrack:
         self._shape = shape
 
     def step(self, control: Control, limits: Limits, grip: float, dt: float) -> None:
-        """Go on for some seconds.
+        """Advance by a time.
 
         Args:
-            control: What its driver wants.
-            limits: What the vehicle can do.
-            grip: What the road can transmit (m/s^2) in all directions together.
+            control: The controls of its driver.
+            limits: The limits of the vehicle.
+            grip: Acceleration (m/s^2) that the road transmits in all directions together.
             dt: Seconds.
         """
         bend = self._bend(control.steering, grip)

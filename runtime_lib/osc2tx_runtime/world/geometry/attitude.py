@@ -1,7 +1,7 @@
-"""Pitch and roll of actors: from the road, or as told (DSL 8.3, 8.14.2).
+"""Pitch and roll of actors: from the road, or as commanded (DSL 8.3, 8.14.2).
 
-Angles are those of ISO 8855, applied in the order yaw, pitch, roll: a nose that points up has a
-negative pitch, a left side that is raised a positive roll.
+Angles follow ISO 8855, applied in the order yaw, pitch, roll: a raised nose has a negative pitch, a
+left side that is raised a positive roll.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ __all__ = ["LEVEL", "Tilt", "tilt_on"]
 
 
 class Tilt(NamedTuple):
-    """Pitch and roll (rad); None: not told."""
+    """Pitch and roll (rad); None: not commanded."""
 
     pitch: float | None = None
     roll: float | None = None
 
     def over(self, ground: tuple[float, float]) -> tuple[float, float]:
-        """Pitch and roll where the rest is that of the ground."""
+        """Pitch and roll, the open ones from the ground."""
         pitch, roll = ground
         return pitch if self.pitch is None else self.pitch, roll if self.roll is None else self.roll
 

@@ -34,7 +34,7 @@ class Knot(NamedTuple):
         x: World x (m).
         y: World y (m).
         z: World z (m).
-        yaw: Heading (rad) asked for; None: that of the curve.
+        yaw: Required heading (rad); None: the heading of the curve.
     """
 
     at: float

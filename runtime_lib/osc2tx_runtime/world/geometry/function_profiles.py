@@ -15,9 +15,9 @@ from .profiles import Linear, Profile, Quintic
 
 __all__ = ["Computed", "Mapped", "Peaks", "change_profile", "turns_back"]
 
-_SPAN = 1e-3  # s: half of what a rate is the mean of
+_SPAN = 1e-3  # s: half of the interval that a rate is the mean over
 _LONGEST = 3600.0  # s: no change takes longer
-_HALVINGS = 60  # of that time; more than a float can tell
+_HALVINGS = 60  # of that time; more than the resolution of a float
 _SAMPLES = 200  # of a course, to see whether it turns back
 _ONE_WAY = 2.5  # change / rate: a smooth change that takes longer overshoots
 
@@ -26,7 +26,7 @@ class Computed:
     """A course that a function gives: the quantity at each time since the start (s).
 
     Attributes:
-        duration: When it ends (s); infinite if it goes on for ever.
+        duration: When it ends (s); infinite if it never ends.
     """
 
     def __init__(self, compute: Callable[[float], float], duration: float = math.inf) -> None:

@@ -74,10 +74,10 @@ def are_opposed(road_map: RoadMap, place: LanePosition, other: LanePosition) -> 
 
 
 def lane_beside(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosition | None:
-    """Centre of the driving lane that many lanes to the left of a place; None without one.
+    """Centre of the driving lane `count` lanes to the left of a position; None without one.
 
-    An actor in a lane of oncoming traffic goes on in its own direction: that lane is given as an
-    offset from the innermost lane of the own direction, in which the actor is then said to be.
+    An actor in a lane of oncoming traffic continues in its own direction: that lane is given as an
+    offset from the innermost lane of the own direction, which then counts as the lane of the actor.
 
     Args:
         road_map: The map.
@@ -169,9 +169,9 @@ def _around(road_map: RoadMap, place: LanePosition) -> Iterator[tuple[int, LaneP
 
 
 def _lanes_beyond(road_map: RoadMap, place: LanePosition) -> int:
-    """How many lanes of oncoming traffic to the left of its lane a place is by its offset.
+    """Number of lanes of oncoming traffic between the offset of a position and its lane.
 
-    In a junction, where roads have none beside them, they go on as wide as its own lane.
+    In a junction, where roads have none beside them, they have the width of its own lane.
     """
     width = road_map.lane_width(place.road, place.lane, place.s)
     if abs(place.offset) <= 0.5 * width:

@@ -15,7 +15,7 @@ _BACK = 5.0  # m beside a lane from where a vehicle returns to it
 
 
 def lane_near(road_map: RoadMap, state: ActorState) -> LanePosition | None:
-    """The driving lane to return to; None if there is none close by in this direction."""
+    """The driving lane to return to; None without one close by in this direction."""
     on = road_map.locate(state.x, state.y, state.z, state.h, max_distance=_BACK)
     if on is None or math.cos(turn_from(road_map, on, state)) <= 0.0:
         return None

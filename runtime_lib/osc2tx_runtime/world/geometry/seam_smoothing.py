@@ -1,9 +1,9 @@
-"""Driving over seams of the map: lanes that do not go on where they end, or in another direction.
+"""Driving over seams of the map: lanes whose successor begins elsewhere, or in another direction.
 
-Who comes to one stays where it is and keeps its heading. What it is then beside its lane, and
-turned against it, goes back to nothing along a quintic over the way driven, so the same course
-comes at any speed and any length of a step. It stays near the centre of the lane: where a kink is
-so sharp that this takes more than the grip of the vehicle, the motion is reported like any other.
+At a seam an actor keeps its position and its heading. Its offset from the lane, and its angle to
+it, return to zero along a quintic over the distance driven, so the same path results at any speed
+and step size. It stays near the centre of the lane: where a kink is so sharp that this takes more
+than the grip of the vehicle, the motion is reported like any other.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ Jump = tuple[float, float, float]
 
 
 class Residual:
-    """What is left of the seams behind an actor.
+    """The remaining offset from the seams behind an actor.
 
     Attributes:
         along: Metres before its place in the lane.
@@ -39,8 +39,8 @@ class Residual:
         along: The first of these, at the seam.
         aside: The second.
         slope: The third.
-        way: Metres over which it is to vanish.
-        sense: 1 for who drives forwards, -1 backwards.
+        way: Metres over which it vanishes.
+        sense: 1 forwards, -1 backwards.
     """
 
     def __init__(self, along: float, aside: float, slope: float, way: float, sense: float) -> None:
@@ -51,7 +51,7 @@ class Residual:
         self.along, self.aside, self.slope = along, aside, slope
 
     def driven(self, path: float) -> bool:
-        """Goes so many metres on; returns whether anything is left."""
+        """Advances by a distance (m); returns whether an offset remains."""
         self._driven += abs(path)
         at = self._driven
         self.along, self.aside = self._along.value(at), self._aside.value(at)
@@ -68,7 +68,7 @@ class Residual:
         return speed * self.slope * self.share
 
     def on(self, pose: Pose) -> Pose:
-        """The pose of one who is to be at another one."""
+        """The pose of an actor for a nominal pose."""
         c, n = math.cos(pose.h), math.sin(pose.h)
         return pose._replace(
             x=pose.x + self.along * c - self.aside * n, y=pose.y + self.along * n + self.aside * c
@@ -83,7 +83,7 @@ def crossed(
     speed: float,
     comfort: float,
 ) -> Residual | None:
-    """What is left behind the seams between two places of a step; the same if there are none.
+    """The offset after the seams between two positions of a step; unchanged without seams.
 
     Args:
         road_map: The map.
@@ -133,9 +133,9 @@ def _between(
 
 
 def _jump(seams: list[Seam], here: Pose, *, backwards: bool) -> Jump:
-    """What seams add, for one who has come from them to a pose.
+    """The offset that seams add, for an actor that comes from them to a pose.
 
-    Who goes on straight behind a kink is beside the lane by the time the step is over.
+    An actor that continues straight on behind a kink is beside the lane when the step is over.
     """
     sign = -1.0 if backwards else 1.0
     x = y = h = 0.0

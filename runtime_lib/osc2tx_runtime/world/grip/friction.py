@@ -8,8 +8,8 @@ ones spread with surface, tyre, speed and depth of the water: R. K. Noon, Engine
 Vehicular Accidents (CRC Press, 1994) has 0.5 to 0.6 for wet asphalt and concrete, 0.20 to 0.25 for
 snow, 0.10 to 0.15 for ice. W. Bartlett's reviews of braking tests on dry asphalt have 0.76 with
 locked wheels and 0.82 with antilock brakes, each with a standard deviation of 0.07; the 0.9 here is
-the upper end, so that what is called impossible is. On a dry road nothing is taken from a motion:
-what is beyond it is reported (`feasibility`).
+the upper end, so that every motion reported as impossible is. On a dry road no motion is reduced:
+excess is reported (`feasibility`).
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ def grip(condition: RoadCondition) -> float:
 
 
 def held_by(limits: Limits, condition: RoadCondition) -> Limits:
-    """What is left of the limits of a vehicle on a road in this condition."""
+    """The limits of a vehicle on a road in this condition."""
     most = grip(condition)
     if most >= max(limits.acceleration, limits.deceleration, limits.lateral):
         return limits

@@ -25,7 +25,7 @@ class Turning:
         self._time = 0.0
 
     def after(self, state: ActorState, tilt: Tilt, dt: float) -> tuple[float, Tilt]:
-        """Heading (rad) at the next step, and the tilt that it was told; called once per step."""
+        """Heading (rad) at the next step, and the commanded tilt; called once per step."""
         self._steps += 1
         self._time, most = self._steps * dt, TURN_RATE * dt
         heading, pitch, roll = (min(max(left, -most), most) for left in self._missing(state))

@@ -45,10 +45,10 @@ class Course(Protocol):
         """
 
     def slid(self, along: float) -> None:
-        """The actor was measured so many metres further along than it was put."""
+        """The actor was measured this distance (m) ahead of its commanded position."""
 
     def ahead(self, way: float) -> Pose:
-        """Place so many metres on along the course; beyond its end straight on."""
+        """Position at a distance (m) along the course; beyond its end straight on."""
 
     def progress(self) -> Progress:
         """Progress at the present step."""
@@ -59,7 +59,7 @@ class Steering:
 
     Args:
         shape: Its wheelbase counts.
-        limits: Of the actor; sideways it can do what it can when braking.
+        limits: Of the actor; its lateral limit is its limit of braking.
     """
 
     def __init__(self, shape: Shape, limits: Limits) -> None:
@@ -168,7 +168,7 @@ class Replay:
         return _pose_at(self._curve, self._curve.at_length(self._along), me.h), speed
 
     def slid(self, along: float) -> None:
-        """Goes on from there."""
+        """Continues from there."""
         self._along += along
 
     def ahead(self, way: float) -> Pose:
@@ -190,7 +190,7 @@ class TimedReplay:
         self._time = command.begin
 
     def after(self, me: ActorState, speed: float, path: float, dt: float) -> tuple[Pose, float]:
-        """The place on the curve at the next step; the speed is that of the curve."""
+        """The position on the curve at the next step; the speed is that of the curve."""
         self._steps += 1
         self._time = self._begin + self._steps * dt
         dx, dy, _ = self._curve.rate(min(self._time, self._end))
@@ -211,7 +211,7 @@ class TimedReplay:
 
 
 def _place_on(curve: Curve, along: float) -> Pose:
-    """Pose so many metres along a curve, in the direction of the way."""
+    """Pose at a distance (m) along a curve, in the direction of motion."""
     at = curve.at_length(along)
     x, y, z = curve.point(at)
     return Pose(x, y, z, curve.heading(at) or 0.0)
@@ -226,7 +226,7 @@ def _pose_at(curve: Curve, at: float, before: float) -> Pose:
 
 
 def course_of(command: Command | None, me: ActorState, limits: Limits) -> Course | None:
-    """Puts a course to work; None if the command is none."""
+    """Returns the execution of a course; None for other commands."""
     match command:
         case FollowCourse():
             return Follow(command, me, limits)

@@ -129,7 +129,7 @@ class Shift:
     __slots__ = ("_lag", "_profile", "_steps", "_time", "centre", "end")
 
     def __init__(self, profile: Profile, end: float, centre: float = 0.0) -> None:
-        """Takes the course and the end of the offset (m), and what it is in the target lane."""
+        """Takes the course and the end of the offset (m), and its value in the target lane."""
         self._profile = profile
         self.centre = centre
         self._steps = 0
@@ -201,7 +201,7 @@ def shift_profile(
         time = _usual_time(change, limits)
     if abs(rate) <= _AT_REST:
         return Cosine(offset, end, time)
-    # Taking over a lateral speed needs time even where there is no distance to go.
+    # Taking over a lateral speed needs time even without a distance to cover.
     is_free = profile != "asap" and duration is None and peak is None
     return Quintic(offset, end, max(time, 1.0) if is_free else time, rate)
 
@@ -254,7 +254,7 @@ def lateral_of(
             start = offset_from(road_map, target, x, y)
             end = start + _RUN_OUT * rate
         case None | KeepLane() if isinstance(before, BesideRun | SidewaysRun):
-            # It may have come to another lane; what is left of the lateral speed runs out.
+            # It may be in another lane by now; the rest of the lateral speed runs out.
             target, start = lane, offset_from(road_map, lane, x, y)
             end = start + _RUN_OUT * rate
         case None | KeepLane():
@@ -265,8 +265,8 @@ def lateral_of(
             target = lane_beside(road_map, _in_own_lane(physical, bound, before), 0) or lane
             is_there = (bound.road, bound.lane) == (target.road, target.lane)
             if is_there and abs(before.centre - target.offset) < _SAME_LANE:
-                return bound, before  # cut short in the lane it was to end in: let it end
-            # Cut short before that: back to where it is now.
+                return bound, before  # interrupted in its target lane: complete the change
+                # Interrupted before that: back to the present lane.
             start, end = offset_from(road_map, target, x, y), 0.0
         case _:
             raise UnsupportedError(f"{type(command).__name__} is no command for an actor on a lane")
@@ -284,9 +284,10 @@ def lateral_of(
 
 
 def _in_own_lane(physical: LanePosition, bound: LanePosition, before: Lateral) -> LanePosition:
-    """A place, on the centre of its lane if the actor never went to one of oncoming traffic.
+    """A position, on the centre of its lane if the actor never entered one of oncoming traffic.
 
-    Who only reaches over the line is still in its own lane, wherever its reference point is.
+    An actor that only reaches over the line is still in its own lane, wherever its reference point
+    is.
     """
     centre = before.centre if isinstance(before, Shift | HoldOffset) else None
     same = (physical.road, physical.lane) == (bound.road, bound.lane)

@@ -103,7 +103,7 @@ class BesideRun:
         elif command.course is not None:
             return self._on_course(command.course, offset, -to_left, path, other, dt)
         else:
-            own = -to_left  # so far it is left of the other one
+            own = -to_left  # its distance to the left of the reference
             error = min(max(own, command.left), command.left + command.spread) - own
             wanted = self._towards(error, other.lateral_speed, dt)
         limit = self._limits.lateral * (1.0 if self._steps else COMFORT)
@@ -127,7 +127,7 @@ class BesideRun:
         other: ActorState,
         dt: float,
     ) -> tuple[float, float]:
-        """One step on a course, if the other one goes on as it does."""
+        """One step on a course, if the reference continues as it does."""
         self._elapsed += 1
         time, moving = self._elapsed * dt, other.lateral_speed
         wanted = course.value(time) - own + moving * dt

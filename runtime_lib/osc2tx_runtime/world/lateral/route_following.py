@@ -30,9 +30,9 @@ class Way:
         self._progress = PENDING
 
     def look(self, place: LanePosition, along: float) -> None:
-        """Sees how far it is to the end, before a step of so many metres.
+        """Updates the distance to the end, before a step of a length (m).
 
-        Who has passed the end has reached it for good.
+        An actor that has passed the end has reached it for good.
         """
         if self._progress.done:
             return

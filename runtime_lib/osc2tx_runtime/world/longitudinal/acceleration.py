@@ -34,7 +34,7 @@ class ConstantAcceleration:
 
 
 class AssignedSpeed(ConstantAcceleration):
-    """A speed that it has at one instant: of what follows nothing is said."""
+    """A speed at one instant, without a statement about the time after it."""
 
     def __init__(self, speed: float) -> None:
         super().__init__(0.0, speed)

@@ -35,12 +35,12 @@ class BendsAhead:
     def fastest(
         self, me: ActorState, route: Route | None, limits: Limits, grip: float, lead: float
     ) -> float:
-        """Speed (m/s) at which a driver approaches what is ahead; infinite on a straight road.
+        """Speed (m/s) at which a driver approaches the bends ahead; infinite on a straight road.
 
         Args:
-            me: Who drives.
-            route: Its way at forks.
-            limits: Of the vehicle on the road as it is.
+            me: The actor.
+            route: Its route at forks.
+            limits: Of the vehicle on the present road.
             grip: m/s^2 that the road holds.
             lead: How many metres further on it will have that speed.
         """

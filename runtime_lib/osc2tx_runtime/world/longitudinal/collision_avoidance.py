@@ -22,7 +22,7 @@ from osc2tx_runtime.world.surroundings.stop_lines_ahead import StopLine
 
 __all__ = ["Cautious", "Hold", "RedLights"]
 
-_FROM_LINE = 1.0  # m between a stop line and the front of who stands at it
+_FROM_LINE = 1.0  # m between a stop line and the front of an actor waiting at it
 
 
 class RedLights:
@@ -55,7 +55,7 @@ class RedLights:
     def _line(
         self, me: ActorState, wanted: float, brakes: tuple[float, float], inputs: StepInputs
     ) -> StopLine | None:
-        """The line to stop at; None if there is none near, or it is too late for it."""
+        """The line to stop at; None without one near, or if it is too late for it."""
         comfort, most = brakes
         fast = max(me.v, wanted)
         reach = me.shape.front + _FROM_LINE + 0.5 * fast * fast / comfort + fast * inputs.dt
@@ -100,8 +100,9 @@ class Hold:
 class Cautious:
     """Another command, slowed down behind others, for bends and before red lights.
 
-    While it is slower than the inner command wants, that one's time goes on; afterwards the actor
-    gains speed with a comfortable acceleration until it has caught up with the wanted speed.
+    While it is slower than the inner command, the time of that command continues; afterwards the
+    actor gains speed with a comfortable acceleration until it has reached the speed of the inner
+    command.
 
     Args:
         command: What to keep clear of.
@@ -142,7 +143,7 @@ class Cautious:
         return speed
 
     def slid(self, along: float) -> None:
-        """Hands on what a measured step was longer."""
+        """Hands on the measured surplus (m) of a step."""
         slid = getattr(self._inner, "slid", None)
         if slid is not None:
             slid(along)
@@ -156,6 +157,6 @@ class Cautious:
         return a * (1.0 - (wanted / max(gap, _LEAST_GAP)) ** 2)
 
     def progress(self) -> Progress:
-        """That of the inner command; not reached while something is in the way."""
+        """Progress of the inner command; not reached while something is in the way."""
         progress = self._inner.progress()
         return Progress(progress.done and not self._held, progress.failed)

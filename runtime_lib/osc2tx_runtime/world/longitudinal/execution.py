@@ -133,7 +133,7 @@ class _Following:
         other = inputs.state(command.reference)
         if course is not None:
             time = self._steps * inputs.dt
-            its_speed = other.v + other.a * inputs.dt  # if it goes on so
+            its_speed = other.v + other.a * inputs.dt  # extrapolated
             wanted = its_speed * command.factor + course.value(time)
             speed = towards(me.v, wanted, self._limits, 1.0, inputs.dt)
             over = time >= course.duration - 1e-9
@@ -157,7 +157,8 @@ def speed_profile(
 
     `none` and `constant` use comfortable limits where the command gives no rate, `asap` the full
     ones. Going faster uses the acceleration, going slower the deceleration; a change of direction
-    uses the smaller of both. Where the jerk is limited, the present acceleration goes on first.
+    uses the smaller of both. Where the jerk is limited, the present acceleration is the start
+    value.
     """
     target, peak, duration = command.target, command.rate_peak, command.duration
     if command.course is not None:
@@ -234,9 +235,9 @@ def acceleration_of(run: Longitudinal | None, me: ActorState) -> float:
 def longitudinal_of(
     command: Command, me: ActorState, limits: Limits, route: Route | None = None
 ) -> Longitudinal:
-    """Puts a longitudinal command to work on an actor in its present state, on its way.
+    """Returns the execution of a longitudinal command from the present state of an actor.
 
-    The acceleration of this state is that of the very instant, see `acceleration_of`.
+    The acceleration of this state is the one at this very instant, see `acceleration_of`.
     """
     speed = me.v
     match command:

@@ -60,12 +60,13 @@ class GapRun:
         pace = math.sqrt(_STIFFNESS * last)  # 1/s
         soon = abs(error + 0.5 * (other.v - me.v) * inputs.dt)  # in the middle of the step
         closing = min(0.5 * pace * soon, math.sqrt(2.0 * COMFORT * last * soon))
-        its_speed = other.v + other.a * inputs.dt  # if it goes on so
+        its_speed = other.v + other.a * inputs.dt  # extrapolated
         goal = max(its_speed + math.copysign(closing, error), 0.0)
         if error == 0.0 and low < high:
             goal = me.v if low < here < high else goal  # anywhere in the range will do
         blend = 1.0 - math.exp(-2.0 * pace * inputs.dt)
-        # Its acceleration counts as its own: who has the gap keeps it while the other one changes.
+        # Its acceleration is fed forward: a reached gap is kept while the speed of the reference
+        # changes.
         wanted = me.v + other.a * inputs.dt + blend * (goal - me.v - other.a * inputs.dt)
         speed = towards(me.v, max(wanted, 0.0), self._limits, 1.0, inputs.dt)
         close = low < high or abs(me.v - other.v) < _SPEED_TOLERANCE
@@ -79,11 +80,11 @@ class GapRun:
 
 
 class ArrivalRun:
-    """Is somewhere when its time is over.
+    """Is at a target when its time is over.
 
-    In each step it takes the acceleration of `guidance` for a goal that goes on at its speed. That
-    answers an error the harder the less time is left, so what a driven actor is off its reference
-    in the last second is not corrected but judged at the end.
+    In each step it takes the acceleration of `guidance` for a goal that continues at its speed.
+    That corrects an error the harder the less time is left, so a deviation of a driven actor in the
+    last second is not corrected but judged at the end.
     """
 
     def __init__(self, command: Arrive, limits: Limits) -> None:
@@ -125,7 +126,7 @@ class ArrivalRun:
         return speed
 
     def slid(self, along: float) -> None:
-        """Counts what a measured step was longer."""
+        """Counts the measured surplus (m) of a step."""
         self._near = PLACE_TOLERANCE
         self._covered += along
         if self._steps is not None and self._steps <= self._last_steps:
@@ -183,7 +184,7 @@ class ArrivalRun:
 def allowed_gap(
     command: KeepGap, me: ActorState, other: ActorState, own_speed: float, inputs: StepInputs
 ) -> tuple[float, float, float] | None:
-    """Where the actor is ahead of the other one (m), and between what it may be."""
+    """The distance (m) of the actor ahead of the reference, and its allowed range."""
     along = inputs.along(other, me)
     if along is None:
         return None

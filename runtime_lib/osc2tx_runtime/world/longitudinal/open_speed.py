@@ -1,8 +1,8 @@
-"""The speed of a vehicle of whose speed nothing is said: held, but less through bends.
+"""The speed of a vehicle without a stated speed: held, but lower in bends.
 
-A scenario that says a speed gets it, in bends too; what is beyond grip is reported. One that says
-none leaves it to a driver, who takes bends comfortably (`bends_ahead`) and gains the speed again
-behind them. On a straight road the speed is held to the last bit.
+A speed that a scenario states holds in bends too; excess over the grip limit is reported. Without
+one the speed is that of a driver, who takes bends comfortably (`bends_ahead`) and gains the speed
+again behind them. On a straight road the speed is held to the last bit.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ class OpenSpeed:
         self._held = 0.0  # m/s to gain again behind a bend; no more than the present speed: none
 
     def forget(self) -> None:
-        """Somebody has said a speed."""
+        """A speed was stated."""
         self._held = 0.0
 
     def speed_after(
@@ -33,9 +33,9 @@ class OpenSpeed:
         """Speed (m/s) at the next step.
 
         Args:
-            me: Who drives.
+            me: The actor.
             inputs: The snapshot.
-            route: Its way at forks.
+            route: Its route at forks.
             limits: Of the vehicle on the road as it is.
         """
         held = max(self._held, me.v)

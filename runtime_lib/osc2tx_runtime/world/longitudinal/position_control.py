@@ -1,7 +1,7 @@
 """Longitudinal commands that give the position over time.
 
-The place after each step is the one of the course, not what a mean of two speeds would make of it,
-so that no error adds up. What the limits do not allow is made up for as soon as they do.
+The position after each step is that of the course, not the integral of a mean of two speeds, so
+that no error adds up. Distance lost to the limits is regained as soon as they allow.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from .arrival_schedule import towards
 
 __all__ = ["CoverRun", "GapCourseRun", "PlacedRun"]
 
-_NEAR = 0.1  # m: how far from its place an actor may be at the end
-_CATCH_UP = 2.0  # 1/s: how fast what is missing is made up for
+_NEAR = 0.1  # m: allowed distance of an actor from its target at the end
+_CATCH_UP = 2.0  # 1/s: rate at which a deficit is regained
 _JUST_BEFORE = 1e-9  # s
 
 
@@ -29,7 +29,7 @@ class PlacedRun:
     """Is where a course says.
 
     Attributes:
-        path: Metres of the last step; None if they are those of its mean speed.
+        path: Metres of the last step; None if they follow from its mean speed.
     """
 
     def __init__(self, course: Profile, exact: bool, limits: Limits) -> None:
@@ -52,7 +52,7 @@ class PlacedRun:
         return REACHED if self._done else PENDING
 
     def _step(self, me: ActorState, way: float, rate: float, dt: float) -> float:
-        """Speed after a step of so many metres with this rate at its end, as the limits allow."""
+        """Speed after a step of a length (m) with this rate at its end, as the limits allow."""
         if self._exact:
             self.path = way
             return rate
@@ -78,7 +78,7 @@ class PlacedRun:
 
 
 class CoverRun(PlacedRun):
-    """Has covered so many metres at any time; then it stands."""
+    """Covers a distance over time; then it stands."""
 
     def __init__(self, command: Cover, limits: Limits) -> None:
         super().__init__(command.course, command.exact, limits)
@@ -98,11 +98,11 @@ class CoverRun(PlacedRun):
         return speed
 
     def slid(self, along: float) -> None:
-        """Counts what a measured step was longer."""
+        """Counts the measured surplus (m) of a step."""
         self._covered += along
 
     def _note(self, speed: float, dt: float) -> None:
-        """Counts the last step; who was slowed down did not do all of it."""
+        """Counts the last step; slowed down, an actor did not complete it."""
         if self._before is None:
             return
         before, planned = self._before
@@ -111,7 +111,7 @@ class CoverRun(PlacedRun):
 
 
 class GapCourseRun(PlacedRun):
-    """Is so far ahead of another actor at any time; then it holds the last distance."""
+    """Has a distance to another actor over time; then it holds the last one."""
 
     def __init__(self, command: GapCourse, limits: Limits) -> None:
         super().__init__(command.course, command.exact, limits)
@@ -119,7 +119,7 @@ class GapCourseRun(PlacedRun):
         self._other = Tracked(command.reference, command.projected)
 
     def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
-        """Speed at the next step, if the other one goes on with its acceleration."""
+        """Speed at the next step, if the reference keeps its acceleration."""
         dt = inputs.dt
         self._steps += 1
         t = self._steps * dt

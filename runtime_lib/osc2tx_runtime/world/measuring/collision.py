@@ -176,9 +176,9 @@ _Sweep = tuple[Box, Box, float]
 def _meet_turning(one: _Sweep, other: _Sweep, begin: float, end: float) -> bool:
     """True if two boxes touch within a part of a step.
 
-    Within the part they are taken as they stand in the middle of it. Their corners are then off by
-    at most half of the turn times their distance from the centre: who stays farther apart does not
-    touch, else the halves of the part are looked at, until that is less than `_NEAR`.
+    Within the part they are taken at its middle. Their corners are then off by at most half of the
+    turn times their distance from the centre: boxes farther apart do not touch, else the halves of
+    the part are tested, until that is less than `_NEAR`.
     """
     middle = 0.5 * (begin + end)
     a, a_end = _part(one, begin, end)
@@ -220,7 +220,7 @@ def _turn(begin: Box, end: Box) -> float:
 
 
 def swept(b: Box, e: Box) -> Swept:
-    """What a box covers on the way through a step."""
+    """The area that a box covers during a step."""
     x = b.reach_x if b.reach_x > e.reach_x else e.reach_x
     y = b.reach_y if b.reach_y > e.reach_y else e.reach_y
     # In between one that turns reaches farther, but not beyond its corners.

@@ -1,10 +1,10 @@
 """Contacts between actors over the steps, each reported once.
 
-Looked at are those who move, with those who are near them. Who is near is sought anew only when
-somebody may have come near since: when one has gone as far as the margin of the last search. And
-two are looked at only when they may have come to each other since they were seen to be apart: if
-both go evenly, when they will have closed the distance; else when the farthest that anybody has
-gone since is half of it.
+Moving actors are tested against actors near them. These neighbours are searched again only when an
+actor may have come near since: when one has moved by the margin of the last search. A pair is
+tested only when the two may have met since they were found apart: if both move evenly, when they
+will have closed the distance; else when the largest distance moved by any actor since is half of
+it.
 """
 
 from __future__ import annotations
@@ -20,21 +20,21 @@ from .collision import apart, box_of, swept, touch
 
 __all__ = ["Contacts"]
 
-_STEPS = 10  # with the ways of the present one, for which a search holds
+_STEPS = 10  # at the present speeds, for which a search is valid
 _NARROW = 1.0  # m: the least margin of a search
-_ROUNDING = 1e-3  # m: who is nearer is looked at in each step
+_ROUNDING = 1e-3  # m: nearer pairs are tested in each step
 _CREEP = 1e-6  # m of a step: coming nearer by less is rounding
 
 
 class _Apart(NamedTuple):
-    """How two actors stood to each other who did not touch.
+    """The relative pose of two actors that did not touch.
 
     Attributes:
         x: Of the axis that separated them, a unit vector.
         y: Likewise.
         along: From the one to the other along it (m).
         one: Heading of the one (rad).
-        other: That of the other.
+        other: Heading of the other (rad).
         room: Metres between them along it.
     """
 
@@ -61,7 +61,7 @@ of how far their corners are."""
 
 
 class Contacts:
-    """Who touches whom.
+    """The contacts between actors.
 
     Attributes:
         new: Pairs of actors (ids sorted) whose contact began during the last step, sorted.
@@ -78,15 +78,15 @@ class Contacts:
         self._reach: list[float] = []  # m from the reference points to the farthest corners
         self._ways: Sequence[float] = ()  # of the last step
         self._way = 0.0  # the longest of them
-        self._moved: set[int] = set()  # who moved in the last step
-        self._uneven: set[int] = set()  # who moved otherwise than in the step before
-        self._sought: set[int] = set()  # whose neighbours were sought
+        self._moved: set[int] = set()  # moved in the last step
+        self._uneven: set[int] = set()  # moved otherwise than in the step before
+        self._sought: set[int] = set()  # whose neighbours are known
         self._gone = self._room = 0.0  # m that one has gone since, and may go
         self._steps = 0
         self._apart: dict[tuple[int, int], _Apart] = {}
-        self._due: list[_Pair] = []  # a heap, by how far one has gone
-        self._due_evenly: list[_Pair] = []  # a heap, by steps, of those who go evenly
-        self._close: list[_Pair] = []  # those who are due in each step
+        self._due: list[_Pair] = []  # a heap, by the distance moved
+        self._due_evenly: list[_Pair] = []  # a heap, by steps, of evenly moving pairs
+        self._close: list[_Pair] = []  # tested in each step
 
     def put(self, index: int, state: ActorState) -> None:
         """Take a new place of an actor, by its number in the cast, between two steps."""
@@ -96,7 +96,7 @@ class Contacts:
             self._ways, self._room, self._apart = (), -1.0, {}
 
     def turn(self) -> None:
-        """Take note that somebody was turned between two steps."""
+        """Note that an actor was turned between two steps."""
         self._ways = ()
 
     def step(
@@ -110,14 +110,14 @@ class Contacts:
     ) -> None:
         """Find the contacts of one step.
 
-        Two who have not moved again touch if they did before.
+        Two actors that have not moved again touch if they did before.
 
         Args:
             ids: The actors.
             before: States at its begin, in the same order.
-            states: Those at its end.
-            ways: Metres that no corner of them moved more than; negative: nobody knows.
-            jumped: Who was put somewhere, and touches nothing on its way.
+            states: States at its end.
+            ways: Upper bounds of the distance (m) moved by their corners; negative: unknown.
+            jumped: Teleported actors, which touch nothing in between.
             coupled: Pairs that may touch.
         """
         if not self._states:
@@ -142,7 +142,7 @@ class Contacts:
             self._compare(ids, [*touching, *stay], coupled)
 
     def _look_for_ways(self, begin: Sequence[ActorState], ways: Sequence[float]) -> set[int]:
-        """See how far the actors went; return who moved in this step or the last."""
+        """Add the distances moved; return the actors that moved in this step or the last."""
         if ways == self._ways:
             return self._moved
         before, self._uneven = self._uneven, set()
@@ -165,7 +165,7 @@ class Contacts:
         return looked_at
 
     def _upset(self, who: set[int]) -> None:
-        """Look at those again who no longer go evenly."""
+        """Test those pairs again that no longer move evenly."""
         pairs, self._due_evenly = self._due_evenly, []
         for pair in pairs:
             is_even = who.isdisjoint(pair[1:3])
@@ -243,7 +243,7 @@ class Contacts:
 def _neighbours(
     states: Sequence[ActorState], reach: Sequence[float], who: Collection[int], margin: float
 ) -> list[_Pair]:
-    """Return who may touch whom of some actors if none goes farther than the margin (m)."""
+    """Return pairs of actors that may touch if none moves farther than the margin (m)."""
     found: list[_Pair] = []
     spans = sorted(
         (state.x - far - margin, state.x + far + margin, i)

@@ -20,15 +20,15 @@ __all__ = [
 ]
 
 STANDSTILL = 0.05
-"""m/s: who was measured slower than that stands."""
+"""m/s: a lower measured speed counts as standstill."""
 SPEED_TOLERANCE = 0.5
-"""m/s off the wished speed that count as reached; at standstill none do."""
+"""m/s off the commanded speed that count as reached; at standstill none do."""
 ACCELERATION_TOLERANCE = 0.5
-"""m/s^2 off the wished acceleration that count as reached."""
+"""m/s^2 off the commanded acceleration that count as reached."""
 PLACE_TOLERANCE = 0.5
-"""m beside the wished path that count as on it."""
+"""m beside the commanded path that count as on it."""
 HEADING_TOLERANCE = math.radians(3.0)
-"""rad off the wished heading that count as so."""
+"""rad off the commanded heading that count as reached."""
 PATIENCE = 5.0
 """s after the end of its reference at which an actor has to be there."""
 OFF_ITS_PATH = 1.0
@@ -40,9 +40,9 @@ class Deviation(NamedTuple):
 
     Attributes:
         speed: m/s it is too fast.
-        place: m it is to the left of its path.
-        heading: rad it is turned to the left of it.
-        late: s since the reference has come to the end of what it is to do.
+        place: m to the left of its path.
+        heading: rad to the left of its path.
+        late: s since the reference has completed its command.
     """
 
     speed: float

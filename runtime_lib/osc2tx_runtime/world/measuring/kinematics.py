@@ -8,7 +8,7 @@ would make a leap of. Turning is the change of attitude over the last
 step. What changes in the moving axes and what their turning adds make up the acceleration:
 a = du/dt + w x u.
 
-A jump is no motion: nothing is taken from a step in which an actor was put somewhere.
+A jump is no motion: nothing is computed from a step in which an actor was teleported.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class Motion(Protocol):
 
 
 class _Step(NamedTuple):
-    """The states before a step, by the ids of the actors, and who jumped in it."""
+    """The states before a step, by the ids of the actors, and the teleported ones."""
 
     ids: Sequence[str]
     states: Sequence[ActorState]
@@ -73,12 +73,12 @@ class Track:
         Args:
             ids: The actors.
             before: Their states before it.
-            jumped: Who was put somewhere in it.
+            jumped: The teleported actors.
         """
         self._before, self._last = self._last, new_tuple(_Step, (ids, before, jumped))
 
     def interrupt(self, actor: str) -> None:
-        """Note that an actor was put somewhere, or turned, at the present step."""
+        """Note that an actor was teleported, or turned, at the present step."""
         if self._last is not None:
             self._last = self._last._replace(jumped=self._last.jumped | {actor})
 
@@ -89,7 +89,7 @@ class Track:
             actor: Its id.
             now: Its present state.
             dt: Length of a step (s).
-            lies: Its pitch and roll are those of the surface below it.
+            lies: Its pitch and roll follow the surface below it.
         """
         states = [now]
         for step in (self._last, self._before):
@@ -103,9 +103,9 @@ class Kinematics:
     """Motion of an actor at one instant.
 
     Args:
-        states: The present one, and as many of the last two as motion has led here from.
+        states: The present one, and up to two before it that are connected by motion.
         dt: Length of a step (s).
-        lies: Its pitch and roll are those of the surface below it.
+        lies: Its pitch and roll follow the surface below it.
     """
 
     def __init__(self, states: list[ActorState], dt: float, *, lies: bool = False) -> None:
@@ -170,13 +170,13 @@ def _direction(before: ActorState, after: ActorState, *, lies: bool) -> Vector:
     if backwards:
         aside = turn_between(math.pi, aside)
     if abs(aside) <= 0.5 * abs(turn) + _STRAIGHT:
-        aside = 0.0  # who turns first and then goes still goes forwards
+        aside = 0.0  # an actor that turns and then moves still moves forwards
     sign = -1.0 if backwards else 1.0
     roll, pitch = 0.5 * (before.roll + after.roll), 0.5 * (before.pitch + after.pitch)
     forwards, left, up = math.cos(aside), math.sin(aside), sign * dz / ground
     if lies:
         up = left * math.tan(roll) / math.cos(pitch) - forwards * math.tan(pitch)
-    # From axes that are level to those of the actor: by its pitch, then by its roll.
+    # From level axes to the axes of the actor: by its pitch, then by its roll.
     x = forwards * math.cos(pitch) - up * math.sin(pitch)
     nod = forwards * math.sin(pitch) + up * math.cos(pitch)
     y = left * math.cos(roll) + nod * math.sin(roll)

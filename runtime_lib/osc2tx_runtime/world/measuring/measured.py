@@ -18,7 +18,7 @@ ROUNDING = 1e-9
 
 
 class Measured(float):
-    """A measured value in SI units; what is calculated from it is one as well."""
+    """A measured value in SI units; values calculated from it are measured as well."""
 
     __slots__ = ()
 

@@ -1,7 +1,7 @@
-"""What a plant measures of an actor, and its motion according to that.
+"""Measurements of an actor by a plant, and the motion derived from them.
 
-A simulator says how fast an actor goes, and perhaps how its motion changes; what it does not say is
-taken from one step to the next and smoothed, as measured numbers are noisy.
+A simulator reports the speed of an actor, and perhaps its accelerations and rates; missing ones are
+derived from one step to the next and smoothed, as measured numbers are noisy.
 """
 
 from __future__ import annotations

@@ -29,9 +29,9 @@ def nearest_ahead(
 
     Args:
         road_map: The map.
-        me: Who looks; it may be among the others.
+        me: The observer; it may be among the others.
         others: All actors.
-        visual_range: Metres from the front beyond which nobody is seen.
+        visual_range: Metres from the front beyond which no actor is seen.
     """
     sight = _SIGHT + _SIGHT_TIME * abs(me.v)
     best: tuple[float, float] | None = None

@@ -31,7 +31,7 @@ def projected(road_map: RoadMap, state: ActorState, seconds: float) -> ActorStat
 
 
 class Tracked:
-    """A reference of a command: what it does, or what it would do from the first look on."""
+    """A reference of a command: its actual motion, or the projected one from the first look on."""
 
     __slots__ = ("_actor", "_first", "_projected", "_steps")
 

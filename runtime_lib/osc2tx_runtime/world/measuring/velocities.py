@@ -1,7 +1,7 @@
 """Velocities and accelerations of actors against the world, in their own axes (DSL 8.7.5, 8.14.2).
 
-The axes are those of ISO 8855: x forward, y to the left, z up; turns are counter-clockwise about
-them, so a nose that sinks has a positive pitch rate.
+The axes follow ISO 8855: x forward, y to the left, z up; turns are counter-clockwise about them, so
+a sinking nose has a positive pitch rate.
 """
 
 from __future__ import annotations

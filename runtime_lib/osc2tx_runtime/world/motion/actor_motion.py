@@ -35,12 +35,12 @@ STEADY = frozenset({type(None), AssignedSpeed, ConstantAcceleration, HoldOffset,
 
 @dataclass
 class CommandedActor(MovingActor):
-    """An actor with what it is asked for.
+    """An actor with its commands.
 
     Attributes:
-        follows: It does what its commands say; False if somebody else drives it, and they are only
-            expected of it.
-        tracking: How well it follows, if it was measured.
+        follows: It follows its commands; False if it has another driver, and they are only expected
+            of it.
+        tracking: Quality of tracking, if it is measured.
         motion: How it moves, if that was measured.
         heading: Heading (rad) of its reference when grip was last looked at.
         aside: Speed across its lane (m/s) then; None off the lanes.
@@ -64,7 +64,7 @@ class CommandedActor(MovingActor):
 
     @property
     def is_physical(self) -> bool:
-        """Whether it moves as its commands want it, and nobody put it there."""
+        """Whether it moves by its commands, and was not placed."""
         if not self.follows or self._unphysical:
             return False
         return not isinstance(self._course, Replay | TimedReplay)
@@ -82,7 +82,7 @@ class CommandedActor(MovingActor):
             self.pursue_side(command, road_map)
 
     def observe(self, inputs: StepInputs) -> None:
-        """Sees after a step what has come of what is expected."""
+        """Updates after a step the progress of its expectations."""
         for expectation in self._expected.values():
             expectation.look(self.state, inputs)
 
@@ -102,9 +102,9 @@ class CommandedActor(MovingActor):
         self._speed = longitudinal_of(command, state, self.limits, self.route)
 
     def go_on_with(self, speed: float, acceleration: float) -> None:
-        """Goes on from an assigned speed (m/s) and acceleration (m/s^2) until a command comes.
+        """Continues from an assigned speed (m/s) and acceleration (m/s^2) until a command comes.
 
-        A speed alone is what it has at this instant; nothing is said of what follows.
+        A speed alone holds at this instant, without a statement about the time after it.
         """
         self.upset()
         self._open.forget()
@@ -166,7 +166,7 @@ class CommandedActor(MovingActor):
             )
 
     def is_steady(self) -> bool:
-        """Sees whether what it is told cannot fail: it goes on in closed form, and alone."""
+        """Returns whether its commands cannot fail: it continues in closed form, and alone."""
         self.steady = (
             self.follows
             and type(self._speed) in STEADY
@@ -188,7 +188,7 @@ class CommandedActor(MovingActor):
         return self._last != before
 
     def upset(self) -> None:
-        """As of all who move; its progress is to be looked at."""
+        """As for all actors that move; its progress is tested."""
         super().upset()
         self._last = None
 
@@ -202,7 +202,7 @@ class CommandedActor(MovingActor):
 
     @property
     def _hindrance(self) -> str | None:
-        """Why it cannot go on; the end of the road is none for who wanted to go to it."""
+        """Why it cannot continue; the end of the road is no reason if its goal was there."""
         sliding = None if self.wheels is None else self.wheels.sliding
         arrived = self._way is not None and self._way.progress().done
         return sliding if arrived else self.blocked or sliding
@@ -226,21 +226,21 @@ class CommandedActor(MovingActor):
             self.settle(self.on_lane(self.bound, self.reference.v, aside, 0.0, road_map))
             self.pursue_side(RunOut(aside), road_map)
 
-    # --- what a controller follows -------------------------------------------------------------
+    # --- for controllers -----------------------------------------------------------------------
 
     def settle(self, state: ActorState) -> None:
-        """Is where it was wished."""
+        """Sets state and reference to the commanded state."""
         self.state = self.reference = state
 
     def slid(self, along: float) -> None:
-        """Its reference is so many metres further along its path than its commands count on."""
+        """Its reference is a distance (m) ahead on its path of where its commands take it to be."""
         if self._course is not None:
             self._course.slid(along)
         if isinstance(self._speed, ArrivalRun | Cautious | CoverRun):
             self._speed.slid(along)
 
     def course_ahead(self, way: float) -> Pose | None:
-        """Place so many metres on along its course; None if it follows none."""
+        """Position at a distance (m) along its course; None without a course."""
         return None if self._course is None else self._course.ahead(way)
 
     def offset_after(self, seconds: float, rate: float) -> float:

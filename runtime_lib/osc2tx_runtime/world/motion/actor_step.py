@@ -108,7 +108,7 @@ class MovingActor(MovingBody):
         return state
 
     def cruised(self) -> ActorState | None:
-        """State at the next step of one who goes on as before; None if it may not."""
+        """State at the next step of an actor in unchanged motion; None if its motion may change."""
         cruise = self.cruise
         if cruise is None:
             return None
@@ -127,7 +127,7 @@ class MovingActor(MovingBody):
         return state._replace(v=speed, a=a, lateral_speed=0.0)
 
     def _stays(self) -> bool:
-        """Whether one who stands does so until it is told something."""
+        """Whether an actor at standstill stays there until a new command."""
         run = self._speed
         held = (
             run is None
@@ -137,7 +137,7 @@ class MovingActor(MovingBody):
         return held and self.is_steady() and isinstance(self._side, HoldOffset)
 
     def _goes_on(self, state: ActorState) -> bool:
-        """Whether one who drives goes on as it has come to a state, until it is told something."""
+        """Whether a driving actor keeps its present motion until a new command."""
         run, before = self._speed, self.reference
         return (
             type(run) is ProfileRun
@@ -151,11 +151,11 @@ class MovingActor(MovingBody):
         )
 
     def is_steady(self) -> bool:
-        """Sees whether what it is told cannot fail."""
+        """Returns whether its commands cannot fail."""
         raise NotImplementedError
 
     def _cross(self, place: LanePosition, along: float, speed: float, road_map: RoadMap) -> None:
-        """Takes with it what the seams up to a place leave, and lets it run out."""
+        """Takes over the offset from the seams up to a position, and lets it run out."""
         bound = self.bound
         assert bound is not None
         if self.residual is not None and not self.residual.driven(along):

@@ -35,7 +35,7 @@ class Couplings:
         return self._towed.get(tow)
 
     def towed(self) -> Collection[str]:
-        """Who hangs on another one."""
+        """The trailers."""
         return self._towed.values()
 
     def is_towed(self, actor: str) -> bool:
@@ -43,7 +43,7 @@ class Couplings:
         return bool(self._towed) and actor in self._towed.values()
 
     def pairs(self) -> tuple[tuple[str, str], ...]:
-        """Who is coupled to whom."""
+        """The coupled pairs."""
         return tuple(self._towed.items()) if self._towed else ()
 
     def draw(
@@ -57,7 +57,7 @@ class Couplings:
 
         Args:
             members: All actors, with their states at the begin of the step.
-            states: Those at its end, in the same order; those of trailers are replaced.
+            states: States at its end, in the same order; those of trailers are replaced.
             dt: Length of the step (s).
             road_map: The map.
         """

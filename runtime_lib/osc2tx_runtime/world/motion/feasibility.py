@@ -6,7 +6,7 @@ Looked at are the motions that the scenario asks for, so the rule is the same in
 - the one across it is less than that at which the vehicle tips over;
 - the speed across a lane changes no faster than that either.
 
-What jumps, is replayed, need not be physical, or is driven by somebody else is left out.
+Jumps, replays, motions that need not be physical, and external drivers are left out.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from .actor_motion import CommandedActor
 __all__ = ["FrictionWatch"]
 
 _SMOOTHING = 0.1  # s: where roads join, headings have small kinks
-_AT_THE_LIMIT = 1.01  # who uses all the grip there is does not use more
-_STRAIGHT = 1e-6  # rad/s at which one does not turn
+_AT_THE_LIMIT = 1.01  # using all the grip is no excess
+_STRAIGHT = 1e-6  # rad/s below which an actor does not turn
 _APART = 1.0  # s between two overloads of one actor; nearer ones are one
 _AT_ONCE = 0.1  # m/s across a lane that are no jump yet
 
@@ -41,7 +41,7 @@ class FrictionWatch:
         self.overloads: list[Overload] = []
         self._dt = dt
         self._share = dt / (_SMOOTHING + dt)
-        self._turning: dict[str, float] = {}  # smoothed rad/s of those who turn
+        self._turning: dict[str, float] = {}  # smoothed yaw rates (rad/s) of turning actors
         self._last: dict[tuple[str, Excess], Overload] = {}
         self._at: dict[tuple[Place, Excess], Overload] = {}
         self._steps = 0
@@ -53,7 +53,7 @@ class FrictionWatch:
 
         Args:
             members: All actors.
-            jumped: Who was put somewhere in it.
+            jumped: The actors that were teleported in it.
             road: Condition of the roads.
         """
         self._steps += 1
@@ -97,7 +97,7 @@ class FrictionWatch:
         limit: float,
         road: RoadCondition,
     ) -> None:
-        """Notes what is too much, m/s^2 along and across the way."""
+        """Notes an excess of longitudinal or lateral acceleration (m/s^2)."""
         overturn = member.spec.limits.overturn
         if abs(across) > _AT_THE_LIMIT * overturn and overturn < limit:
             self._note(member, "overturns", (0.0, across), overturn, road)
@@ -105,7 +105,7 @@ class FrictionWatch:
             self._note(member, "slides", (along, across), limit, road)
 
     def _set_aside(self, member: CommandedActor, jumped: Collection[str]) -> float:
-        """Change of the speed (m/s) across the lane in this step, of one who is in a lane."""
+        """Change of the lateral speed (m/s) in this step, for an actor in a lane."""
         before, now = member.aside, None
         if member.bound is not None:
             now = member.reference.lateral_speed
@@ -160,6 +160,6 @@ class FrictionWatch:
 
 
 def _place_of(member: CommandedActor) -> Place:
-    """What is one place for one actor: a lane of a road; off the roads all is one."""
+    """The key of one position for one actor: a lane of a road; off the roads all is one."""
     place = member.reference.lane_position
     return (member.spec.id, "", 0) if place is None else (member.spec.id, place.road, place.lane)

@@ -28,7 +28,7 @@ from .cruise import Cruise
 __all__ = ["ALIGNED", "ANY_LANE", "CRUISE", "STILL", "MovingBody", "cruise_of"]
 
 CRUISE = {"person": 1.4, "animal": 1.4, "movable_object": 1.4}
-"""Speed (m/s) at which those who stand set out on a course; vehicles: `CRUISE_VEHICLE`."""
+"""Speed (m/s) at which actors at standstill start on a course; vehicles: `CRUISE_VEHICLE`."""
 
 CRUISE_VEHICLE = 5.0
 
@@ -51,27 +51,28 @@ ALIGNED = 0.3  # rad to its lane with which a vehicle is in it again
 
 @dataclass
 class MovingBody:
-    """What is known of an actor from one step to the next, with its commands at work.
+    """The state of an actor from one step to the next, with the execution of its commands.
 
     Attributes:
-        spec: What it is.
-        state: Snapshot of the present step: what all read of it.
-        reference: State that its commands start from. The same, unless somebody measures the actor:
-            then it keeps the speed and the place in the lane that were commanded, abreast of it.
+        spec: Its description.
+        state: Snapshot of the present step: the state that all readers see.
+        reference: State that its commands start from. The same, unless the actor is measured: then
+            it keeps the commanded speed and position in the lane, abreast of the actor.
         bound: Lane it follows, with its offset from there; None off the lanes.
-        cursor: Goes along that lane with it.
+        cursor: Moves along that lane with it.
         route: Decides at forks; None: the smallest change of heading.
-        blocked: Why it cannot go on; None while it can.
-        jumped: In the last step it was put somewhere instead of moving there.
-        way: Metres that no corner of it moved more than in the last step; negative: nobody knows.
-        wheels: Its grip on the road; None for those without wheels.
-        tilt: Pitch and roll that it was told; wheels that roll forget them.
-        left: Where it was in its lane before the last step.
-        home: Lane that it returns to; None: it is in one, or goes to none.
-        residual: What seams of the map have left it beside its lane; None: nothing.
-        steady: What it is told cannot fail, and nothing was told since that was found.
-        still: It stood in the last step, and stands on until it is upset.
-        cruise: How it went in the last step, and goes on until it is upset; None: otherwise.
+        blocked: Why it cannot continue; None while it can.
+        jumped: In the last step it was teleported instead of moving.
+        way: Upper bound of the distance (m) that its corners moved in the last step; negative:
+            unknown.
+        wheels: Its grip on the road; None without wheels.
+        tilt: Commanded pitch and roll; wheels that roll forget them.
+        left: Its position in its lane before the last step.
+        home: Lane that it returns to; None: it is in one, or returns to none.
+        residual: Its remaining offset from seams of the map; None: nothing.
+        steady: Its commands cannot fail, and none was given since that was found.
+        still: It was at standstill in the last step, and stays so until it is upset.
+        cruise: Its motion in the last step, which continues until it is upset; None: otherwise.
     """
 
     spec: ActorSpec
@@ -103,7 +104,7 @@ class MovingBody:
 
     @property
     def limits(self) -> Limits:
-        """What it can do on the road as it is."""
+        """Its limits on the present road."""
         limits = self.spec.limits
         return limits if self.wheels is None else held_by(limits, self.wheels.road)
 
@@ -113,7 +114,7 @@ class MovingBody:
         return TYRES if self.wheels is None else held_by(TYRES, self.wheels.road)
 
     def _tilted(self, ground: Pose, heading: float) -> tuple[float, float]:
-        """Pitch and roll on the ground, or as it was told."""
+        """Pitch and roll on the ground, or as commanded."""
         if self.tilt is LEVEL and not (ground.pitch or ground.roll):
             return 0.0, 0.0  # nearly always
         return self.tilt.over(tilt_on(ground, heading))
@@ -141,7 +142,7 @@ class MovingBody:
         return self.free_state(pose, speed, (speed - state.v) / dt, road_map)
 
     def _return_to_lane(self, road_map: RoadMap) -> None:
-        """Is in its lane again if it stands in it and along it, else on the way there, if any."""
+        """Is in its lane again if it is in it and along it, else on the way there, if any."""
         state, home, self._astray = self.reference, self.home, False
         if not self.spec.lane_bound:
             return
@@ -194,7 +195,7 @@ class MovingBody:
         self.upset()
 
     def upset(self) -> None:
-        """Is told or befallen by something: how it goes on is to be found anew."""
+        """Gets a command or a disturbance: its further motion is to be found anew."""
         self.steady, self.still, self.cruise, self.way = False, False, None, -1.0
 
     def turn_away(self) -> None:

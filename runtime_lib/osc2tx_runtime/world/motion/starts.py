@@ -39,8 +39,8 @@ def placed(spec: ActorSpec, start: Start, road_map: RoadMap, road: RoadCondition
     """Return an actor at its start.
 
     Args:
-        spec: What it is.
-        start: Where it starts.
+        spec: Its description.
+        start: Its start position.
         road_map: The map.
         road: Condition of the roads.
     """

@@ -14,7 +14,7 @@ __all__ = ["StateChange"]
 
 @dataclass(frozen=True, slots=True)
 class StateChange:
-    """What is assigned at one instant; None leaves it as it is.
+    """Assigned values at one instant; None leaves a value unchanged.
 
     Attributes:
         speed: m/s.
@@ -50,7 +50,7 @@ class StateChange:
     ) -> StateChange:
         """This change and another one of the same instant.
 
-        What a scenario measured becomes a plain number: the motion does not allow for rounding.
+        Measured values become plain numbers: the motion does not allow for rounding.
         """
         return StateChange(
             self.speed if speed is None else float(speed),

@@ -54,7 +54,7 @@ def coupling_gap(tow: ActorState, trailer: ActorState) -> float:
 
 
 def pose_behind(tow: ActorState, trailer: Shape) -> Pose:
-    """Pose of a trailer that stands in line with the towing vehicle."""
+    """Pose of a trailer in line with the towing vehicle."""
     x, y = _hitch(tow)
     bar = _bar(trailer)
     return Pose(x - bar * math.cos(tow.h), y - bar * math.sin(tow.h), tow.z, tow.h)

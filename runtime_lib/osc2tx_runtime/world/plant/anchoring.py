@@ -1,8 +1,8 @@
-"""Where measured actors are, and where their references go on from there.
+"""Measured actors, and the states from which their references continue.
 
-The reference of a driven actor keeps its speed and its place across the path, and comes abreast of
-the actor along it: otherwise half of every error of the speed would add up, and the two would
-never meet again. Of an actor that somebody else drives, the measured state is the reference.
+The reference of a driven actor keeps its speed and its lateral position, and comes abreast of the
+actor along the path: otherwise half of every error of the speed would add up, and the two would
+never meet again. Of an actor with an external driver, the measured state is the reference.
 """
 
 from __future__ import annotations
@@ -37,10 +37,10 @@ def arrive(
 
     Args:
         cast: The actors.
-        wished: Where they were to come, in the same order.
-        found: Those that were measured; the others are there.
-        jumped: Who was put somewhere, which is no motion.
-        couplings: Who is towed; trailers are where their tows have come to.
+        wished: Their commanded states, in the same order.
+        found: The measured states; the other actors are exact.
+        jumped: Teleported actors; a teleport is no motion.
+        couplings: The trailers; they follow their towing vehicles.
         road_map: The map.
         dt: Length of the step (s); 0 before step 0.
 
@@ -86,7 +86,7 @@ def track(
 
 
 def observe(member: CommandedActor, state: ActorState, road_map: RoadMap) -> None:
-    """Put an actor that somebody else drives where it was measured."""
+    """Set an actor with an external driver to its measured state."""
     member.settle(state)
     place = state.lane_position
     if place is not None and road_map.lane_type(place.road, place.lane, place.s) not in DRIVING:
@@ -125,7 +125,7 @@ def anchored(member: CommandedActor, wished: ActorState, road_map: RoadMap) -> A
 
     Args:
         member: The actor, with its measured state.
-        wished: The reference at the end of the step, as it was wished.
+        wished: The reference at the end of the step, as commanded.
         road_map: The map.
     """
     state = member.state

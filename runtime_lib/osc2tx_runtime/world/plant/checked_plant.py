@@ -1,4 +1,4 @@
-"""A plant whose answers are checked: it is the code of somebody else."""
+"""A plant whose answers are checked: it is third-party code."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ class CheckedPlant:
         self.name = self._calls.ask("name", lambda: plant.name, str)
 
     def control(self, actor: str) -> ControlMode:
-        """Who moves an actor."""
+        """The control mode of an actor."""
         return self._calls.ask("control", lambda: self._plant.control(actor), ControlMode)
 
     def capabilities(self) -> frozenset[Feature]:
-        """What it has beside moving actors."""
+        """Its capabilities besides moving actors."""
         found = self._calls.ask("capabilities", self._plant.capabilities, frozenset)
         unknown = [str(each) for each in found if each not in FEATURES]
         if unknown:

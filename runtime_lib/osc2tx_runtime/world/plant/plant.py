@@ -1,13 +1,12 @@
-"""The seam between wished and real states: what a simulator fills.
+"""The interface between commanded and measured states, implemented by simulators.
 
-The world turns commands into the states that its actors are to have at the end of a step. A plant
-brings them about, and measures what has become of them: CARLA, another simulator, a vehicle model.
-`Identity` carries them out as they are.
+The world turns commands into the states of its actors at the end of a step. A plant brings them
+about, and measures what has become of them: CARLA, another simulator, a vehicle model. `Identity`
+carries them out as they are.
 
-An actor is under one control. `exact`: it is where it is wished. `exact-physics`: so, too, as a
-rigid body that its velocities bring there. `driven`: a controller has it
-follow the wished states, and it is measured. `external` and `autopilot`: somebody else drives it,
-it is only measured.
+An actor has one control mode. `exact`: it has the commanded state. `exact-physics`: the same, as a
+rigid body that its velocities bring there. `driven`: a controller follows the commanded states, and
+the actor is measured. `external` and `autopilot`: it has another driver, and is only measured.
 """
 
 from __future__ import annotations
@@ -34,19 +33,19 @@ class Plant(Protocol):
     name: str
 
     def control(self, actor: str) -> ControlMode:
-        """Who moves an actor, at the present step."""
+        """The control mode of an actor, at the present step."""
 
     def capabilities(self) -> frozenset[Feature]:
-        """What it has beside moving actors."""
+        """Its capabilities besides moving actors."""
 
     def shape(self, spec: ActorSpec) -> Shape | None:
-        """Size of an actor, asked for before it is placed; None: that of the scenario."""
+        """Size of an actor, requested before it is placed; None: that of the scenario."""
 
     def begin(self, scene: Scene) -> Mapping[str, Measurement]:
         """Puts the actors where they start, after the last placement and before step 0.
 
         Returns:
-            Those of its actors that are not exactly where they were wished.
+            The states of those actors that differ from the commanded ones.
 
         Raises:
             SimulatorError: If it cannot.
@@ -67,7 +66,7 @@ class Plant(Protocol):
 
 
 class Identity:
-    """All actors are where they are wished: the embedded world."""
+    """All actors have their commanded states: the embedded world."""
 
     name = "embedded"
 
@@ -80,7 +79,7 @@ class Identity:
         return FEATURES
 
     def shape(self, spec: ActorSpec) -> Shape | None:
-        """That of the scenario."""
+        """The shape of the scenario."""
         return None
 
     def begin(self, scene: Scene) -> Mapping[str, Measurement]:

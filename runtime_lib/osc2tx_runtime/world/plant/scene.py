@@ -1,4 +1,4 @@
-"""What a plant is to bring about in one step: states of the actors, lights, weather, signals."""
+"""The task of a plant in one step: states of the actors, lights, weather, signals."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _SLOW = 1.0  # m/s: slower ones look ahead as if they had this speed
 
 
 def pose_ahead(member: CommandedActor, state: ActorState, way: float, road_map: RoadMap) -> Pose:
-    """Where an actor will be after so many metres, if it goes on as it is commanded.
+    """The position of an actor after a distance (m), if it moves on as commanded.
 
     Args:
         member: The actor, whose commands have reached `state`.
@@ -64,9 +64,9 @@ class Setpoint:
     """What one actor is to do in a step.
 
     Attributes:
-        spec: What it is.
+        spec: Its description.
         now: Its state at the begin of the step.
-        state: The one it is to have at the end.
+        state: Its commanded state at the end.
         jumps: It is put there, instead of moving there.
         kicked: It has the speed of `state` at once (`assign_speed`).
         towed: It hangs on another actor, so it is there exactly.
@@ -93,23 +93,23 @@ class Setpoint:
 
     @property
     def limits(self) -> Limits:
-        """What it can do on the road as it is."""
+        """Its limits on the present road."""
         return self._member.limits
 
     def ahead(self, way: float) -> Pose:
-        """Where its path leads, so many metres on from `state`; negative: where it comes from."""
+        """Position on its path at a distance (m) from `state`; negative: behind it."""
         return pose_ahead(self._member, self.state, way, self._map)
 
 
 class Scene:
-    """A step as the world wants it; its attributes are those of the present step.
+    """A commanded step; its attributes describe the present step.
 
     Attributes:
         map: The road map.
         dt: Length of a step (s).
-        step: Number of the step that is made; 0 before the first one.
-        signals: The traffic lights. `states(id)` is what a light is to show; `lit()` says which
-            ones the scenario has switched, `observe` notes what the simulator shows by itself.
+        step: Number of the commanded step; 0 before the first one.
+        signals: The traffic lights. `states(id)` is the commanded state of a light; `lit()` lists
+            the ones that the scenario has switched, `observe` notes states of the simulator.
     """
 
     def __init__(
@@ -139,15 +139,15 @@ class Scene:
         jumped: frozenset[str] | set[str],
         kicked: frozenset[str] | set[str],
     ) -> None:
-        """Takes what the actors are to do in the next step."""
+        """Takes the commands of the actors for the next step."""
         self._members, self._wished = members, states
         self._jumped, self._kicked = jumped, kicked
         self._setpoints = None
 
     @property
     def setpoints(self) -> Mapping[str, Setpoint]:
-        """What each actor is to do, in the order of the cast."""
-        if self._setpoints is None:  # nobody asks in the embedded world
+        """The command of each actor, in the order of the cast."""
+        if self._setpoints is None:  # never read in the embedded world
             self._setpoints = self._make_setpoints()
         return self._setpoints
 
@@ -171,7 +171,7 @@ class Scene:
 
     @property
     def environment(self) -> Mapping[str, float]:
-        """Weather and sun as they are to be, SI units; only what somebody has said."""
+        """Commanded weather and sun, SI units; only stated values."""
         return self._surroundings.values
 
     @property
@@ -195,11 +195,11 @@ class Scene:
         self.warn(f"{trailer} jack-knifes at {time:.2f} s: it stands at {degrees:g}° to {tow}")
 
     def warn(self, text: str) -> None:
-        """Says once what cannot be as the scenario wants it, in a run that goes on all the same."""
+        """Warns once about an impossible command, in a run that continues all the same."""
         self._warnings[text] = None
 
     def warnings(self) -> tuple[str, ...]:
-        """What was said with `warn`, in order."""
+        """The warnings of `warn`, in order."""
         return tuple(self._warnings)
 
     def take_notes(self) -> Sequence[Note]:

@@ -25,8 +25,8 @@ class Surroundings:
         dt: Length of a step (s).
 
     Attributes:
-        road: Condition of the roads on the way to the next step.
-        sky: Where sun and moon stand by themselves; None: nobody says.
+        road: Condition of the roads up to the next step.
+        sky: Astronomical positions of sun and moon; None: not stated.
         values: The environment at the present step.
     """
 
@@ -94,7 +94,7 @@ class Lights:
         return self._now.get(actor, LightState())
 
     def switch(self, actor: str, mode: LightMode, automatic: LightMode) -> LightState:
-        """Switches lights; returns what they are now."""
+        """Switches lights; returns their new states."""
         lights = LightState(mode, automatic if mode == "auto" else mode)
         self._now[actor] = lights
         return lights

@@ -18,7 +18,7 @@ STOP: frozenset[SemanticTrafficLightState] = frozenset({"stop", "attention"})
 """What forbids to pass."""
 
 STOP_IF_POSSIBLE: frozenset[SemanticTrafficLightState] = frozenset({"stop_attention"})
-"""What forbids to pass for those who can still stop comfortably."""
+"""States that require a stop of vehicles that can still stop comfortably."""
 
 _STEP_OVER = 1e-6  # m beyond the end of a lane, so as to be on the next one
 _AT = 1e-5  # m: a line so little behind is here
@@ -30,7 +30,7 @@ class StopLine(NamedTuple):
     Attributes:
         signal: The light.
         distance: Metres along the lane from the reference point.
-        strict: False for a light that asks only those to stop who comfortably can.
+        strict: False for a light that requires a stop only if it is comfortable.
     """
 
     signal: str
@@ -43,7 +43,7 @@ class StopLines:
 
     Args:
         road_map: The map.
-        signals: What the lights show.
+        signals: The states of the lights.
     """
 
     def __init__(self, road_map: RoadMap, signals: Signals) -> None:
@@ -55,7 +55,7 @@ class StopLines:
     def ahead(
         self, place: LanePosition, route: Route | None, nearest: float, reach: float
     ) -> StopLine | None:
-        """The first line ahead whose light asks to stop; None if there is none.
+        """The first line ahead whose light requires a stop; None without one.
 
         Args:
             place: Where to look from.

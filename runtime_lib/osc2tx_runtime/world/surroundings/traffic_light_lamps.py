@@ -48,8 +48,8 @@ BOXES: Mapping[str, tuple[Lamp, ...]] = {
 }
 """Lamps by type of the signal in the catalogue `OpenDRIVE`, top to bottom."""
 
-# Meaning -> color, whether the lamp must (not) be an arrow, and how it is lit; what is not named
-# is off. The order decides where two meanings light the same lamps.
+# Meaning -> color, whether the lamp must (not) be an arrow, and how it is lit; other lamps
+# are off. The order decides where two meanings light the same lamps.
 MEANINGS: Mapping[
     SemanticTrafficLightState, tuple[tuple[BulbColor, bool | None, BulbState], ...]
 ] = {
@@ -84,7 +84,7 @@ def lamps_that_mean(
 
 
 def meaning_of(lamps: Sequence[Lamp], states: Sequence[BulbState]) -> SemanticTrafficLightState:
-    """What a box says; `non_functional` where no rule of traffic covers what it shows."""
+    """The meaning of a box; `non_functional` where no traffic rule covers its lamps."""
     shown = tuple(states)
     for meaning in MEANINGS:
         if lamps_that_mean(lamps, meaning) == shown:

@@ -23,11 +23,11 @@ _NAMED = 12  # signals that a message lists
 
 
 class Signals:
-    """What the lights of a map show; all are off until somebody switches them.
+    """The states of the lights of a map; all are off until they are switched.
 
-    Those of a simulator run by themselves until the scenario switches one of them.
+    Lights of a simulator run by themselves until the scenario switches one of them.
 
-    As everywhere in a world, what is set at step k can be read from step k+1 on.
+    As everywhere in a world, values set at step k can be read from step k+1 on.
 
     Args:
         road_map: The map.
@@ -66,7 +66,7 @@ class Signals:
         )
 
     def describe(self, signal: str, lamps: Sequence[Lamp]) -> None:
-        """Says which lamps a box has, instead of those of its type.
+        """Sets the lamps of a box, instead of those of its type.
 
         Raises:
             ScenarioError: The map has no such traffic light.
@@ -97,14 +97,14 @@ class Signals:
     # --- stop lines ---------------------------------------------------------------------------
 
     def stop_at(self, signal: str, places: Sequence[LinePlace]) -> None:
-        """Moves the stop lines of a traffic light to other places than those of the map."""
+        """Moves the stop lines of a traffic light from their positions in the map."""
         self._moved[signal] = tuple(places)
 
     def lines(self, of_map: LaneLines) -> LaneLines:
         """Stop lines of the map, but for those that have been moved.
 
         Args:
-            of_map: What the map has.
+            of_map: The lines of the map.
         """
         if not self._moved:
             return of_map
@@ -117,18 +117,18 @@ class Signals:
                 found.setdefault((road, lane), []).append(SignalPlace(signal, s))
         return {lane: tuple(sorted(places, key=lambda p: p.s)) for lane, places in found.items()}
 
-    # --- what they show -----------------------------------------------------------------------
+    # --- their states -------------------------------------------------------------------------
 
     def states(self, signal: str) -> tuple[BulbState, ...]:
         """States of the lamps at the present step, in their order."""
         return self._shown.get(signal) or tuple(OFF for _ in self.lamps(signal))
 
     def meaning(self, signal: str) -> SemanticTrafficLightState:
-        """What the light says at the present step."""
+        """The meaning of the light at the present step."""
         return meaning_of(self.lamps(signal), self.states(signal))
 
     def lit(self) -> Mapping[str, tuple[BulbState, ...]]:
-        """States of the lights that somebody has switched, at the present step."""
+        """States of the lights that were switched, at the present step."""
         return self._shown
 
     # --- writing ------------------------------------------------------------------------------
@@ -139,8 +139,8 @@ class Signals:
         Args:
             signal: The box.
             lamp: Number of the lamp in it, from 0.
-            state: What it is to do.
-            by: Who switches it, for `shown_by`.
+            state: Its new state.
+            by: The origin of the change, for `shown_by`.
         """
         before = self.states(signal)
         new = (*before[:lamp], state, *before[lamp + 1 :])
@@ -150,7 +150,7 @@ class Signals:
         return changes
 
     def observe(self, signal: str, states: tuple[BulbState, ...]) -> None:
-        """Notes what a simulator lets a light show, unless the scenario has switched it.
+        """Notes the state of a light in a simulator, unless the scenario has switched it.
 
         Args:
             signal: The box.
@@ -160,5 +160,5 @@ class Signals:
             self._shown[signal] = states
 
     def shown_by(self, signal: str) -> object:
-        """Who switched a light last."""
+        """The origin of the last change of a light."""
         return self._shown_by.get(signal)

@@ -1,8 +1,8 @@
-"""What is expected of an actor that somebody else drives: goals that are measured, not commanded.
+"""Expectations of actors with another driver: goals that are measured, not commanded.
 
-An expectation is reached as soon as the actor was measured where the command wants it, in its own
-time and by a course of its own; what has a duration has to be reached by then, as always. Standing
-or going on is expected of nobody.
+An expectation is reached as soon as the actor was measured at the goal of the command, in its own
+time and by a course of its own; a goal with a duration has to be reached by then, as always.
+Commands without a goal expect nothing.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ class Expectation:
 def expected(
     command: Command | None, state: ActorState, road_map: RoadMap, route: Route | None
 ) -> Expectation:
-    """Return what a command means for somebody who is not commanded.
+    """Return the meaning of a command for an actor that is not commanded.
 
     Args:
         command: The command.
@@ -128,7 +128,7 @@ def _near(error: float, tolerance: float) -> Progress:
 
 
 def _last(course: Profile | None, otherwise: float) -> float:
-    """Where a course ends; without one, what is wanted."""
+    """The end of a course; without one, the target."""
     return otherwise if course is None else course.value(course.duration)
 
 
@@ -170,7 +170,7 @@ def _heading(command: Sideways | Slant | Turn, road_map: RoadMap) -> Judge:
     match command:
         case Turn(heading=heading, course=course):
             if heading is None and course is None:
-                return lambda me, inputs: REACHED  # pitch and roll are what the road makes of them
+                return lambda me, inputs: REACHED  # pitch and roll follow from the road
             goal = _last(course, heading or 0.0)
             return lambda me, inputs: _near(turn_between(goal, me.h), HEADING_TOLERANCE)
         case Sideways():
@@ -227,7 +227,7 @@ def _lane(command: LaneChange | LaneOffset, state: ActorState, road_map: RoadMap
         if place is None:
             return PENDING
         ahead = road_map.route_distance(goal, place)
-        if ahead is not None:  # the lane goes on, under whatever number
+        if ahead is not None:  # the lane continues, under whatever number
             lane = road_map.advance(LanePosition(goal.road, goal.lane, goal.s), ahead).position
             goal = lane._replace(offset=goal.offset)
         there = (place.road, place.lane) == (goal.road, goal.lane)

@@ -1,4 +1,4 @@
-"""How well a driven actor follows its reference, and when what it is to do counts as done.
+"""How well a driven actor follows its reference, and when its command counts as done.
 
 A command is done when its reference has come to the end *and* the actor was measured there, within
 the tolerances. An actor that does not get there in time, or leaves its path, fails its
@@ -46,7 +46,7 @@ class Tracking:
 
         Args:
             state: Measured at its end.
-            reference: As wished at its end.
+            reference: As commanded at its end.
             wished: Progress of the reference in each slot.
             dt: Its length (s).
         """
@@ -70,7 +70,7 @@ class Tracking:
         return self._deviation._replace(late=max(late, 0.0))
 
     def progress(self, slot: str, wished: Progress) -> Progress:
-        """Progress of what is asked for in a slot, given that of the reference."""
+        """Progress of the command in a slot, given the progress of the reference."""
         if wished.failed is not None or self._deviation is None:
             return wished
         off = self._deviation
@@ -86,7 +86,7 @@ class Tracking:
         return PENDING
 
     def _missed(self, slot: str, off: Deviation) -> str | None:
-        """What is wrong at the present step; None if all is within the tolerances."""
+        """The deviation at the present step; None if all is within the tolerances."""
         if slot == LONGITUDINAL:
             most = 0.0 if self._standing else SPEED_TOLERANCE
             return f"it is {off.speed:+.2f} m/s off its speed" if abs(off.speed) > most else None

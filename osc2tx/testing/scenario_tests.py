@@ -1,0 +1,309 @@
+"""Scenarios as tests: pytest collects the `.osc` files of a project, one test for each scenario.
+
+Collected are files among the `sources` of their settings, and files that are named. A test passes
+if the run ends with the `verdict` that the settings expect, which is `success` unless stated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from osc2tx.compilation.inputs import InputError
+from osc2tx.config import ConfigError
+
+if TYPE_CHECKING:
+    from osc2tx.diagnostics.report import ScenarioEntry
+    from osc2tx.testing.compiled_sources import CompiledSources
+    from osc2tx.testing.conditions import ValueCondition
+
+__all__ = [
+    "pytest_addoption",
+    "pytest_collect_file",
+    "pytest_collection_modifyitems",
+    "pytest_configure",
+    "pytest_sessionfinish",
+    "pytest_sessionstart",
+    "pytest_terminal_summary",
+    "pytest_unconfigure",
+]
+
+SUFFIX = ".osc"
+_SOURCES = pytest.StashKey["CompiledSources"]()
+_RESULT = ("osc2tx.verdict", "osc2tx.reason")
+"""Properties of a test in JUnit, beside the values that its scenario fixes."""
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the options; called by pytest."""
+    group = parser.getgroup("osc2tx")
+    group.addoption(
+        "--osc-where",
+        action="append",
+        default=[],
+        metavar="'NAME == VALUE'",
+        help="only scenarios that fix this value; repeated: all of them",
+    )
+    group.addoption("--osc-shard", metavar="K/N", help="only the K-th of N parts of all tests")
+    group.addoption("--osc-fail-on", action="append", default=[], metavar="WHAT", help="as of run")
+    group.addoption("--osc-traces", metavar="DIR", help="write traces, their pages and an index")
+    group.addoption("--osc-cache-dir", metavar="DIR", help="folder of earlier results of builds")
+    group.addoption("--osc-jobs", type=int, metavar="N", help="processes that compile")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Read the options; called by pytest."""
+    try:
+        _conditions(config)
+        _shard(config)
+    except ValueError as error:
+        raise pytest.UsageError(str(error)) from None
+
+
+def pytest_sessionstart(session: pytest.Session) -> None:
+    """Compile what the session will collect, before processes of pytest-xdist do; by pytest."""
+    config = session.config
+    if _is_worker(config):
+        return
+    from osc2tx.building.workers import processors
+
+    places = [config.invocation_params.dir / each.split("::")[0] for each in config.args]
+    workers = config.getoption("osc_jobs") or processors()
+    try:
+        _sources(config).prepare((place for place in places if place.exists()), workers)
+    except (ConfigError, InputError) as error:
+        raise pytest.UsageError(str(error)) from None
+
+
+def pytest_unconfigure(config: pytest.Config) -> None:
+    """Remove the modules; called by pytest."""
+    if _SOURCES in config.stash:
+        config.stash[_SOURCES].close()
+
+
+def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
+    """Collect a scenario file; called by pytest for each file."""
+    if file_path.suffix != SUFFIX:
+        return None
+    is_named = parent.session.isinitpath(file_path)
+    try:
+        if not is_named and not _sources(parent.config).is_source(file_path):
+            return None
+    except ConfigError as error:
+        raise pytest.UsageError(str(error)) from None
+    return ScenarioFile.from_parent(parent, path=file_path)
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Select by values and by shard; called by pytest."""
+    conditions = _conditions(config)
+    if conditions:
+        _select(config, items, [item for item in items if _meets(item, conditions)])
+    shard = _shard(config)
+    if shard is not None:
+        index, count = shard
+        _select(config, items, items[index - 1 :: count])
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """Make the pages of all traces; called by pytest."""
+    config = session.config
+    traces = config.getoption("osc_traces")
+    if not traces or _is_worker(config) or not Path(traces).is_dir():
+        return
+    from osc2tx_runtime.errors import InputError as TraceError
+    from osc2tx_runtime.running.trace_reports import folder_report
+
+    maps = [*map(Path, _sources(config).configs.for_folder(Path.cwd()).map_paths)]
+    try:
+        folder_report(Path(traces), Path(traces), maps)
+    except TraceError as error:  # nothing ran
+        config.issue_config_time_warning(pytest.PytestWarning(str(error)), 2)
+
+
+def pytest_terminal_summary(terminalreporter: Any) -> None:
+    """Print a table of the scenarios that failed; called by pytest."""
+    failed = sorted(
+        (*report.nodeid.split("::", 1), *(properties[name] for name in _RESULT))
+        for report in terminalreporter.stats.get("failed", ())
+        if _RESULT[0] in (properties := dict(report.user_properties))
+    )
+    if not failed:
+        return
+    terminalreporter.section("scenarios that failed")
+    rows = [("file", "scenario", "verdict", "reason"), *failed]
+    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]) - 1)]
+    for *first, reason in rows:
+        cells = [text.ljust(width) for text, width in zip(first, widths, strict=True)]
+        terminalreporter.line("  ".join((*cells, reason)).rstrip())
+
+
+class ScenarioFile(pytest.File):
+    """A scenario file: a test for each scenario that can run by itself."""
+
+    def collect(self) -> Iterator[ScenarioItem]:
+        """Yield the tests; one that fails for a file with errors."""
+        sources = _sources(self.config)
+        verdict = sources.configs.for_source(self.path).verdict(self.path)
+        if verdict == "skip":
+            return
+        if sources.problems(self.path):
+            yield ScenarioItem.from_parent(self, name=self.path.stem, entry=None, verdict=verdict)
+            return
+        for entry in sources.result(self.path).scenarios:
+            if entry.is_runnable:
+                yield ScenarioItem.from_parent(self, name=entry.name, entry=entry, verdict=verdict)
+
+
+class ScenarioItem(pytest.Item):
+    """A run of a scenario, with the settings of its file.
+
+    Attributes:
+        entry: What is known of the scenario; `None` for a file with errors.
+    """
+
+    def __init__(self, *, entry: ScenarioEntry | None, verdict: str, **more: Any) -> None:
+        """Take the scenario.
+
+        Args:
+            entry: What is known of it.
+            verdict: What its run is to end with.
+            **more: As of `pytest.Item`.
+        """
+        super().__init__(**more)
+        self.entry = entry
+        self._verdict = verdict
+        if entry is not None:
+            self.user_properties += entry.values.items()
+
+    def runtest(self) -> None:
+        """Run the scenario.
+
+        Raises:
+            UnexpectedVerdict: It does not end as expected.
+        """
+        verdict, reason, text = self._run()
+        self.user_properties += zip(_RESULT, (verdict, reason), strict=True)
+        if verdict != self._verdict:
+            expected = f"expected: {self._verdict}\n" if self._verdict != "success" else ""
+            raise UnexpectedVerdict(f"{expected}{text}")
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
+        """Return what a failure says."""
+        if isinstance(excinfo.value, UnexpectedVerdict):
+            return str(excinfo.value)
+        return super().repr_failure(excinfo, style)
+
+    def reportinfo(self) -> tuple[Path, int | None, str]:
+        """Return file, line and name, for reports."""
+        return self.path, None, self.name
+
+    def _run(self) -> tuple[str, str, str]:
+        """Return the verdict, the reason for it in one line, and all that there is to say."""
+        from osc2tx.cli.run import merge_texts, settings_from
+        from osc2tx_runtime import ScenarioError, run_scenario
+        from osc2tx_runtime.errors import SettingsError
+        from osc2tx_runtime.running.main import verdict as lines_of
+
+        sources = _sources(self.config)
+        problems = sources.problems(self.path)
+        if problems:
+            return "error", problems.splitlines()[0], problems
+        fail_on = tuple(self.config.getoption("osc_fail_on"))
+        given = {"fail-on": fail_on, "trace": self._trace()}
+        config = sources.configs.for_source(self.path)
+        shown = _seen_from_here(self.path)
+        try:
+            settings = settings_from(merge_texts(config, self.path, given), self.path)
+            with sources.scenarios(self.path) as scenarios:
+                scenario = scenarios[self.name]
+                result = run_scenario(scenario, settings, keep_trace=False)
+        except SettingsError as error:
+            return "error", error.message, error.message
+        except ScenarioError as error:
+            return "error", str(error), error.report(self.path.name, shown)
+        told = "\n".join(lines_of(self.name, result, scenario.source, shown))
+        again = f"osc2tx run {shown} --scenario {self.name}"
+        again += "".join(f" --fail-on {each}" for each in fail_on)
+        return result.status, result.reason, f"{told}\n{again}"
+
+    def _trace(self) -> tuple[str, ...]:
+        """Return where the trace goes: as its source lies, one for each scenario."""
+        folder = self.config.getoption("osc_traces")
+        if not folder:
+            return ()
+        result = _sources(self.config).result(self.path)
+        place = Path(folder, result.job.name).with_suffix("")
+        name = (
+            f"{place.name}.jsonl" if place.name == self.name else f"{place.name}.{self.name}.jsonl"
+        )
+        place.parent.mkdir(parents=True, exist_ok=True)
+        return (str(place.with_name(name)),)
+
+
+class UnexpectedVerdict(Exception):
+    """A run does not end as expected."""
+
+
+def _sources(config: pytest.Config) -> CompiledSources:
+    if _SOURCES not in config.stash:
+        from osc2tx.testing.compiled_sources import CompiledSources
+
+        cache = config.getoption("osc_cache_dir")
+        config.stash[_SOURCES] = CompiledSources(Path(cache) if cache else None)
+    return config.stash[_SOURCES]
+
+
+def _conditions(config: pytest.Config) -> list[ValueCondition]:
+    """Return the conditions on values.
+
+    Raises:
+        ValueError: One has another form.
+    """
+    texts = config.getoption("osc_where")
+    if not texts:
+        return []
+    from osc2tx.testing.conditions import ValueCondition
+
+    return [ValueCondition.parse(text) for text in texts]
+
+
+def _is_worker(config: pytest.Config) -> bool:
+    """Whether this is a process of pytest-xdist, which runs what another one chooses."""
+    return hasattr(config, "workerinput")
+
+
+def _shard(config: pytest.Config) -> tuple[int, int] | None:
+    """Return which part of how many is to run.
+
+    Raises:
+        ValueError: It is none.
+    """
+    text = config.getoption("osc_shard")
+    if text is None:
+        return None
+    index, sign, count = text.partition("/")
+    if sign and index.isdecimal() and count.isdecimal() and 1 <= int(index) <= int(count):
+        return int(index), int(count)
+    raise ValueError(f"{text!r} is no shard: write K/N, as in 1/4")
+
+
+def _meets(item: pytest.Item, conditions: Sequence[ValueCondition]) -> bool:
+    if not isinstance(item, ScenarioItem):
+        return True
+    values = item.entry.values if item.entry is not None else {}
+    return all(condition.holds(values) for condition in conditions)
+
+
+def _select(config: pytest.Config, items: list[pytest.Item], chosen: Sequence[pytest.Item]) -> None:
+    kept = set(map(id, chosen))
+    config.hook.pytest_deselected(items=[item for item in items if id(item) not in kept])
+    items[:] = chosen
+
+
+def _seen_from_here(path: Path) -> str:
+    here = Path.cwd()
+    return str(path.relative_to(here) if path.is_relative_to(here) else path)
