@@ -180,9 +180,11 @@ class DeclarationLowering:
 
     def _event(self, node: ast.EventDeclaration) -> ir.Event | None:
         symbol = self._members.get(node.name.text)
+        if isinstance(symbol, sym.EventSymbol) and symbol.node is not node:
+            return None  # a more derived scenario declares it again
         parameters = symbol.parameters if isinstance(symbol, sym.EventSymbol) else ()
         trigger = None
-        if node.specification is not None:
+        if node.specification is not None and boundary_of(self._ctx, node.specification) is None:
             trigger = lower_trigger(self._ctx, node.specification)
             if trigger is None:
                 return None

@@ -149,6 +149,8 @@ def path_of(object_: ir.Expression) -> str | None:
     match object_:
         case ir.FieldRef(name=name):
             return name
+        case ir.Downcast(operand=operand):
+            return path_of(operand)
         case ir.Attribute(base=base, name=name) if (path := path_of(base)) is not None:
             return f"{path}.{name}"
         case _:
