@@ -80,7 +80,7 @@ def _add(symbol: sym.TypeSymbol, found: dict[sym.TypeSymbol, None]) -> None:
 
 
 def _report(ctx: LoweringContext, owner: sym.TypeSymbol, statement: ast.Statement) -> None:
-    if not isinstance(owner, sym.ActionSymbol):
+    if not isinstance(owner, sym.ActionSymbol) or owner.origin != "user":
         return
     for item in _items(statement):
         ctx.unsupported(
