@@ -36,9 +36,14 @@ def lower_trigger(
 
 
 def boundary_of(ctx: LoweringContext, event: ast.EventSpecification) -> str | None:
-    """Return `start` or `end` if a specification is that of the scenario itself."""
-    symbol = None if event.event is None else ctx.model.symbol_of(event.event)
-    is_plain = isinstance(event.event, ast.NameExpression) and event.condition is None
+    """Return `start` or `end` if a specification is that of the behavior itself.
+
+    In a modifier that is the modified behavior, `it`.
+    """
+    path = event.event
+    symbol = None if path is None else ctx.model.symbol_of(path)
+    is_of_it = isinstance(path, ast.MemberAccess) and isinstance(path.base, ast.ItExpression)
+    is_plain = (isinstance(path, ast.NameExpression) or is_of_it) and event.condition is None
     if not is_plain or not isinstance(symbol, sym.EventSymbol) or declares_event(symbol):
         return None
     return symbol.name if symbol.name in BOUNDARIES else None
