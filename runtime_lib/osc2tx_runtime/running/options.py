@@ -125,7 +125,7 @@ OPTIONS: tuple[Option, ...] = (
     Option(
         "control",
         "MODE[,ACTOR=MODE]",
-        "who moves the actors: exact, driven, external, autopilot",
+        "who moves the actors: exact, exact-physics, driven, external, autopilot",
         parse_control,
         _merged,
     ),
