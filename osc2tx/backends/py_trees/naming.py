@@ -22,6 +22,7 @@ SCENARIO_ATTRIBUTES = frozenset(
         "arguments",
         "behavior",
         "cast",
+        "completed",
         "cover",
         "create_tree",
         "declare",
