@@ -1,12 +1,12 @@
 """Writes `osc2tx/backends/xosc/xml/schema.json`: what each version of OpenSCENARIO XML has.
 
 Read from the schemas that `asam-qc-openscenarioxml` ships (extra `test`); they end with 1.3, and
-`xosc_1_4.toml` adds what is new in 1.4. One type a line:
+`xosc_1_4.toml` has the additions of 1.4. One type a line:
 
     "Event": {"attributes": {NAME: [TYPE, SINCE, UNTIL, REQUIRED]}, "children": {…}}
 
-REQUIRED lists the versions in which it cannot be left out. Children stand in the order of the
-schema. `enums` holds the literals of each enumeration with the versions that have them.
+REQUIRED lists the versions in which it cannot be left out. Children are in the order of the schema.
+`enums` holds the literals of each enumeration with the versions that have them.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def schema_of(version: str) -> Any:
 
 
 def _with_additions(root: Any) -> Any:
-    """Add to the schema of 1.3 what is new in 1.4; all of it can be left out."""
+    """Add to the schema of 1.3 the additions of 1.4; all of them can be left out."""
     new = tomllib.loads(ADDITIONS.read_text(encoding="utf-8"))
     for name, literals in new["literals"].items():
         enum = next(_named(root, "simpleType", name).iter(f"{XSD}restriction"), None)

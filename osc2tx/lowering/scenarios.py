@@ -61,7 +61,7 @@ def lower(
 ) -> ir.Module:
     """Lower the scenarios of the root file, and imported ones that they invoke.
 
-    What is refused is reported and left out.
+    Rejected scenarios are reported and left out.
     """
     lowered: dict[int, ir.Scenario | None] = {}
     invoked: set[int] = set()

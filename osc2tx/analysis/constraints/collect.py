@@ -46,8 +46,8 @@ class Constraint:
             an element that a constraint speaks of.
         is_default: Whether a later one may replace it.
         subject: The parameter alone on its left side, if it is an equality or a range.
-        value: What the subject is set to, or the range or list that it is in.
-        operations: The whole of it.
+        value: The value of the subject, or the range or list that it is in.
+        operations: The whole constraint.
         place: Where the names in `value` are looked up.
     """
 
@@ -113,7 +113,7 @@ class Collector:
     def _of_ancestor(
         self, ancestor: sym.TypeSymbol
     ) -> tuple[list[Entry], Mapping[Key, sym.TypeSymbol]]:
-        """Return what a type states itself, and the objects in that."""
+        """Return the constraints of a type itself, and of the objects in it."""
         if ancestor not in self._shared:
             it = None if isinstance(ancestor, sym.ModifierSymbol) else ()
             place = Place(model=self._model, owner=ancestor, prefix=(), it=it)
@@ -245,7 +245,7 @@ class Collector:
         yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
 
     def _of_element(self, place: Place, element: sym.FieldSymbol, depth: int) -> Iterator[Entry]:
-        """Yield what the type of an element of a list demands of it."""
+        """Yield the constraints of the type of an element on a list."""
         type_, key = symbol_of(element.type), (element,)
         if isinstance(type_, sym.StructSymbol | sym.ActorSymbol):
             self.objects[key] = type_
@@ -363,7 +363,7 @@ class Collector:
     def _of_instance(
         self, place: Place, node: Instance, arguments: tuple[ast.Argument, ...]
     ) -> Iterator[Entry]:
-        """Yield what the callee demands of its parameters, and what the arguments say."""
+        """Yield the callee's constraints on its parameters, and the values of the arguments."""
         binding = self._model.bindings.get(node)
         if binding is None or not isinstance(binding.callee, sym.BehaviorSymbol):
             return

@@ -33,7 +33,7 @@ FINISHING = {"end": True, "fail": False}
 
 
 class _CompositionFields(TypedDict):
-    """What the three compositions share, as keyword arguments."""
+    """The common fields of the three compositions, as keyword arguments."""
 
     span: Span
     label: str | None
@@ -52,7 +52,7 @@ class BehaviorLowering:
     def __init__(
         self, ctx: LoweringContext, constraints: ConstraintLowering, standing: StandingModifiers
     ) -> None:
-        """Take the checked program, and what the constraints and members of the scenario say."""
+        """Take the checked program, and the constraints and members of the scenario."""
         self._ctx = ctx
         self._standing = standing
         self._invocations = InvocationLowering(ctx, constraints, standing)
@@ -82,7 +82,7 @@ class BehaviorLowering:
         )
 
     def reactions(self, node: ast.OnDirective) -> tuple[ir.Emit | ir.Finish | ir.Call, ...]:
-        """Return what an `on` directive does; its own comments are not among theirs."""
+        """Return the actions of an `on` directive; its own comments are not among theirs."""
         reactions: list[ir.Emit | ir.Finish | ir.Call | None] = []
         for member in node.members:
             comments = statement_comments(member)

@@ -32,7 +32,7 @@ def lower_trigger(
 
 
 def boundary_of(ctx: LoweringContext, event: ast.EventSpecification) -> str | None:
-    """Return `start` or `end` if a specification is that of the scenario itself."""
+    """Return `start` or `end` if a specification refers to the scenario itself."""
     symbol = None if event.event is None else ctx.model.symbol_of(event.event)
     is_plain = isinstance(event.event, ast.NameExpression) and event.condition is None
     if not is_plain or not isinstance(symbol, sym.EventSymbol) or declares_event(symbol):
@@ -41,7 +41,7 @@ def boundary_of(ctx: LoweringContext, event: ast.EventSpecification) -> str | No
 
 
 def _name_of(event: ir.EventRef | ir.LabelEvent | ir.InnerEvent) -> str:
-    """Return what the arguments of an occurrence are found by."""
+    """Return the key of the arguments of an occurrence."""
     match event:
         case ir.EventRef(name=name):
             return name

@@ -1,4 +1,4 @@
-"""The plant: what the world wishes goes to CARLA, and what has become of it comes back."""
+"""The plant: commanded states go to CARLA, and measured states come back."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ SETTLING = 2.0  # s that vehicles have at most to come to rest on their wheels
 AT_REST = 0.05  # m/s upwards
 STILL_STEPS = 2  # at rest one after the other: a body at the top of a bounce is still for one
 SAME_DT = 1e-5  # s: frames travel in single precision
-MOVED = 0.05  # m: an exact actor that is farther away was moved by somebody else
+MOVED = 0.05  # m: an exact actor that is farther away was moved by another client
 DRIVABLE = ("vehicle", "person")
 
 
@@ -36,14 +36,14 @@ class CarlaPlant:
     Args:
         client: Connected, on the map of the run.
         version: Of the server.
-        control: Who moves an actor, by its id; `""` stands for all others.
-        waiting: Seconds to wait for actors that somebody else spawns.
+        control: Control mode of an actor, by its id; `""` stands for all others.
+        waiting: Seconds to wait for actors of other clients.
         sensors: Sensor stacks.
         ticks: We make the steps of the simulator.
         dt: Length of a step (s).
         seed: Of the Traffic Manager.
         manager_port: Of the Traffic Manager.
-        attendance: Who attends the run.
+        attendance: The attendance of the run.
     """
 
     def __init__(
@@ -70,10 +70,10 @@ class CarlaPlant:
         self._surroundings = CarlaSurroundings(client)
         self._start = 0.0  # s of the episode at step 0
 
-    # --- what it can --------------------------------------------------------------------------
+    # --- capabilities -------------------------------------------------------------------------
 
     def control(self, actor: str) -> ControlMode:
-        """Who moves an actor; what cannot move by itself is where it is wished."""
+        """The control mode of an actor; objects without motion of their own are exact."""
         spec = self._specs.get(actor)
         drives = spec is None or (spec.movable and spec.kind in DRIVABLE)
         wanted = self._wanted.get(actor)
@@ -89,7 +89,7 @@ class CarlaPlant:
         return FEATURES
 
     def shape(self, spec: ActorSpec) -> Shape | None:
-        """That of the scenario; sizes of CARLA are known after spawning."""
+        """The shape of the scenario; sizes of CARLA are known after spawning."""
         self._specs[spec.id] = spec
         return None
 
@@ -181,7 +181,7 @@ class CarlaPlant:
             raise SimulatorError(
                 "another client makes steps of CARLA, too: only one can (--no-tick leaves it to it)"
                 if self._ticks
-                else f"CARLA went on by {looked['skipped'] + 1} steps at once: this run is too slow"
+                else f"CARLA advanced {looked['skipped'] + 1} steps at once: this run is too slow"
                 " for the client that makes them"
             )
         if abs(looked["dt"] - self._dt) > SAME_DT:
@@ -215,7 +215,7 @@ class CarlaPlant:
             )
 
     def _note_collisions(self, scene: Scene, looked: Mapping[str, Any]) -> None:
-        """Contacts as the simulator sees them; those of the trace's own test decide."""
+        """Contacts reported by the simulator; the trace's own test decides."""
         names = {member.actor: actor for actor, member in self._members.items()}
         for time, number, other, blueprint in looked["collisions"]:
             scene.note(
