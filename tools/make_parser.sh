@@ -23,6 +23,7 @@ run_npx --yes "antlr-ng@$VERSION" -Dlanguage=Python3 --generate-listener false -
     -o "$made" OpenSCENARIO2.g4
 
 mkdir -p "$out"
-cp "$made/OpenSCENARIO2.py" "$out/OpenSCENARIO2.py"
+sed 's/^from antlr4 import \*$/from osc2tx.syntax.parser_runtime import */' \
+    "$made/OpenSCENARIO2.py" > "$out/OpenSCENARIO2.py"
 printf '"""The parser made from grammar/OpenSCENARIO2.g4 by `make parser`; not to be edited."""\n' \
     > "$out/__init__.py"

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from inspect import get_annotations
+from operator import attrgetter
 from typing import TypeVar, cast
 
 from osc2tx.semantics import symbols as sym
@@ -12,7 +13,7 @@ from osc2tx.syntax import ast
 
 SKIPPED = frozenset({"span", "comments", "trailing_comment", "end_comments"})
 _PLAIN = frozenset({"str", "str | None", "float", "int", "bool", "int | float", "tuple[str, ...]"})
-_FIELDS: dict[type[ast.Node], tuple[str, ...]] = {}
+_FIELDS: dict[type[ast.Node], Callable[[ast.Node], tuple[object, ...]]] = {}
 _N = TypeVar("_N", bound=ast.Node)
 
 
@@ -48,10 +49,8 @@ def nodes_below(root: ast.Node) -> Iterator[ast.Node]:
 def children_of(node: ast.Node) -> list[ast.Node]:
     """Return the nodes right below a node, in source order."""
     children: list[ast.Node] = []
-    kind = type(node)
-    fields = _FIELDS.get(kind)
-    for name in _child_fields(kind) if fields is None else fields:
-        value = getattr(node, name)
+    kind = node.__class__
+    for value in (_FIELDS.get(kind) or _child_fields(kind))(node):
         if value.__class__ is tuple:
             children += value
         elif isinstance(value, ast.Node):
@@ -83,16 +82,22 @@ class NodesByKind:
         return cast("list[_N]", self._found.get(kind, []))
 
 
-def _child_fields(kind: type[ast.Node]) -> tuple[str, ...]:
-    """Return the fields of a class that may hold a node or hold a tuple of nodes, in order."""
+def _child_fields(kind: type[ast.Node]) -> Callable[[ast.Node], tuple[object, ...]]:
+    """Return what reads the fields of a class that may hold a node or a tuple of nodes."""
     found = {
         name: annotation
         for base in reversed(kind.__mro__)
         for name, annotation in get_annotations(base).items()
     }
-    _FIELDS[kind] = tuple(
+    names = [
         name
         for name, said in found.items()
         if name not in SKIPPED and said not in _PLAIN and not said.startswith("ClassVar")
-    )
+    ]
+    read = attrgetter(*names) if names else _nothing
+    _FIELDS[kind] = read if len(names) != 1 else lambda node: (read(node),)
     return _FIELDS[kind]
+
+
+def _nothing(node: ast.Node) -> tuple[object, ...]:
+    return ()

@@ -40,6 +40,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "report": ("osc2tx.cli.report:report", "Make pages of traces: one run, two, or a folder."),
     "fmt": ("osc2tx.cli.fmt:fmt", "Lay scenario files out in the style of the standard."),
     "tree": ("osc2tx.cli.tree:tree", "Draw the behavior tree of a scenario."),
+    "graph": ("osc2tx.cli.graph:graph", "Show who uses what in a project."),
     "map": ("osc2tx.cli.map:map", "Describe a road map, and report its errors."),
     "world": ("osc2tx.cli.world:world", "Check a simulator against the requirements of runs."),
     "config": ("osc2tx.cli.config:config", "Show the effective settings and their origins."),

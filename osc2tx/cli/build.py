@@ -11,6 +11,8 @@ import click
 from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.cli.diff_output import print_diff, read_text
 from osc2tx.cli.options import (
+    affected_option,
+    affected_sources,
     cache_option,
     compile_options,
     seen_from,
@@ -74,6 +76,7 @@ class _Task:
     metavar="GIT_REV",
     help="Print what changed since the sources of a revision, both built by this osc2tx.",
 )
+@affected_option
 @click.option("--watch", is_flag=True, help="Build again whenever a source changes.")
 @click.option("--force", is_flag=True, help="Overwrite edited outputs as well.")
 @click.option("--prune", is_flag=True, help="Remove outputs whose source no longer exists.")
@@ -88,6 +91,7 @@ def build(
     check_only: bool,
     diff: bool,
     diff_against: str | None,
+    affected: str | None,
     watch: bool,
     force: bool,
     prune: bool,
@@ -107,6 +111,8 @@ def build(
         if reporter.form != "text":
             raise click.UsageError("--emit and --output-format both print to standard output")
         return _print_product(paths, given, emit, reporter)
+    if affected is not None and (watch or diff_against):
+        raise click.UsageError("--affected-since is for one build, not --watch or --diff-against")
     if (reads_only and (watch or force or prune)) or (diff_against and (check_only or diff)):
         raise click.UsageError(
             "of --check/--diff, --diff-against, --watch choose one; "
@@ -116,10 +122,11 @@ def build(
         raise click.UsageError("--diff and --output-format both print to standard output")
     from osc2tx.building.workers import processors
 
-    is_whole = not paths
-    places = _places(paths, out_dir)
+    is_whole = not paths and affected is None
+    sources, out = _places(paths, out_dir)
+    sources = affected_sources(sources, affected, given)
     workers = workers or processors()
-    task = _Task(*places, given, reporter, workers, force, prune or is_whole, cache)
+    task = _Task(sources, out, given, reporter, workers, force, prune or is_whole, cache)
     if diff_against is not None:
         return _diff_against(task, diff_against)
     if reads_only:

@@ -11,6 +11,8 @@ import click
 from osc2tx.building.jobs import find_jobs, run_all
 from osc2tx.building.result_cache import check_jobs
 from osc2tx.cli.options import (
+    affected_option,
+    affected_sources,
     cache_option,
     compile_options,
     sources_or_stated,
@@ -38,6 +40,7 @@ if TYPE_CHECKING:
 @click.argument("paths", metavar="[PATH]...", nargs=-1, type=click.Path())
 @compile_options
 @target_options
+@affected_option
 @click.option("--no-cache", is_flag=True, help="Check unchanged files again as well.")
 @cache_option
 @workers_option
@@ -46,6 +49,7 @@ if TYPE_CHECKING:
 def check(
     paths: tuple[str, ...],
     given: GivenOptions,
+    affected: str | None,
     no_cache: bool,
     cache: Path | None,
     workers: int | None,
@@ -58,7 +62,8 @@ def check(
     """
     if is_standard_input(paths, stdin_filename):
         return _check_input(compilation_of_standard_input(stdin_filename, given), reporter)
-    paths = sources_or_stated(paths, "check")
+    asked = sources_or_stated(paths, "check")
+    paths = affected_sources(asked, affected, given)
     configs = ConfigFiles()
     jobs = find_jobs(paths, given, configs)
     is_kept = not no_cache and cache_folder(cache) is not None

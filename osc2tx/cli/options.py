@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import wraps
 from pathlib import Path
 from typing import Any
@@ -20,6 +20,7 @@ from osc2tx.options import (
     XML_PROFILES,
     XML_VERSIONS,
 )
+from osc2tx.support.paths import real_path
 from osc2tx_shared.classes import replace
 
 
@@ -68,6 +69,33 @@ cache_option = click.option(
     envvar="OSC2TX_CACHE_DIR",
     help="Folder of earlier results, as CI keeps it.  [default: in the user's cache]",
 )
+
+
+affected_option = click.option(
+    "--affected-since",
+    "affected",
+    metavar="GIT_REV",
+    help="Only sources that a change since a revision can affect.",
+)
+
+
+def affected_sources(
+    paths: Sequence[str], revision: str | None, given: GivenOptions
+) -> tuple[str, ...]:
+    """Return the sources among some paths that a change can affect; all without a revision.
+
+    Raises:
+        InputError: The paths are in no repository, or it has no such revision.
+    """
+    if revision is None:
+        return tuple(paths)
+    from osc2tx.building.affected import affected_since
+    from osc2tx.building.jobs import find_jobs
+
+    configs = ConfigFiles()
+    jobs = find_jobs(paths, given, configs)
+    chosen = {each.path for each in affected_since(revision, jobs, configs)}
+    return tuple(str(job.path) for job in jobs if real_path(job.path) in chosen)
 
 
 _NAMES = {

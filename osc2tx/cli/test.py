@@ -8,9 +8,16 @@ from pathlib import Path
 
 import click
 
-from osc2tx.cli.options import cache_option, sources_or_stated, workers_option
+from osc2tx.cli.options import (
+    affected_option,
+    affected_sources,
+    cache_option,
+    sources_or_stated,
+    workers_option,
+)
 from osc2tx.cli.reporting import Exit, quiet_option, wants_color
 from osc2tx.compilation.inputs import find_inputs
+from osc2tx.config import GivenOptions
 from osc2tx_shared.text import complain
 
 FEWEST_FILES = 8  # for a second process, which loads everything anew
@@ -27,6 +34,7 @@ FILE = click.Path(dir_okay=False, path_type=Path)
     help="Only scenarios that fix this value; also != < <= > >=. Repeated: all of them.",
 )
 @click.option("--shard", metavar="K/N", help="Only the K-th of N parts, as for jobs of CI.")
+@affected_option
 @workers_option
 @click.option(
     "--fail-on", metavar="WHAT", multiple=True, help="Fail on this event, as `osc2tx run` does."
@@ -45,6 +53,7 @@ def test(
     keyword: str | None,
     where: tuple[str, ...],
     shard: str | None,
+    affected: str | None,
     workers: int | None,
     fail_on: tuple[str, ...],
     junit: Path | None,
@@ -61,7 +70,11 @@ def test(
         raise click.UsageError("`osc2tx test` needs pytest: pip install pytest")
     import pytest
 
-    found = find_inputs(sources_or_stated(paths, "test"))
+    sources = affected_sources(sources_or_stated(paths, "test"), affected, GivenOptions())
+    if not sources:
+        complain(f"no scenario is affected by changes since {affected}")
+        return Exit.OK
+    found = find_inputs(sources)
     options = {
         "-k": keyword,
         "--osc-shard": shard,

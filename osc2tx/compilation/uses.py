@@ -39,16 +39,20 @@ class UsedFile(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class _Statement:
+class Statement:
     """A statement at the level of the file.
 
     Attributes:
+        keyword: What it begins with, as `scenario` or `extend`.
+        name: What it declares or extends, as written: `vehicle.swerve`; empty if nothing.
         provides: The names that lead to it; `None` if it always counts.
         declares: The name that it declares, if it does not extend something.
         words: The words in it.
         tokens: Its tokens as one text.
     """
 
+    keyword: str
+    name: str
     provides: frozenset[str] | None
     declares: str | None
     words: frozenset[str]
@@ -63,11 +67,8 @@ def used_digest(text: str, files: Sequence[UsedFile], dialect: str) -> str:
         files: The files that it imports, directly or through others.
         dialect: The dialect of the source.
     """
-    from osc2tx.semantics.dialects import DIALECTS
-
-    allow = frozenset(DIALECTS[dialect].relaxed)
-    split = [(file, _statements(file.text, allow)) for file in sorted(files)]
-    by_name: dict[str, list[_Statement]] = {}
+    split = [(file, split_statements(file.text, dialect)) for file in sorted(files)]
+    by_name: dict[str, list[Statement]] = {}
     declared: dict[str, int] = {}
     reached: set[int] = set()
     pending = set(_WORD.findall(text))
@@ -96,7 +97,7 @@ def used_digest(text: str, files: Sequence[UsedFile], dialect: str) -> str:
 
 
 def _parts(
-    split: Sequence[tuple[UsedFile, tuple[_Statement, ...]]],
+    split: Sequence[tuple[UsedFile, tuple[Statement, ...]]],
     reached: Collection[int],
     twice: Sequence[str],
 ) -> Iterator[str]:
@@ -109,14 +110,21 @@ def _parts(
 
 
 @lru_cache(maxsize=FILES_KEPT)
-def _statements(text: str, allow: frozenset[str]) -> tuple[_Statement, ...]:
-    """Split a file into its statements."""
+def split_statements(text: str, dialect: str) -> tuple[Statement, ...]:
+    """Split a file into its statements at the level of the file.
+
+    Args:
+        text: The text of the file.
+        dialect: Its dialect.
+    """
     from osc2tx.diagnostics import DiagnosticSink, SourceFile
+    from osc2tx.semantics.dialects import DIALECTS
     from osc2tx.syntax.token_source import TokenSource
     from osc2tx.syntax.tokens import DEDENT, INDENT, NEWLINE
 
+    allow = frozenset(DIALECTS[dialect].relaxed)
     table = TokenSource(SourceFile("", text), DiagnosticSink(), allow=allow).scan()
-    found: list[_Statement] = []
+    found: list[Statement] = []
     depth, first, count = 0, 0, len(table.types) - 1  # without the end of the file
     for index in range(count):
         kind = table.types[index]
@@ -136,34 +144,35 @@ def _statements(text: str, allow: frozenset[str]) -> tuple[_Statement, ...]:
     return tuple(found)
 
 
-def _statement(tokens: Sequence[str]) -> _Statement:
+def _statement(tokens: Sequence[str]) -> Statement:
     text = " ".join(tokens)
     words = frozenset(_WORD.findall(text))
     ends = (i for i, each in enumerate(tokens) if each == ":" or each.startswith("\n"))
     head = tokens[: next(ends, len(tokens))]
     keyword = head[0] if head else ""
     names = [each for each in head[1:] if _WORD.fullmatch(each)]
+    name = _declared(head) if names else ""
     if not names or any("|" in each for each in head):
-        return _Statement(None, None, words, text)
+        return Statement(keyword, "", None, None, words, text)
     if keyword == "extend":
-        return _Statement(frozenset(names), None, words, text)
+        return Statement(keyword, name, frozenset(names), None, words, text)
     if keyword == "enum":
-        return _Statement(words, names[0], words, text)
+        return Statement(keyword, name, words - {keyword}, names[0], words, text)
     if keyword not in _NAMING:
-        return _Statement(None, None, words, text)
-    declared = _declared(head)
+        return Statement(keyword, "", None, None, words, text)
+    declared = name.rpartition(".")[2].rpartition("::")[2]
     provides = {declared}
     if "(" in head:  # a subtype by condition is one of its base
         provides |= set(names)
-    return _Statement(frozenset(provides), declared, words, text)
+    return Statement(keyword, name, frozenset(provides), declared, words, text)
 
 
 def _declared(head: Sequence[str]) -> str:
-    """Return the last part of the name after the keyword: `swerve` of `action vehicle.swerve`."""
-    index = 1
-    while index + 2 < len(head) and head[index + 1] in (".", "::"):
-        index += 2
-    return head[index]
+    """Return the name after the keyword: `vehicle.swerve` of `action vehicle.swerve`."""
+    end = 2
+    while end + 1 < len(head) and head[end] in (".", "::"):
+        end += 2
+    return "".join(head[1:end])
 
 
 def whole_files(compilation: Compilation) -> Iterator[Path]:

@@ -122,7 +122,6 @@ CODES = _table(
     Code("OSC502", "unsupported-constraint", ERROR, "A constraint depends on the run.", "7.3.11"),
     Code("OSC503", "unsupported-expression", ERROR, "No backend can express this expression yet."),
     Code("OSC504", "unsupported-invocation", ERROR, "No backend can express this invocation yet."),
-    Code("OSC505", "start-after-the-start", WARNING, "`at: start` has to hold by then."),
     Code("OSC506", "unsupported-directive", ERROR, "No backend can express this directive yet."),
     Code("OSC507", "abstract-action", ERROR, "An abstract action has no behavior.", "8.8.1"),
     Code("OSC508", "no-such-runtime-modifier", ERROR, "The action cannot honour this modifier."),

@@ -132,22 +132,18 @@ def _postfix(expression: Expression) -> list[Expression]:
     return ordered
 
 
+_LEAVES = (
+    *(Literal, Quantity, EnumValue, FieldRef, ParameterRef),
+    *(ScenarioSelf, EventArgument, InvokedValue, Element, Undefined),
+)
+_LEAF_TYPES = frozenset[type](_LEAVES)
+
+
 def children(expression: Expression) -> tuple[Expression, ...]:
     """Return the direct sub-expressions, left to right."""
+    if isinstance(expression, _LEAVES):
+        return ()
     match expression:
-        case (
-            Literal()
-            | Quantity()
-            | EnumValue()
-            | FieldRef()
-            | ParameterRef()
-            | ScenarioSelf()
-            | EventArgument()
-            | InvokedValue()
-            | Element()
-            | Undefined()
-        ):
-            return ()
         case Attribute(base=base):
             return (base,)
         case MethodCall(base=base, arguments=arguments):
@@ -180,12 +176,15 @@ def children(expression: Expression) -> tuple[Expression, ...]:
 
 def walk(expression: Expression) -> tuple[Expression, ...]:
     """Return the expression and everything below it, without recursion."""
+    if expression.__class__ in _LEAF_TYPES:
+        return (expression,)
     found: list[Expression] = []
     pending = [expression]
     while pending:
         current = pending.pop()
         found.append(current)
-        pending.extend(reversed(children(current)))
+        if current.__class__ not in _LEAF_TYPES:
+            pending.extend(reversed(children(current)))
     return tuple(found)
 
 

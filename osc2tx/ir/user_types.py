@@ -33,7 +33,7 @@ class UserField:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class UserType:
-    """An actor or struct that the scenario's files declare.
+    """An actor or struct that the scenario's files declare, or one of the library that they extend.
 
     Attributes:
         name: As in the source; that of a combination names its types, `tall_and_long`.
@@ -45,6 +45,8 @@ class UserType:
         methods: Its own methods, in source order.
         keeps: Its constraints as the source has them, each with the comment lines above it; every
             object of it states those that it needs itself.
+        is_of_library: Whether it is a type of the library, with what `extend` adds to it or to one
+            of its bases; its bases then are those of them.
     """
 
     name: str
@@ -56,11 +58,17 @@ class UserType:
     unused: tuple[UserField, ...] = ()
     methods: tuple[Method, ...] = ()
     keeps: tuple[str, ...] = ()
+    is_of_library: bool = False
 
     @property
     def all_fields(self) -> tuple[UserField, ...]:
         """Its own fields, in source order."""
         return tuple(sorted((*self.fields, *self.unused), key=lambda field: field.span.start))
+
+    def has(self, name: str) -> bool:
+        """Whether it has a field or method of that name itself."""
+        methods = (f"{self.name}.{name}" == each.name for each in self.methods)
+        return any(each.name == name for each in self.all_fields) or any(methods)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -67,6 +67,8 @@ class LoweringContext:
         receiver: The object whose method an expression is the body of.
         methods: Methods of types that the scenario calls, by name, in order of use.
         object_events: Events of its objects that it waits for, by path, in order of use.
+        object_variables: Sampled variables of its objects that it reads, by path: the field, and
+            the object.
         locals: Values of parameters, where they are not parameters of a method.
         actor: The meaning of `actor` in a modifier; elsewhere it is the field of the scenario.
         expanding: Methods of modifiers that the expression is the body of, the outermost first.
@@ -99,6 +101,7 @@ class LoweringContext:
     receiver: Receiver | None = None
     methods: dict[str, MethodSymbol] = field(default_factory=dict)
     object_events: dict[str, ir.Event | None] = field(default_factory=dict)
+    object_variables: dict[str, tuple[FieldSymbol, ir.Expression]] = field(default_factory=dict)
     expanding: tuple[str, ...] = ()
     purity: dict[MethodSymbol, bool] = field(default_factory=dict)
     locals: Mapping[str, ir.Expression] = field(default_factory=dict)
@@ -132,6 +135,7 @@ class LoweringContext:
             given={},
             methods={},
             object_events={},
+            object_variables={},
         )
 
     def at(self, place: Place) -> LoweringContext:
@@ -160,6 +164,7 @@ class LoweringContext:
             drawn=[],
             methods=dict(self.methods),
             object_events=dict(self.object_events),
+            object_variables=dict(self.object_variables),
         )
 
     def draw(

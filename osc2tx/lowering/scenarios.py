@@ -185,6 +185,7 @@ def _lower_scenario(
         body = nothing_left(scenario)
     left_over = constraints.left_over()
     coverage = lower_coverage(ctx, scenario)
+    object_variables = lowering.lower_object_variables()
     type_methods = lowering.lower_type_methods()
     global_parameters = shared.lower()
     return ir.Scenario(
@@ -199,6 +200,7 @@ def _lower_scenario(
                 *declarations,
                 *ctx.drawn,
                 *present(list(ctx.object_events.values())),
+                *object_variables,
             ),
             (*methods, *type_methods),
         ),

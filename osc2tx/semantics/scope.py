@@ -173,10 +173,12 @@ class Scope:
 
     def is_exported(self, namespace: str, symbol: Symbol) -> bool:
         """Whether a namespace offers a symbol to those that use it (§7.7.4)."""
-        wanted = ((symbol.namespace, symbol.name), (symbol.namespace, None))
-        return any(
-            item in layer.exports.get(namespace, ()) for layer in self.layers() for item in wanted
-        )
+        item, star = (symbol.namespace, symbol.name), (symbol.namespace, None)
+        for layer in self.layers():
+            offered = layer.exports.get(namespace)
+            if offered is not None and (item in offered or star in offered):
+                return True
+        return False
 
     def select(self, candidates: Sequence[S], name: ast.Name, context: Context) -> list[S]:
         """Return those candidates of one simple name that a place means by `name`."""
@@ -189,6 +191,8 @@ class Scope:
         own = [s for s in candidates if s.namespace == context.namespace]
         if own:
             return own
+        if not context.uses:
+            return []
         return [s for s in candidates if any(self.is_exported(ns, s) for ns in context.uses)]
 
 
@@ -213,4 +217,4 @@ def base_of(symbol: TypeSymbol) -> TypeSymbol | None:
 
 def is_subtype(symbol: TypeSymbol, ancestor: TypeSymbol) -> bool:
     """Whether a type is another one or derives from it."""
-    return any(s is ancestor for s in supertypes(symbol))
+    return symbol is ancestor or any(s is ancestor for s in supertypes(symbol))

@@ -146,11 +146,18 @@ class TypeSymbol(Symbol):
             same name, the later one by `namespace::name`.
         namesakes: Those later ones, by name.
         statements: Own member statements in source order, those of extensions at the end.
+        is_extended: Whether it is of the library and files of the user extend it (§7.3.9).
     """
 
     members: dict[str, Member] = field(default_factory=dict)
     namesakes: dict[str, list[Member]] = field(default_factory=dict)
     statements: list[ast.Statement] = field(default_factory=list)
+    is_extended: bool = False
+
+    @property
+    def is_as_library(self) -> bool:
+        """Whether the library alone says what it has."""
+        return self.origin == "library" and not self.is_extended
 
     def named(self, text: str) -> list[Member]:
         """Return the own members of a name, one for each namespace that has one."""

@@ -8,15 +8,15 @@ Stages, in order:
 2. `TokenSource` (`token_source`, with `patterns`, `keywords`, `lexical_errors`):
    text to a `TokenTable` (`tokens`): tokens with INDENT, DEDENT and NEWLINE, keywords decided by
    place, comments apart.
-3. `parse_tokens` (`parser`, `syntax_errors`, `common_mistakes`): tokens to the tree
-   of the generated parser (`_antlr`, made from `grammar/OpenSCENARIO2.g4`).
+3. `parse_tokens` (`parser`, `parser_runtime`, `syntax_errors`, `common_mistakes`): tokens to the
+   tree of the generated parser (`_antlr`, made from `grammar/OpenSCENARIO2.g4`).
 4. `ASTTransformer` (`ast_transformer`, `ast_builder`, `literals`): tree to AST (`ast`).
 
 `dump_ast` (`dump`) prints an AST as text; `packed_ast` turns one into plain data and back.
 
 Invariants: no input raises or recurses without bound; one mistake gives one message and costs one
-statement; every stage is linear in the size of the text; only this package imports antlr4, and no
-object of antlr4 leaves it.
+statement; every stage is linear in the size of the text; only this package imports antlr4, for
+messages about syntax errors, and no object of antlr4 leaves it.
 """
 
 from collections.abc import Collection

@@ -1,115 +1,35 @@
-"""The generated parser made fast, and its error strategy.
+"""The generated parser and its error strategy.
 
-`FastParser` replaces the hot methods of the ANTLR runtime by the least that an LL(1) parser with a
-tree needs: contexts hold token indexes in place of token objects. `StatementRecovery` keeps every
-mistake inside its statement: the exception rises to the nearest rule `statement`, the rest of the
-line is skipped, the block below it is parsed as usual, and parsing goes on with the next statement.
+`StatementRecovery` keeps every mistake inside its statement: the exception rises to the nearest
+rule `statement`, the rest of the line is skipped, the block below it is parsed as usual, and
+parsing goes on with the next statement.
 """
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
-
-from antlr4.error.Errors import RecognitionException
 
 from osc2tx.diagnostics import DiagnosticSink
 from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
+from osc2tx.syntax.parser_runtime import RecognitionException, TokenStream
 from osc2tx.syntax.syntax_errors import SyntaxErrors
 from osc2tx.syntax.tokens import DEDENT, EOF, INDENT, KEYWORDS, NEWLINE, TokenTable
-
-
-class TokenStream:
-    """A cursor over a token table; the parser only ever looks one token ahead."""
-
-    def __init__(self, table: TokenTable) -> None:
-        """Start at the first token."""
-        self.table = table
-        self.types = table.types
-        self.index = 0
-
-    def LA(self, distance: int) -> int:
-        """Return the type of the current token; `distance` is always 1."""
-        return self.types[self.index]
-
 
 Tree = Any  # a context of the generated parser; its children are contexts and token indexes
 
 _WITH = KEYWORDS["with"]
 
 
-class Mismatch(RecognitionException):  # type: ignore[misc]
-    """The current token does not fit."""
-
-
-class _FastParser:
-    """Hot methods of `antlr4.Parser` without listeners, token objects and indirections."""
-
-    state = -1
-    _ctx: Any
-    _input: TokenStream
-
-    def enterRule(self, context: Tree, state: int, rule: int) -> None:
-        self.state = state
-        context.start = self._input.index
-        context.children = []
-        parent = self._ctx
-        if parent is not None:
-            parent.children.append(context)
-        self._ctx = context
-
-    def enterOuterAlt(self, context: Tree, alternative: int) -> None:
-        pass
-
-    def exitRule(self) -> None:
-        context = self._ctx
-        context.stop = self._input.index - 1
-        self.state = context.invokingState
-        self._ctx = context.parentCtx
-        context.parentCtx = None  # a tree without cycles goes as soon as nobody needs it
-
-    def match(self, expected: int) -> int:
-        stream = self._input
-        index = stream.index
-        if stream.types[index] != expected:
-            raise Mismatch(recognizer=self, input=stream, ctx=self._ctx)
-        self._ctx.children.append(index)
-        if expected != EOF:
-            stream.index = index + 1
-        return index
-
-    def consume(self) -> int:
-        stream = self._input
-        index = stream.index
-        self._ctx.children.append(index)
-        stream.index = index + 1
-        return index
-
-    def getCurrentToken(self) -> int:
-        return self._input.index
-
-    def getInputStream(self) -> TokenStream:
-        return self._input
-
-
-class _Parser(_FastParser, Grammar):  # type: ignore[misc, unused-ignore]
-    """The generated parser with its fast base first."""
-
-
 class StatementRecovery:
     """The error strategy: one report per mistake, no repair, recovery to the end of a statement."""
-
-    _starts: frozenset[int] = frozenset()
-    _block_call = -1
 
     def __init__(self, stream: TokenStream, errors: SyntaxErrors) -> None:
         """Report to `errors`."""
         self._stream = stream
         self._errors = errors
         self._recovering = False
-        if not StatementRecovery._starts:
-            state = Grammar.atn.ruleToStartState[Grammar.RULE_statement]
-            StatementRecovery._starts = frozenset(Grammar.atn.nextTokens(state))
-            StatementRecovery._block_call = _state_that_calls(Grammar.RULE_block)
+        self._starts = statement_starts()
 
     def sync(self, parser: Any) -> None:
         """Before each statement of a block: pass over lines that begin no statement.
@@ -135,7 +55,7 @@ class StatementRecovery:
 
     def recoverInline(self, parser: Any) -> None:
         """Give up at once; no token is dropped or invented."""
-        raise Mismatch(recognizer=parser, input=self._stream, ctx=parser._ctx)
+        raise RecognitionException
 
     def reportError(self, parser: Any, error: RecognitionException) -> None:
         """Report where the exception arose, not again in the rules it passes through."""
@@ -170,23 +90,59 @@ class StatementRecovery:
 
     def _parse_block(self, parser: Any) -> None:
         """Parse a block where the grammar has none, for the mistakes in it."""
-        parser.state = self._block_call
+        parser.state = _block_call()
         parser.block()
 
 
-def _state_that_calls(rule: int) -> int:
-    """Number of a state that the parser may be in when it calls a rule."""
-    for state in Grammar.atn.states:
-        for transition in state.transitions if state is not None else ():
-            if getattr(transition, "ruleIndex", None) == rule:
-                return int(state.stateNumber)
-    raise AssertionError("no rule calls this one")
+class _RuleEntered(Exception):
+    """The rule `statement` has chosen an alternative."""
+
+
+class _Probe(Grammar):  # type: ignore[misc, unused-ignore]
+    """The parser up to the choice between the alternatives of `statement`."""
+
+    def enterRule(self, context: Tree, state: int, rule: int) -> None:
+        if rule != Grammar.RULE_statement:
+            raise _RuleEntered
+        super().enterRule(context, state, rule)
+
+
+class _GivesUp:
+    """An error strategy for one token."""
+
+    def sync(self, parser: Any) -> None:
+        """Nothing to do: nothing stands before the token."""
+
+    def reportError(self, parser: Any, error: RecognitionException) -> None:
+        """Go no further."""
+        raise error
+
+
+@cache
+def statement_starts() -> frozenset[int]:
+    """Return the types of tokens that begin a statement; the parser itself is asked."""
+    found = []
+    for kind in range(1, len(Grammar.literalNames)):
+        probe = _Probe(TokenStream([kind]))
+        probe._errHandler = _GivesUp()
+        try:
+            probe.statement()
+        except _RuleEntered:
+            found.append(kind)
+        except RecognitionException:
+            continue
+    return frozenset(found)
+
+
+@cache
+def _block_call() -> int:
+    state: int = Grammar.atn.state_that_calls(Grammar.RULE_block)
+    return state
 
 
 def parse_tokens(table: TokenTable, sink: DiagnosticSink) -> Tree:
     """Return the tree of the rule `sourceFile`; statements with mistakes are marked in it."""
-    stream = TokenStream(table)
-    parser = _Parser(None)
-    parser._input = stream
+    stream = TokenStream(table.types)
+    parser = Grammar(stream)
     parser._errHandler = StatementRecovery(stream, SyntaxErrors(table, sink))
     return parser.sourceFile()

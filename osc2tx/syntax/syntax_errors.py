@@ -81,7 +81,7 @@ class SyntaxErrors:
         return f"{found} does not fit here"
 
     def _expected(self, parser: Any, context: Any) -> str:
-        types = frozenset(Grammar.atn.nextTokens(Grammar.atn.states[parser.state], context))
+        types: frozenset[int] = Grammar.atn.types_in(parser.state, context)
         in_type = isinstance(context, (Grammar.TypeNameContext, Grammar.BehaviorNameContext))
         if in_type and t.ID in types:
             typed = isinstance(context, Grammar.TypeNameContext) or isinstance(

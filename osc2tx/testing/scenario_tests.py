@@ -50,7 +50,6 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--osc-shard", metavar="K/N", help="only the K-th of N parts of all tests")
     group.addoption("--osc-fail-on", action="append", default=[], metavar="WHAT", help="as of run")
     group.addoption("--osc-traces", metavar="DIR", help="write traces, their pages and an index")
-    group.addoption("--osc-files", metavar="FILE", help="only scenario files listed in this file")
     group.addoption("--osc-cache-dir", metavar="DIR", help="folder of earlier results of builds")
     group.addoption("--osc-jobs", type=int, metavar="N", help="processes that compile")
 
@@ -95,9 +94,6 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
             return None
     except ConfigError as error:
         raise pytest.UsageError(str(error)) from None
-    chosen = _chosen_files(parent.config)
-    if chosen is not None and str(file_path.resolve()) not in chosen:
-        return None
     return ScenarioFile.from_parent(parent, path=file_path)
 
 
@@ -306,13 +302,6 @@ def _select(config: pytest.Config, items: list[pytest.Item], chosen: Sequence[py
     kept = set(map(id, chosen))
     config.hook.pytest_deselected(items=[item for item in items if id(item) not in kept])
     items[:] = chosen
-
-
-def _chosen_files(config: pytest.Config) -> frozenset[str] | None:
-    listed = config.getoption("osc_files")
-    if listed is None:
-        return None
-    return frozenset(Path(listed).read_text(encoding="utf-8").splitlines())
 
 
 def _seen_from_here(path: Path) -> str:

@@ -167,8 +167,11 @@ def _repr(self: Any) -> str:
 
 
 def _eq(self: Any, other: Any) -> Any:
-    if type(other) is not type(self):
-        return NotImplemented
+    if other is self:
+        return True
+    kind = type(other)
+    if kind is not type(self):  # another class of ours would not know better
+        return False if kind.__eq__ is type(self).__eq__ else NotImplemented
     return self._compared(self) == self._compared(other)
 
 

@@ -29,7 +29,8 @@ MAY_IMPORT: dict[str, set[str]] = {
     "ir": {"diagnostics"},
     "lowering": {"analysis", "catalogue", "ir", "semantics", "syntax.ast"}
     | {"diagnostics", "options"},
-    "backends": {"catalogue", "diagnostics", "ir", "options", "resources", "support"},
+    "xosc": {"diagnostics", "options"},
+    "backends": {"catalogue", "diagnostics", "ir", "options", "resources", "support", "xosc"},
     # what runs them
     "formatter": {"diagnostics", "syntax"},
     "config": {"diagnostics", "options", "support"},
@@ -56,7 +57,6 @@ OTHERS = {
     "semantics": {"pint"},
     "backends/py_trees": {"black", "jinja2"},
     "backends/xosc/facts": {"osc2tx_runtime"},  # sizes, courses and maps are the world's own
-    "backends/xosc/xml": {"lxml"},
     # rows are chosen here, run there
     "campaigns": {"distributed", "optuna", "osc2tx_runtime", "scipy"},
     "cli": {"click", "osc2tx_runtime", "pytest", "rich"},

@@ -62,7 +62,7 @@ domain.capability_tables: domain.actors domain.map domain.measuring domain.objec
     domain.points_and_poses domain.shapes domain.signals world
 domain.placing: domain.actors domain.map domain.modifiers domain.paths domain.points_and_poses
     domain.routes domain.signals enums errors language opendrive world
-domain.scenario: domain.actors domain.map domain.modifiers errors language
+domain.scenario: domain.actors domain.map domain.modifiers domain.placing errors language
 domain.planning: domain.actors domain.map domain.modifiers domain.objects domain.paths
     domain.placing domain.points_and_poses domain.routes domain.shapes enums errors language
     opendrive world

@@ -125,3 +125,18 @@ def test_c32_motion_triggers_and_is_noted(perform: Perform) -> None:
     braking, ahead = noted["ahead"]
     assert braking == pytest.approx(out + DT)
     assert ahead == pytest.approx(-3.0, abs=0.01)
+
+
+def test_actors_enter(perform: Perform) -> None:
+    """Who acts first in the second phase is there by then, and has not jumped."""
+    run = perform("C30_entering")
+    assert run.status == "success"
+    lead, merging, walker = (run.states(actor) for actor in ("lead", "merging", "walker"))
+    for line in run.states("merging"):
+        t = line["t"]
+        assert line["x"] == pytest.approx(130.0 + 18.0 * (t - 4.0))
+        assert line["v"] == pytest.approx(18.0)
+    begin = round(4.0 / DT)
+    assert merging[begin]["x"] - lead[begin]["x"] == pytest.approx(20.0)
+    assert [walker[begin][k] for k in ("x", "y", "v")] == pytest.approx([300.0, -20.0, 1.4])
+    assert walker[0]["v"] == 0.0

@@ -9,8 +9,8 @@ from functools import cache, lru_cache
 from pathlib import Path
 
 from osc2tx.backends.xosc import XmlScenario
+from osc2tx.backends.xosc.profiles import PROFILES
 from osc2tx.backends.xosc.report import Grade, Metres
-from osc2tx.backends.xosc.xml.profiles import PROFILES
 from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx_runtime import RunSettings
 from osc2tx_runtime.opendrive import RoadMap, read_map

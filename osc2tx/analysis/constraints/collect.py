@@ -227,7 +227,7 @@ class Collector:
             yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
             return
         is_ours = isinstance(type_, sym.StructSymbol | sym.ActorSymbol) and any(
-            t.origin != "library" for t in supertypes(type_)
+            not t.is_as_library for t in supertypes(type_)
         )
         for element in self._model.elements.get(field, ()) if len(key) == 1 else ():
             yield from self._of_element(place, element, depth)
@@ -249,7 +249,7 @@ class Collector:
         type_, key = symbol_of(element.type), (element,)
         if isinstance(type_, sym.StructSymbol | sym.ActorSymbol):
             self.objects[key] = type_
-        if type_ is not None and any(each.origin != "library" for each in supertypes(type_)):
+        if type_ is not None and any(not each.is_as_library for each in supertypes(type_)):
             inner = replace(place, owner=type_, prefix=key, it=key)
             yield from self._of_type(inner, type_, depth + 1)
 

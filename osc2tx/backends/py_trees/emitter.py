@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.calls import comments
-from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr, literal
+from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr, PyName, literal
 from osc2tx.backends.py_trees.coverage import render_coverage_model
 from osc2tx.backends.py_trees.environment import environment
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
@@ -31,7 +31,7 @@ from osc2tx.backends.py_trees.source_map import render_source_map
 from osc2tx.backends.py_trees.type_methods import TypeMethods
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.user_actions import write_actions
-from osc2tx.backends.py_trees.uses import Uses
+from osc2tx.backends.py_trees.uses import LIBRARY, Uses
 from osc2tx.backends.py_trees.view import (
     EnumMemberView,
     EnumView,
@@ -127,6 +127,7 @@ def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
         uses.name("main")
     view = ModuleView(
         docstring=_docstring(module),
+        library=PyName(LIBRARY) if uses.needs_library else None,
         imports=uses.imports(),
         siblings=siblings,
         root=_root(module) if siblings else None,

@@ -18,6 +18,7 @@ from osc2tx.backends.py_trees.runtime_api import (
 )
 from osc2tx.backends.py_trees.type_table import class_key, enum_key
 from osc2tx.backends.py_trees.user_actions import action_key, has_function, protocol_key
+from osc2tx.backends.py_trees.uses import LIBRARY
 from osc2tx.catalogue import catalogue, object_tables
 
 Declared: TypeAlias = ir.Scenario | ir.UserType | ir.UserEnum | ir.UserAction | ir.UserModifier
@@ -146,7 +147,8 @@ def own_names(module: ir.Module) -> NameTable:
     """Return the names of the definitions in the file of a module."""
     library = object_tables().enums | object_tables().units | catalogue().modifiers.keys()
     runtime = RUNTIME_CLASSES | RUNTIME_FUNCTIONS
-    names = NameTable(runtime | library | PYTHON_NAMES | {ROOT_FUNCTION})
+    extended = {class_name(each.name) for each in module.types if each.is_of_library}
+    names = NameTable((runtime - extended) | library | PYTHON_NAMES | {ROOT_FUNCTION, LIBRARY})
     for declared in declarations(module):
         if is_own(declared, module):
             add_name(names, declared)

@@ -56,17 +56,22 @@ class _TypeWriter:
         if not is_object:
             self._uses.standard("dataclasses", "dataclass")
         others, inherited = PyName("Any"), tuple[FieldView, ...]()
-        if is_object and own.all_fields:
+        several = is_object and own.is_of_library and bool(own.bases)
+        if several:  # each base takes keywords of its own, and hands on what it does not know
+            self._uses.standard("typing", "Any")
+        elif is_object and own.all_fields:
             others, inherited = self._other_fields()
         word = "Actor" if own.is_actor else "Struct"
         kinds, above = self._table.kinds_of(own) if own.is_actor else ((), None)
-        about = [f"{word} `{own.name}`.", *(["", *own.comments] if own.comments else [])]
+        what = f"{word} `{own.name}`{' with what `extend` adds' if own.is_of_library else ''}."
+        about = [what, *(["", *own.comments] if own.comments else [])]
         return TypeView(
             class_name=self._table.class_of((own.name,)),
             bases=self._table.bases_of(own),
             kinds=tuple(map(literal, kinds)),
             above=above,
             is_object=is_object,
+            has_constructor=bool(own.all_fields) or several,
             docstring=tuple(PyDocLine.of(line) for line in about),
             fields=tuple(map(self._field, own.all_fields)),
             methods=tuple(self._method(name, m) for name, m in self._methods.of(own.name)),

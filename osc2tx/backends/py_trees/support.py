@@ -230,7 +230,8 @@ class _SupportCheck:
     def expression(self, part: ir.Expression) -> None:
         match part:
             case ir.Attribute(base=base, owner=owner, name=name):
-                if owner in self.own and not self.is_readable(part):
+                is_own = owner in self.own and not self.own[owner].is_of_library
+                if is_own and not self.is_readable(part):
                     self.sink.report(
                         "OSC503",
                         part.span,

@@ -92,8 +92,11 @@ class TypeTable:
         names = [name for name in self.lineage(own.name) if name in CLASSES]
         return ABSTRACT_TYPES.get(names[0], names[0]) if names else ""
 
-    def bases_of(self, own: ir.UserType) -> tuple[PyName, ...]:
+    def bases_of(self, own: ir.UserType) -> tuple[PyName | PyExpr, ...]:
         """Name the base classes of an own type; an actor of no special kind is an `Actor`."""
+        if own.is_of_library:
+            inherited = tuple(self.class_of((base,)) for base in own.bases)
+            return (*inherited, self._uses.library(CLASSES[own.name]))
         if own.is_actor and own.bases in ((), (ROOT,)):
             return (self._uses.name("Actor"),)
         lineages = map(self.lineage, own.bases)
@@ -102,9 +105,11 @@ class TypeTable:
     def _is_known(self, lineage: Sequence[str]) -> bool:
         return class_key(lineage[0]) in self._classes or any(name in CLASSES for name in lineage)
 
-    def kinds_of(self, own: ir.UserType) -> tuple[tuple[str, ...], PyName | None]:
+    def kinds_of(self, own: ir.UserType) -> tuple[tuple[str, ...], PyName | PyExpr | None]:
         """Return the kinds that an own type adds, and the class whose kinds follow."""
         bases = self.bases_of(own)
+        if own.is_of_library:
+            return (), None
         if len(bases) < 2:
             return (own.name,), next(iter(bases), None)
         lineages = [self.lineage(base) for base in own.bases]
@@ -120,7 +125,7 @@ class TypeTable:
         """
         wanted = identifier(name)
         own = self._own.get(owner)
-        if own is None:
+        if own is None or (own.is_of_library and not own.has(name)):
             return PyName(wanted)
         return PyName(f"{wanted}_" if wanted in self._taken[owner] else wanted)
 
@@ -176,7 +181,7 @@ class TypeTable:
 
     def fields_type(self, lineage: Sequence[str]) -> PyName | None:
         """Name the type of the keywords that the runtime takes for an actor; `None` if none."""
-        above = (CLASSES[name] for name in lineage if name in CLASSES and name not in self._own)
+        above = (CLASSES[name] for name in lineage if name in CLASSES)
         library = next(above, "Actor")
         if not self._own[lineage[0]].is_actor or library not in ACTOR_FIELDS:
             return None

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.code import PyName, literal
+from osc2tx.backends.py_trees.code import Level, PyExpr, PyName, literal
 from osc2tx.backends.py_trees.naming import NameTable, identifier
 from osc2tx.backends.py_trees.view import EnumMemberView, EnumView, ImportView, UnitView
 
 RUNTIME = "osc2tx_runtime"
+
+# The name of all of it, in modules that have classes of the same names.
+LIBRARY = "library"
 
 
 class Uses:
@@ -22,6 +25,7 @@ class Uses:
     def __init__(self, names: NameTable) -> None:
         """Start with what every module needs."""
         self._own_names = names
+        self.needs_library = False
         self._names = {"require_api"}
         self._modifiers: set[str] = set()
         self._fields: set[str] = set()
@@ -35,6 +39,11 @@ class Uses:
         """Use a public name of the runtime library."""
         self._names.add(name)
         return PyName(name)
+
+    def library(self, name: str) -> PyExpr:
+        """Use a class of the runtime library whose name is that of a class of the module."""
+        self.needs_library = True
+        return PyExpr(f"{LIBRARY}.{PyName(name)}", Level.ATOM)
 
     def standard(self, module: str, name: str) -> None:
         """Use a name of Python's standard library."""

@@ -151,6 +151,7 @@ class TypeView:
         docstring: Lines of its docstring.
         fields: Its own fields.
         methods: Its own methods.
+        has_constructor: Whether a declared object has one of its own.
         others: The type of the keywords that its bases take.
         inherited: The fields that its bases of the scenario's files add to those.
         keeps: Its constraints, as comments.
@@ -158,13 +159,14 @@ class TypeView:
     """
 
     class_name: PyName
-    bases: tuple[PyName, ...]
+    bases: tuple[PyName | PyExpr, ...]
     kinds: tuple[PyExpr, ...]
-    above: PyName | None
+    above: PyName | PyExpr | None
     is_object: bool
     docstring: tuple[PyDocLine, ...]
     fields: tuple[FieldView, ...]
     methods: tuple[FunctionView, ...]
+    has_constructor: bool = False
     others: PyName = PyName("Any")
     inherited: tuple[FieldView, ...] = ()
     keeps: tuple[PyComment, ...] = ()
@@ -225,6 +227,7 @@ class ModuleView:
 
     Attributes:
         docstring: Lines of its docstring.
+        library: Its name for the whole of the runtime, if it needs one.
         imports: Its imports from the runtime.
         siblings: Its imports from the modules of imported files.
         root: The folder where those are found, if it is not that of the module.
@@ -251,6 +254,7 @@ class ModuleView:
     mains: tuple[PyName, ...]
     shown: PyName | None
     standard_imports: tuple[ImportView, ...] = ()
+    library: PyName | None = None
     types: tuple[TypeView, ...] = ()
     actions: tuple[UserActionView, ...] = ()
     modifiers: tuple[UserModifierView, ...] = ()

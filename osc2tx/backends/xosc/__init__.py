@@ -2,7 +2,7 @@
 
 Begin at `emitter`. In order of control flow: `document` (the skeleton), `entities`, `init_actions`
 (`Init`), `flatten` (the tree as acts and events) with `actions`, `conditions` and `events`; what
-they make are `tree.Element`s, which `schema` puts in order and checks.
+they make are elements of `osc2tx.xosc`, whose writer puts them in order and checks them.
 """
 
 from osc2tx.backends.xosc.emitter import XmlScenario, emit

@@ -12,15 +12,17 @@ from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import Pose, Roads, roads_of
 from osc2tx.backends.xosc.logical.parameter_choices import NOTHING_OPEN, Choosing
+from osc2tx.backends.xosc.names import Names
+from osc2tx.backends.xosc.profiles import PROFILES, ToolProfile
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, LossReport, Remedy
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
 from osc2tx.backends.xosc.state import ActorState, Demand
 from osc2tx.backends.xosc.values.folding import Values
-from osc2tx.backends.xosc.xml.names import Names
-from osc2tx.backends.xosc.xml.profiles import PROFILES, ToolProfile
-from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions, XmlVersion
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Unwritable
+from osc2tx.xosc.literals import ParameterType, Rule
 from osc2tx_shared.classes import dataclass
 from osc2tx_shared.map_files import places_in_project
 
@@ -125,13 +127,13 @@ class Context:
         self.followed: dict[str, set[str]] = {}
         self.monitors: dict[str, bool] = {}
         self.weather: dict[str, float] = {}
-        self.init_globals: list[Element] = []
+        self.init_globals: list[xml.ActionsPart] = []
         self.init_gaps: dict[tuple[str, str], float] = {}
         self.segments: dict[str, MapSegment] | None = None
         self.automatic_lights: dict[str, str] = {}
-        self.variables: dict[str, tuple[str, str]] = {}
+        self.variables: dict[str, tuple[ParameterType, str]] = {}
         self.lamps: dict[str, tuple[str, ...] | None] = {}
-        self.controllers: list[Element] = []
+        self.controllers: list[xml.TrafficSignalController] = []
         self.origins: dict[str, Span] = {}
         self._variable_names: dict[str, str] = {}
         for parameter in choosing.parameters:  # whether they are kept or not
@@ -177,8 +179,8 @@ class Context:
         """Report a construct: exact, unless it turns out to be inexpressible inside."""
         try:
             yield
-        except Inexpressible as error:
-            self.report.cannot(construct, error.span or span, error.reason, error.remedy)
+        except Unwritable as error:
+            self.report.refuse(construct, span, error)
         else:
             self.report.exact(construct, span)
 
@@ -239,7 +241,7 @@ class Context:
 
     # --- variables ------------------------------------------------------------------------------
 
-    def declare(self, name: str, type_: str, value: str) -> None:
+    def declare(self, name: str, type_: ParameterType, value: str) -> None:
         """Declare a variable (a parameter before 1.2) if it is not there yet."""
         if type_ == "boolean" and not self.profile.has_booleans:
             type_ = "integer"
@@ -251,31 +253,30 @@ class Context:
             self._variable_names[name] = self.names.new(name)
         return self._variable_names[name]
 
-    def set_variable(self, name: str, value: str) -> Element:
+    def set_variable(self, name: str, value: str) -> xml.GlobalAction:
         """Return the action that sets a variable."""
         value = self._known_value(value)
         if self.version >= "1.2":
-            action = element("VariableAction", element("SetAction", value=value), variableRef=name)
-        else:
-            action = element(
-                "ParameterAction", element("SetAction", value=value), parameterRef=name
+            return xml.GlobalAction(
+                xml.VariableAction(xml.SetAction(value=value), variableRef=name)
             )
-        return element("GlobalAction", action)
+        return xml.GlobalAction(xml.ParameterAction(xml.SetAction(value=value), parameterRef=name))
 
-    def variable_is(self, name: str, rule: str, value: str) -> Element:
+    def variable_is(self, name: str, rule: Rule, value: str) -> xml.ByValueCondition:
         """Return the condition on a variable."""
         value = self._known_value(value)
-        if self.version >= "1.2":
-            condition = element("VariableCondition", variableRef=name, rule=rule, value=value)
-        else:
-            condition = element("ParameterCondition", parameterRef=name, rule=rule, value=value)
-        return element("ByValueCondition", condition)
+        condition = (
+            xml.VariableCondition(variableRef=name, rule=rule, value=value)
+            if self.version >= "1.2"
+            else xml.ParameterCondition(parameterRef=name, rule=rule, value=value)
+        )
+        return xml.ByValueCondition(condition)
 
     def _known_value(self, value: str) -> str:
         """Return a value as the tool reads it."""
         return value if self.profile.has_booleans else _NUMBERS.get(value, value)
 
-    def mark(self, name: str) -> Element:
+    def mark(self, name: str) -> xml.GlobalAction:
         """Return the action of an event that only keeps that something has become true.
 
         It sets a variable of its own. Tools see that one step earlier than the state of the event.

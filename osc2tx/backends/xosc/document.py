@@ -6,6 +6,7 @@ from pathlib import PurePosixPath
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.environment import initial_environment
+from osc2tx.backends.xosc.adapting import adapted
 from osc2tx.backends.xosc.conditions.early_triggers import triggers_of
 from osc2tx.backends.xosc.conditions.flow import Flow, at_time, single
 from osc2tx.backends.xosc.context import Context
@@ -14,9 +15,8 @@ from osc2tx.backends.xosc.entities.init_actions import initial_actions
 from osc2tx.backends.xosc.flattening.flatten import Flattener
 from osc2tx.backends.xosc.flattening.storyboard.storyboard import StoryboardWriter
 from osc2tx.backends.xosc.logical.parameters import declaration
-from osc2tx.backends.xosc.xml.adapting import adapted
-from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx.ir.source_text import condensed
+from osc2tx.xosc import elements as xml
 from osc2tx_shared.map_files import DEFAULT_MAP
 
 DATE = "2000-01-01T00:00:00"
@@ -28,7 +28,7 @@ MOST_TIME = 300.0
 """Seconds after which a run is over that nothing ends before, as with `osc2tx run`."""
 
 
-def make_document(ctx: Context) -> Element:
+def make_document(ctx: Context) -> xml.OpenSCENARIO:
     """Return the document; what it cannot say is in the report."""
     ctx.init_globals.extend(initial_environment(ctx))
     privates = initial_actions(ctx)
@@ -40,20 +40,17 @@ def make_document(ctx: Context) -> Element:
     acts, end = adapted(ctx, flattener.acts, end)
     ctx.origins |= {event.name: event.place for act in acts for event in act.all_events()}
     story = writer.story("story", acts)
-    storyboard = element(
-        "Storyboard",
-        element("Init", element("Actions", *ctx.init_globals, *privates)),
+    storyboard = xml.Storyboard(
+        xml.Init(xml.Actions(*ctx.init_globals, *privates)),
         story,
-        writer.trigger("StopTrigger", end, ctx.profile.stop_name or "end"),
+        writer.trigger(xml.StopTrigger, end, ctx.profile.stop_name or "end"),
     )
     major, minor = ctx.version.split(".")
-    return element(
-        "OpenSCENARIO",
-        element(
-            "FileHeader",
+    return xml.OpenSCENARIO(
+        xml.FileHeader(
             _properties(ctx),
-            revMajor=major,
-            revMinor=minor,
+            revMajor=int(major),
+            revMinor=int(minor),
             date=DATE,
             description=ctx.scenario.name,
             author=AUTHOR,
@@ -61,9 +58,9 @@ def make_document(ctx: Context) -> Element:
         _parameters(ctx),
         _variables(ctx),
         _monitors(ctx),
-        element("CatalogLocations"),
+        xml.CatalogLocations(),
         _road_network(ctx),
-        element("Entities", *objects),
+        xml.Entities(*objects),
         storyboard,
     )
 
@@ -87,31 +84,30 @@ def _waits(ctx: Context) -> bool:
     )
 
 
-def _monitors(ctx: Context) -> Element | None:
+def _monitors(ctx: Context) -> xml.MonitorDeclarations | None:
     if not ctx.monitors:
         return None
     declarations = (
-        element("MonitorDeclaration", name=name, value=value)
-        for name, value in ctx.monitors.items()
+        xml.MonitorDeclaration(name=name, value=value) for name, value in ctx.monitors.items()
     )
-    return element("MonitorDeclarations", *declarations)
+    return xml.MonitorDeclarations(*declarations)
 
 
-def _properties(ctx: Context) -> Element | None:
+def _properties(ctx: Context) -> xml.Properties | None:
     """Return where the scenario stands, and what it samples for coverage: XML samples nothing."""
     sampled = []
     for item in ctx.scenario.coverage:
         note = "runs of the XML sample nothing; the header keeps what was asked for"
         ctx.report.exact(f"{item.kind} {item.name}", item.span, note)
         text = condensed(item.span.text)
-        sampled.append(element("Property", name=f"{item.kind} {item.name}", value=text))
+        sampled.append(xml.Property(name=f"{item.kind} {item.name}", value=text))
     if ctx.version < "1.2":
         return None
-    source = element("Property", name="source", value=ctx.scenario.span.source.name)
-    return element("Properties", source, *sampled)
+    source = xml.Property(name="source", value=ctx.scenario.span.source.name)
+    return xml.Properties(source, *sampled)
 
 
-def _road_network(ctx: Context) -> Element:
+def _road_network(ctx: Context) -> xml.RoadNetwork:
     roads = ctx.roads
     if roads is not None and any(roads.map.geo_reference.offset) and ctx.profile.moves_maps:
         ctx.report.exact("map with an offset", ctx.scenario.span, ctx.profile.moves_maps)
@@ -121,8 +117,8 @@ def _road_network(ctx: Context) -> Element:
             ctx.scenario.span,
             "places and directions in XML go by the side of a lane, not by its `direction`",
         )
-    signals = element("TrafficSignals", *ctx.controllers) if ctx.controllers else None
-    return element("RoadNetwork", element("LogicFile", filepath=_map_file(ctx)), signals)
+    signals = xml.TrafficSignals(*ctx.controllers) if ctx.controllers else None
+    return xml.RoadNetwork(xml.LogicFile(filepath=_map_file(ctx)), signals)
 
 
 def _map_file(ctx: Context) -> str:
@@ -133,25 +129,24 @@ def _map_file(ctx: Context) -> str:
     return PurePosixPath(wanted).with_name(ctx.roads.file.name).as_posix()
 
 
-def _parameters(ctx: Context) -> Element | None:
+def _parameters(ctx: Context) -> xml.ParameterDeclarations | None:
     values = {scope.path: scope.values for scope in ctx.scope.all()}
     point, version = ctx.choosing.point, ctx.version
     given = [declaration(p, point[p.key], values[p.path], version) for p in ctx.choosing.kept]
     if ctx.version < "1.2":
         given += [
-            element("ParameterDeclaration", name=name, parameterType=type_, value=value)
+            xml.ParameterDeclaration(name=name, parameterType=type_, value=value)
             for name, (type_, value) in ctx.variables.items()
         ]
-    return element("ParameterDeclarations", *given) if given else None
+    return xml.ParameterDeclarations(*given) if given else None
 
 
-def _variables(ctx: Context) -> Element | None:
+def _variables(ctx: Context) -> xml.VariableDeclarations | None:
     if ctx.version < "1.2" or not ctx.variables:
         return None
-    return element(
-        "VariableDeclarations",
+    return xml.VariableDeclarations(
         *(
-            element("VariableDeclaration", name=name, variableType=type_, value=value)
+            xml.VariableDeclaration(name=name, variableType=type_, value=value)
             for name, (type_, value) in ctx.variables.items()
         ),
     )

@@ -17,12 +17,14 @@ from osc2tx.backends.xosc.logical.distributions import document as values_docume
 from osc2tx.backends.xosc.logical.documents import LogicalWriter
 from osc2tx.backends.xosc.logical.parameter_choices import Choosing
 from osc2tx.backends.xosc.logical.parameter_report import report_parameters
+from osc2tx.backends.xosc.names import Names
 from osc2tx.backends.xosc.report import Inexpressible, LossReport
 from osc2tx.backends.xosc.report_json import report_json
-from osc2tx.backends.xosc.xml.names import Names
-from osc2tx.backends.xosc.xml.tree import Element, serialize
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions
+from osc2tx.xosc.element import Element, Unwritable
+from osc2tx.xosc.elements import FileHeader
+from osc2tx.xosc.writer import serialize
 from osc2tx_shared.classes import dataclass
 
 for _module in walk_packages(
@@ -122,8 +124,9 @@ class _Emission:
         if document is not None and ctx.report.is_expressible:
             xml = serialize(document, version)
             if found.kept and version >= "1.1":
-                (header,) = (part for part in document.children if part.name == "FileHeader")
-                values = values_document(header, f"{name}.xosc", found.distributions())
+                values = values_document(
+                    document.one(FileHeader), f"{name}.xosc", found.distributions()
+                )
                 parameters = serialize(values, version)
         return XmlScenario(
             name=self._scenario.name,
@@ -162,8 +165,6 @@ class _Emission:
                     return ctx, None
         try:
             return ctx, make_document(ctx)
-        except Inexpressible as error:  # what is told above all of the scenario
-            ctx.report.cannot(
-                "scenario", error.span or self._scenario.span, error.reason, error.remedy
-            )
+        except Unwritable as error:  # what is told above all of the scenario
+            ctx.report.refuse("scenario", self._scenario.span, error)
             return ctx, None

@@ -10,9 +10,10 @@ from collections import Counter
 from enum import Enum
 from math import ceil, floor, inf, log10
 
-from osc2tx.backends.xosc.xml.profiles import PROFILES, ToolProfile
+from osc2tx.backends.xosc.profiles import PROFILES, ToolProfile
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions
+from osc2tx.xosc.element import Unwritable
 from osc2tx_shared.classes import dataclass, replace
 
 
@@ -63,7 +64,7 @@ NOTHING = Remedy()
 GENERIC = Remedy(profile="generic")
 
 
-class Inexpressible(Exception):
+class Inexpressible(Unwritable):
     """A construct that cannot be written down.
 
     Attributes:
@@ -75,7 +76,6 @@ class Inexpressible(Exception):
     def __init__(self, reason: str, span: Span | None = None, remedy: Remedy = NOTHING) -> None:
         """Take what there is to say."""
         super().__init__(reason)
-        self.reason = reason
         self.span = span
         self.remedy = remedy
 
@@ -200,6 +200,13 @@ class LossReport:
                 remedy=remedy.with_tool(self._tool),
             )
         )
+
+    def refuse(self, construct: str, span: Span, error: Unwritable) -> None:
+        """Note that a construct cannot be written down, as an attempt has shown."""
+        if isinstance(error, Inexpressible):
+            self.cannot(construct, error.span or span, error.reason, error.remedy)
+        else:
+            self.cannot(construct, span, error.reason)
 
     def _add(self, entry: Entry) -> None:
         """Add an entry; what is not exact stands instead of what is."""

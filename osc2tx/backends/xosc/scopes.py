@@ -13,10 +13,10 @@ from typing import NamedTuple
 
 from osc2tx import ir
 from osc2tx.backends.xosc.entities.cast import CastMember, cast_member
+from osc2tx.backends.xosc.names import Names
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Named, UserTypes
 from osc2tx.backends.xosc.values.folding import Values
-from osc2tx.backends.xosc.xml.names import Names
 from osc2tx_shared.classes import dataclass, replace
 
 

@@ -230,5 +230,22 @@ class BehaviorLowering:
         )
 
 
+def emitted_at(
+    ctx: LoweringContext, events: Sequence[ast.EventDeclaration], moment: str
+) -> tuple[ir.Behavior, ...]:
+    """Return what makes the events occur whose specification is the start or end: `is @start`."""
+    return tuple(
+        ir.Emit(
+            span=node.span,
+            label=None,
+            name=f"emit {node.name}",
+            event=ir.EventRef(span=node.name.span, name=node.name.text),
+            arguments=(),
+        )
+        for node in events
+        if node.specification is not None and boundary_of(ctx, node.specification) == moment
+    )
+
+
 def _overlap(value: ast.Expression | None) -> str | None:
     return None if value is None else value.span.text

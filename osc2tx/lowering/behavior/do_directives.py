@@ -5,10 +5,10 @@ from __future__ import annotations
 import itertools
 
 from osc2tx import ir
-from osc2tx.lowering.behavior.behaviors import BehaviorLowering
+from osc2tx.lowering.behavior.behaviors import BehaviorLowering, emitted_at
 from osc2tx.lowering.behavior.composed_behaviors import Composed
 from osc2tx.lowering.behavior.durations import lasting
-from osc2tx.lowering.behavior.triggers import boundary_of
+from osc2tx.lowering.behavior.triggers import WHOLE, boundary_of, is_own_failure
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present
 from osc2tx.lowering.modifiers.standing_modifiers import StandingModifiers
@@ -41,8 +41,15 @@ def lower_body(
     if body is None:
         return None
     body = lasting(ctx, body, duration)
-    before, after = (lowering.at_boundary(on, moment) for moment in ("start", "end"))
+    events = [s for s in statements if isinstance(s, ast.EventDeclaration)]
+    before, after = (
+        (*emitted_at(ctx, events, moment), *lowering.at_boundary(on, moment))
+        for moment in ("start", "end")
+    )
     body = _framed(scenario, before, body, after)
+    watched = (*(s.event for s in on), *(s.specification for s in events))
+    if any(each is not None and is_own_failure(ctx, each.event) for each in watched):
+        body = _labelled(scenario, body)
     if not reactions:
         return body
     return ir.Parallel(
@@ -51,6 +58,13 @@ def lower_body(
         name=scenario.name,
         members=(_named_as_do(body), *reactions),
     )
+
+
+def _labelled(scenario: Composed, body: ir.Behavior) -> ir.Behavior:
+    """Return the body with the label by which its failure is known."""
+    if body.label is None:
+        return replace(body, label=WHOLE)
+    return ir.Serial(span=body.span, label=WHOLE, name=scenario.name, members=(body,))
 
 
 def _framed(

@@ -32,7 +32,8 @@ def with_open_duration(ctx: LoweringContext, node: Member, name: str) -> Member:
         name: Of the parameter.
     """
     duration = node.duration if node.duration is None else with_bounds(node.duration)
-    node = replace(node, duration=duration)
+    if duration is not node.duration:
+        node = replace(node, duration=duration)
     if node.until or not isinstance(duration, ir.RangeValue):
         return node
     if not is_open_ended(replace(node, duration=None)):

@@ -97,7 +97,8 @@ class TimeSystem:
 
     def _composition(self, node: Composition) -> tuple[ir.Behavior, _Length]:
         solved = [self._member(member) for member in node.members]
-        node = replace(node, members=tuple(member for member, _ in solved))
+        if any(new is not old for (new, _), old in zip(solved, node.members, strict=True)):
+            node = replace(node, members=tuple(member for member, _ in solved))
         if is_range(node.duration) and not isinstance(node.duration, ir.RangeValue):
             return node, None  # which range it is shows in the run
         lengths = [length for _, length in solved]

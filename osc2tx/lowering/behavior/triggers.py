@@ -6,15 +6,19 @@ from collections.abc import Sequence
 from typing import assert_never
 
 from osc2tx import ir
+from osc2tx.ir.source_text import condensed
 from osc2tx.lowering.behavior.composed_behaviors import is_composed
 from osc2tx.lowering.behavior.durations import with_bounds
 from osc2tx.lowering.context import LoweringContext, Receiver, present, statement_comments
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.lowering.values.expressions import lower_expression
+from osc2tx.lowering.values.references import path_of
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
 
 BOUNDARIES = frozenset({"start", "end"})
+WHOLE = "do"
+"""Label of all that a scenario does, where something reacts to its failure."""
 MOMENTS = {moment.value: moment for moment in ir.Moment}
 
 
@@ -38,6 +42,13 @@ def boundary_of(ctx: LoweringContext, event: ast.EventSpecification) -> str | No
     if not is_plain or not isinstance(symbol, sym.EventSymbol) or declares_event(symbol):
         return None
     return symbol.name if symbol.name in BOUNDARIES else None
+
+
+def is_own_failure(ctx: LoweringContext, path: ast.Expression | None) -> bool:
+    """Whether a path names the life-cycle event `fail` of the scenario itself."""
+    symbol = ctx.model.symbol_of(path) if isinstance(path, ast.NameExpression) else None
+    is_fail = isinstance(symbol, sym.EventSymbol) and symbol.name == ir.Moment.FAIL.value
+    return is_fail and not declares_event(symbol)
 
 
 def _name_of(event: ir.EventRef | ir.LabelEvent | ir.InnerEvent) -> str:
@@ -67,6 +78,8 @@ def _lower_event(
     if isinstance(symbol, sym.EventSymbol) and isinstance(path, ast.NameExpression):
         if declares_event(symbol):
             return ir.EventRef(span=path.span, name=symbol.name)
+        if is_own_failure(ctx, path):
+            return ir.LabelEvent(span=path.span, label=WHOLE, moment=ir.Moment.FAIL)
         ctx.unsupported(
             "OSC506",
             path.span,
@@ -142,16 +155,9 @@ def event_of_object(
         object_ = lower_expression(ctx, path.base)
     else:
         object_ = None if ctx.receiver is None else ctx.receiver.value
-    name = None if object_ is None else _path_of(object_)
-    if object_ is None or name is None:
-        ctx.unsupported(
-            "OSC506",
-            path.span,
-            f"`@{path.span.text}` cannot be waited for: its object is computed",
-            help="name the object by a field of the scenario",
-        )
+    if object_ is None:
         return None
-    name = f"{name}.{symbol.name}"
+    name = f"{path_of(object_) or condensed(object_.span.text)}.{symbol.name}"
     if name not in ctx.object_events:
         ctx.object_events[name] = None  # while its own specification is looked at
         ctx.object_events[name] = _declared(ctx, symbol, object_, name)
@@ -183,16 +189,6 @@ def event_parameter(ctx: LoweringContext, parameter: sym.ParameterSymbol) -> ir.
         type=lower_type(parameter.type),
         default=None if default is None else lower_expression(ctx, default),
     )
-
-
-def _path_of(object_: ir.Expression) -> str | None:
-    match object_:
-        case ir.FieldRef(name=name):
-            return name
-        case ir.Attribute(base=base, name=name) if (path := _path_of(base)) is not None:
-            return f"{path}.{name}"
-        case _:
-            return None
 
 
 def _lower_condition(ctx: LoweringContext, node: ast.EventCondition) -> ir.Condition | None:

@@ -161,8 +161,9 @@ def _element_type(type_: types.Type) -> types.Type:
 
 def _fields(lineage: tuple[sym.TypeSymbol, ...]) -> Iterator[sym.FieldSymbol]:
     for each in lineage:
-        for member in each.members.values() if each.origin == "user" else ():
-            if isinstance(member, sym.FieldSymbol) and not member.is_variable:
+        for member in each.members.values():
+            is_own = isinstance(member, sym.FieldSymbol) and member.origin == "user"
+            if isinstance(member, sym.FieldSymbol) and is_own and not member.is_variable:
                 yield member
 
 

@@ -8,7 +8,7 @@ from osc2tx import ir
 from osc2tx.lowering.behavior.composed_behaviors import Composed, is_placeholder, lineage_of
 from osc2tx.lowering.behavior.triggers import boundary_of, event_parameter, lower_trigger
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
-from osc2tx.lowering.context import LoweringContext, present, statement_comments
+from osc2tx.lowering.context import LoweringContext, Receiver, present, statement_comments
 from osc2tx.lowering.declarations.fields import FieldLowering
 from osc2tx.lowering.placement.carla_paths import is_path, path_declarations, path_members
 from osc2tx.lowering.value_types import lower_type
@@ -69,6 +69,22 @@ class DeclarationLowering:
         methods = present(list(lowered.values()))
         return tuple(sorted(methods, key=lambda m: (m.span.source.name, m.span.line)))
 
+    def lower_object_variables(self) -> tuple[ir.Variable, ...]:
+        """Return the sampled variables of objects that were read so far, and those that they read.
+
+        Each is a variable of the scenario that reads it: it samples while that runs.
+        """
+        lowered: dict[str, ir.Variable | None] = {}
+        while missing := [name for name in self._ctx.object_variables if name not in lowered]:
+            for name in missing:
+                field, object_ = self._ctx.object_variables[name]
+                assert isinstance(field.owner, sym.ActorSymbol | sym.StructSymbol)
+                inside = self._ctx.inside(Receiver(field.owner, object_))
+                node = field.node
+                assert isinstance(node, ast.VariableDeclaration)
+                lowered[name] = self._variable(inside, field, node, statement_comments(node), name)
+        return present(list(lowered.values()))
+
     def lower(self) -> tuple[ir.Declaration, ...]:
         """Return the declarations in source order, implicit events last."""
         declared = [d for statement in self._statements for d in self._statement(statement)]
@@ -115,21 +131,26 @@ class DeclarationLowering:
         if not isinstance(symbol, sym.FieldSymbol):
             return None
         if isinstance(statement, ast.VariableDeclaration) and statement.default is not None:
-            return self._variable(symbol, statement, comments)
+            return self._variable(self._ctx, symbol, statement, comments, symbol.name)
         return self._fields.lower(symbol, name.span, comments)
 
     def _variable(
-        self, field: sym.FieldSymbol, node: ast.VariableDeclaration, comments: tuple[str, ...]
+        self,
+        ctx: LoweringContext,
+        field: sym.FieldSymbol,
+        node: ast.VariableDeclaration,
+        comments: tuple[str, ...],
+        name: str,
     ) -> ir.Variable | None:
         sample = None
         initial: ast.Expression | None
         if isinstance(node.default, ast.SampleExpression):
-            sample, initial = self._sample(node.default), node.default.default
+            sample, initial = self._sample(ctx, node.default), node.default.default
             if sample is None:
                 return None
         else:
             initial = node.default
-        value = None if initial is None else lower_expression(self._ctx, initial)
+        value = None if initial is None else lower_expression(ctx, initial)
         if initial is not None and value is None:
             return None
         if value is not None and ir.is_live(value):
@@ -141,7 +162,7 @@ class DeclarationLowering:
             )
             return None
         return ir.Variable(
-            name=field.name,
+            name=name,
             span=node.span,
             comments=comments,
             type=lower_type(field.type),
@@ -149,19 +170,21 @@ class DeclarationLowering:
             sample=sample,
         )
 
-    def _sample(self, node: ast.SampleExpression) -> ir.Sample | None:
-        moment = boundary_of(self._ctx, node.event)
-        trigger = ir.Moment(moment) if moment else lower_trigger(self._ctx, node.event)
-        expression = lower_expression(self._ctx, node.expression)
+    def _sample(self, ctx: LoweringContext, node: ast.SampleExpression) -> ir.Sample | None:
+        moment = boundary_of(ctx, node.event)
+        trigger = ir.Moment(moment) if moment else lower_trigger(ctx, node.event)
+        expression = lower_expression(ctx, node.expression)
         if trigger is None or expression is None:
             return None
         return ir.Sample(expression=expression, trigger=trigger)
 
     def _event(self, node: ast.EventDeclaration) -> ir.Event | None:
         symbol = self._members.get(node.name.text)
+        if isinstance(symbol, sym.EventSymbol) and symbol.node is not node:
+            return None  # a more derived scenario declares it again
         parameters = symbol.parameters if isinstance(symbol, sym.EventSymbol) else ()
         trigger = None
-        if node.specification is not None:
+        if node.specification is not None and boundary_of(self._ctx, node.specification) is None:
             trigger = lower_trigger(self._ctx, node.specification)
             if trigger is None:
                 return None

@@ -11,6 +11,7 @@ from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.declarations.combined_types import add_types, lineage
 from osc2tx.lowering.declarations.map_fields import reads_map
 from osc2tx.lowering.declarations.objects import ObjectLowering
+from osc2tx.lowering.declarations.user_fields import user_lineage
 from osc2tx.lowering.value_types import authored_unit, lower_type
 from osc2tx.lowering.values.expressions import lower_expression
 from osc2tx.lowering.values.references import other_actor
@@ -133,7 +134,7 @@ class FieldLowering:
         assert isinstance(symbol.type, types.StructType)
         if symbol.default is not None or not self._is_given(symbol):
             return False
-        if symbol.type.symbol.origin == "user":
+        if user_lineage(symbol.type.symbol):
             return self._objects.is_open(symbol)
         return not self._objects.is_said(symbol)
 

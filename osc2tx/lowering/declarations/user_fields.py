@@ -1,4 +1,4 @@
-"""Fields of actors and structs that the scenario's files declare.
+"""Fields that the scenario's files give to actors and structs: to their own, and to the library's.
 
 A class has the fields that have a default or that some text speaks of. The default is part of the
 class if it needs nothing else; one that reads other fields or globals belongs to each object.
@@ -86,7 +86,7 @@ def is_optional(ctx: LoweringContext, field: sym.FieldSymbol) -> bool:
 
 
 def _fields(symbol: TypeSymbol) -> Iterator[sym.FieldSymbol]:
-    for member in symbol.members.values():
+    for member in own_members(symbol):
         is_sampled = isinstance(member, sym.FieldSymbol) and isinstance(
             member.default, ast.SampleExpression
         )
@@ -98,12 +98,30 @@ def _has_value(field: sym.FieldSymbol) -> bool:
     return field.default is not None or bool(field.constraints)
 
 
+def own_members(symbol: TypeSymbol) -> Iterator[sym.Member]:
+    """Yield the members that the user's files give to a type, also by `extend` (§7.3.9)."""
+    return (each for each in symbol.members.values() if each.origin == "user")
+
+
+def has_added_fields(symbol: TypeSymbol) -> bool:
+    """Whether a type of the library has fields that the user adds to it (§7.3.9)."""
+    return symbol.is_extended and any(True for _ in _fields(symbol))
+
+
 def user_bases(symbol: TypeSymbol) -> Iterator[TypeSymbol]:
-    """Yield a type and its bases, as far as they are not the library's."""
+    """Yield a type and its bases, up to the last one that has members of the user's.
+
+    Types of the library between a user's type and an extended one are among them: each of their
+    objects has the fields of the extended one.
+    """
+    chain: list[TypeSymbol] = []
     current: TypeSymbol | None = symbol
-    while current is not None and current.origin == "user":
-        yield current
+    while current is not None:
+        chain.append(current)
         current = current.base
+    while chain and chain[-1].origin != "user" and not has_added_fields(chain[-1]):
+        chain.pop()
+    yield from chain
 
 
 def user_lineage(symbol: TypeSymbol) -> tuple[TypeSymbol, ...]:

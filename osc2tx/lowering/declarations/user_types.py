@@ -13,7 +13,9 @@ from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.declarations.user_fields import (
     TypeSymbol,
     class_default,
+    has_added_fields,
     is_optional,
+    own_members,
     unused_fields,
     user_bases,
     user_fields,
@@ -96,7 +98,12 @@ def lower_types(ctx: LoweringContext, used: Iterable[TypeSymbol]) -> tuple[ir.Us
         if combined.name in symbols:
             _report_name(ctx, combined.name, combined.span)
     nodes = {_place(node.name.span): node for node in _declarations(ctx)}
-    lowered = (_lower_type(ctx, s, nodes.get(_place(s.span))) for s in symbols.values())
+    lowered = []
+    for each in symbols.values():
+        if each.origin == "user":
+            lowered.append(_lower_type(ctx, each, nodes.get(_place(each.span))))
+        else:
+            lowered.append(_lower_extended(ctx, each))
     return (*lowered, *ctx.combined.values())
 
 
@@ -105,11 +112,22 @@ def _place(span: Span) -> tuple[str, int]:
 
 
 def _own_types(ctx: LoweringContext) -> Iterable[TypeSymbol]:
-    """Yield the types that the root file declares."""
+    """Yield the types that the root file declares, and those of the library that it extends."""
     source = ctx.model.root.span.source
     for symbol in ctx.model.symbols:
         if isinstance(symbol, sym.ActorSymbol | sym.StructSymbol) and symbol.span.source is source:
             yield symbol
+    for symbol, node in _extensions(ctx):
+        if node.span.source is source and has_added_fields(symbol):
+            yield symbol
+
+
+def _extensions(ctx: LoweringContext) -> Iterator[tuple[TypeSymbol, ast.TypeExtension]]:
+    """Yield the extensions of actors and structs, those of the root file last."""
+    for node in _of_files(ctx.model, ast.TypeExtension):
+        symbol = ctx.model.symbol_of(node.name.name)
+        if isinstance(symbol, sym.ActorSymbol | sym.StructSymbol):
+            yield symbol, node
 
 
 def _add_unused(
@@ -181,20 +199,43 @@ def _lower_type(
         fields=tuple(_lower_field(ctx, field) for field in user_fields(ctx, symbol)),
         unused=tuple(_lower_field(ctx, field) for field in unused_fields(ctx, symbol)),
         methods=present([_lower_method(ctx, each) for each in _methods(symbol)]),
-        keeps=tuple(_keeps(symbol)),
+        keeps=tuple(_keeps(symbol.statements)),
     )
 
 
-def _keeps(symbol: TypeSymbol) -> Iterator[str]:
+def _lower_extended(ctx: LoweringContext, symbol: TypeSymbol) -> ir.UserType:
+    """Lower a type of the library that has fields of the user's, by itself or by a base.
+
+    Its place is that of the last extension, which is of the root file if that has one.
+    """
+    above = user_bases(symbol)
+    found = [[n for s, n in _extensions(ctx) if s is each] for each in above]
+    own, nodes = found[0], next(each for each in found if each)
+    bases = (symbol.base,) if symbol.base is not None and len(found) > 1 else ()
+    return ir.UserType(
+        name=symbol.name,
+        span=nodes[-1].span,
+        comments=tuple(line for node in own for line in statement_comments(node)),
+        bases=tuple(base.name for base in bases),
+        is_actor=isinstance(symbol, sym.ActorSymbol),
+        fields=tuple(_lower_field(ctx, field) for field in user_fields(ctx, symbol)),
+        unused=tuple(_lower_field(ctx, field) for field in unused_fields(ctx, symbol)),
+        methods=present([_lower_method(ctx, each) for each in _methods(symbol)]),
+        keeps=tuple(line for node in own for line in _keeps(node.members)),
+        is_of_library=True,
+    )
+
+
+def _keeps(statements: Iterable[ast.Statement]) -> Iterator[str]:
     """Yield the constraints of a type as comment lines, behind those that stand above them."""
-    for statement in symbol.statements:
+    for statement in statements:
         if isinstance(statement, ast.KeepConstraint):
             yield from map(str, statement_comments(statement))
             yield condensed(statement.span.text)
 
 
 def _methods(symbol: TypeSymbol) -> Iterable[sym.MethodSymbol]:
-    return (member for member in symbol.members.values() if isinstance(member, sym.MethodSymbol))
+    return (each for each in own_members(symbol) if isinstance(each, sym.MethodSymbol))
 
 
 def _lower_method(ctx: LoweringContext, method: sym.MethodSymbol) -> ir.Method | None:

@@ -87,7 +87,7 @@ class PlacementLowering:
 
     def _lift(self, node: ir.Invoke) -> ir.Invoke | None:
         if not isinstance(node.actor, ir.FieldRef):
-            return self._later_start(node)
+            return node
         actor = node.actor.name
         node = self._begin_on_path(node, actor)
         placing = [first_value(m) for m in node.modifiers if _places(m) and m.at != "end"]
@@ -95,7 +95,7 @@ class PlacementLowering:
         if actor not in self._found:
             placing += [*_followed_lane(node), *_followed_line(node)]
         if not placing:
-            return self._later_start(node)
+            return node
         found = self._found.setdefault(actor, _Found(node.span))
         for first, second in _pairs_alike([m for m in placing if m.at == "start"]):
             report_twice(self._ctx, first, second)
@@ -110,13 +110,13 @@ class PlacementLowering:
         if node.action == "assign_position" and not rest and not node.arguments:
             found.comments.extend(node.comments)
             return None
-        return self._later_start(replace(node, modifiers=rest))
+        return replace(node, modifiers=rest)
 
     def _later(self, node: ir.Invoke) -> ir.Invoke:
         """Leave an action where it stands; but for its path, which places its actor anyway."""
         if isinstance(node.actor, ir.FieldRef):
             node = self._begin_on_path(node, node.actor.name)
-        return self._later_start(node)
+        return node
 
     def _begin_on_path(self, node: ir.Invoke, actor: str) -> ir.Invoke:
         """Place an actor on the first path that it drives along; it cannot change to another."""
@@ -127,27 +127,12 @@ class PlacementLowering:
             first = found.modifiers.setdefault(START, modifier)
             if _path_of(first) != _path_of(modifier):
                 self._ctx.unsupported(
-                    "OSC505",
+                    "OSC508",
                     modifier.span,
                     f"`{actor}` drives along another path already",
                     help="give it one path",
                 )
         return replace(node, modifiers=tuple(m for m in node.modifiers if m.name != START))
-
-    def _later_start(self, node: ir.Invoke) -> ir.Invoke:
-        """Leave an `at: start` in the tree: the runtime looks whether it holds by then."""
-        if not any(map(_may_jump, node.modifiers)):
-            for modifier in node.modifiers:
-                if modifier.at == "start":
-                    self._ctx.unsupported(
-                        "OSC505",
-                        modifier.span,
-                        f"`{modifier.name}(…, at: start)` has to hold when the action starts, or"
-                        " the action fails",
-                        help="let the action before end so with `at: end`, or allow a jump with"
-                        " `physical_movement(prefer_non_physical)`",
-                    )
-        return node
 
 
 def can_place(modifier: ir.ModifierCall) -> bool:
@@ -181,15 +166,6 @@ def _subject(modifier: ir.ModifierCall) -> str:
     values = (a.value for a in modifier.arguments if a.parameter == "direction")
     across = any(isinstance(v, ir.EnumValue) and v.member == "lateral" for v in values)
     return f"{modifier.name} across" if across else modifier.name
-
-
-def _may_jump(modifier: ir.ModifierCall) -> bool:
-    """Whether a modifier says that physics need not hold."""
-    values = (argument.value for argument in modifier.arguments)
-    return modifier.name == "physical_movement" and any(
-        isinstance(value, ir.EnumValue) and value.member == "prefer_non_physical"
-        for value in values
-    )
 
 
 def _pairs_alike(

@@ -125,8 +125,13 @@ def _of_label(
 def member_of(
     ctx: LoweringContext, base: ir.Expression, field: sym.FieldSymbol, span: Span
 ) -> ir.Expression:
-    """Return a field of an object."""
+    """Return a field of an object; one that is sampled is a variable of the scenario."""
     type_ = lower_type(field.type)
+    path = path_of(base) if isinstance(field.default, ast.SampleExpression) else None
+    if path is not None and not is_composed(field.owner):
+        name = f"{path}.{field.name}"
+        ctx.object_variables.setdefault(name, (field, base))
+        return ir.FieldRef(span=span, type=type_, name=name, is_variable=True)
     if isinstance(base, ir.ScenarioSelf):
         return ir.FieldRef(span=span, type=type_, name=field.name)
     return ir.Attribute(
@@ -137,6 +142,19 @@ def member_of(
         name=field.name,  # not as written: a dialect may know it by another name
         is_variable=field.is_variable or is_given_by_map(field),
     )
+
+
+def path_of(object_: ir.Expression) -> str | None:
+    """Return the path to an object from the fields of the scenario; `None` if it is computed."""
+    match object_:
+        case ir.FieldRef(name=name):
+            return name
+        case ir.Downcast(operand=operand):
+            return path_of(operand)
+        case ir.Attribute(base=base, name=name) if (path := path_of(base)) is not None:
+            return f"{path}.{name}"
+        case _:
+            return None
 
 
 def lower_key(ctx: LoweringContext, key: Key, span: Span) -> ir.Expression | None:
@@ -150,6 +168,8 @@ def lower_key(ctx: LoweringContext, key: Key, span: Span) -> ir.Expression | Non
     elif isinstance(first, sym.FieldSymbol):
         type_, name = lower_type(first.type), field_name(ctx, first)
         expression = ir.FieldRef(span=span, type=type_, name=name)
+    elif ctx.actor is not None and (at := _place_of_actor(key)) is not None:
+        expression, rest = ctx.actor, list(key[at + 1 :])
     elif lengths := [n for n in range(2, len(key) + 1) if key[:n] in ctx.given]:
         expression, rest = ctx.given[key[: lengths[0]]], list(key[lengths[0] :])
     else:
@@ -161,6 +181,19 @@ def lower_key(ctx: LoweringContext, key: Key, span: Span) -> ir.Expression | Non
         if isinstance(field, sym.FieldSymbol) and expression is not None:
             expression = member_of(ctx, expression, field, span)
     return expression
+
+
+def _place_of_actor(key: Key) -> int | None:
+    """Return where in a path the implicit field `actor` of a behavior stands."""
+    places = (
+        n for n, part in enumerate(key) if isinstance(part, sym.FieldSymbol) and is_actor(part)
+    )
+    return next(places, None)
+
+
+def is_actor(field: sym.FieldSymbol) -> bool:
+    """Whether a field is the implicit one of a behavior, its actor."""
+    return field.node is None and field.name == "actor"
 
 
 def element_of(ctx: LoweringContext, node: ast.Index) -> ir.FieldRef | None:

@@ -52,6 +52,8 @@ def check_exclusive(
     for rule in _rules(callee):
         if rule.kind == "at_most_one":
             in_order = tuple(name for name in given if name in rule.of)
+            if len(in_order) < 2:
+                continue
             for broken in violations(f"`{callee.name}`", [replace(rule, of=in_order)], given):
                 assert broken.parameter is not None
                 r.report("OSC408", given[broken.parameter].span, f"`{callee.name}`: {broken.text}")

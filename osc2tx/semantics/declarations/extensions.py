@@ -40,6 +40,8 @@ def apply_extension(
             if target is not None:
                 _check_members(r, target, node)
                 _note_extended(r, target)
+                if collector.origin == "user" != target.origin:
+                    target.is_extended = True
                 collector.collect_body(target, node.members, context, extends=True)
 
 

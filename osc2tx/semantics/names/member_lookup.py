@@ -35,7 +35,13 @@ def find_member(
     A member of a namespace that the place neither is in nor uses needs a prefix (§7.7.4); without
     it the member is returned all the same, after a report.
     """
-    candidates = [m for ancestor in supertypes(owner) for m in ancestor.named(name.text)]
+    text = name.text
+    candidates = [
+        m
+        for ancestor in supertypes(owner)
+        if text in ancestor.members
+        for m in ancestor.named(text)
+    ]
     if not candidates:
         return _builtin_member(r, owner, name.text) if name.namespace is None else None
     first = candidates[0]

@@ -1,5 +1,5 @@
 # encoding: utf-8
-from antlr4 import *
+from osc2tx.syntax.parser_runtime import *
 from io import StringIO
 import sys
 if sys.version_info[1] > 5:

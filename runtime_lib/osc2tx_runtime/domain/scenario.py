@@ -5,9 +5,11 @@ from __future__ import annotations
 from osc2tx_runtime.domain.actors import Actor, Map
 from osc2tx_runtime.domain.map.objects import MapObject
 from osc2tx_runtime.domain.modifiers import MapModifier, SetMapFile
+from osc2tx_runtime.domain.placing.entries import with_entries
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.scenario import BaseScenario
+from osc2tx_runtime.language.tree.base import Behaviour
 
 __all__ = ["Scenario", "bind_all"]
 
@@ -18,6 +20,11 @@ class Scenario(BaseScenario):
     def require(self, road_map: Map, *modifiers: MapModifier) -> None:
         """State the constraints on the declared roads and lanes of the map."""
         self.place(road_map, *modifiers)
+
+    def completed(self, tree: Behaviour) -> Behaviour:
+        """Return the whole tree of a run, with the actors that enter."""
+        placed = [placement.actor.id for placement in self.placements]
+        return with_entries(tree, placed, self.one_of == "race")
 
     def map_file(self) -> str | None:
         """Return the map file the scenario names; None if it leaves the map open.

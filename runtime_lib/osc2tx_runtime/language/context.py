@@ -78,6 +78,14 @@ class Monitors(Protocol):
         ...
 
 
+class Entries(Protocol):
+    """What a run needs of what brings actors in that enter later."""
+
+    def begins(self, action: Any) -> None:
+        """Take note of the start of an action."""
+        ...
+
+
 class ExecutionContext:
     """One run.
 
@@ -106,6 +114,7 @@ class ExecutionContext:
         label_events: (label, `start` | `end` | `fail`) to the event that is waited for.
         resting: Nodes of the tree without work until they are woken.
         monitors: Checks the phases of actions; None: no checks.
+        entries: Brings actors in that enter later; None: there are none.
     """
 
     def __init__(
@@ -144,6 +153,7 @@ class ExecutionContext:
         self.collisions: list[tuple[float, str, str]] = []
         self.resting = Resting()
         self.monitors: Monitors | None = None
+        self.entries: Entries | None = None
         self._cast: tuple[str, ...] | None = None
         self._left: dict[str, str] = {}  # actors to behavioral models of this instant
         self._posted: dict[PostedEvent, list[Mapping[str, Any]]] = {}

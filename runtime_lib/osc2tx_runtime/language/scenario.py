@@ -237,8 +237,13 @@ class BaseScenario(ScenarioParts):
                 sorted(self.actors.items(), key=lambda item: item[0].rpartition(".")[0])
             )
             self.placements[self._own_placements :] = invoked_placements(self, tree)
+            tree = self.completed(tree)
             number_nodes(self, tree)
             check_settings(self)
+        return tree
+
+    def completed(self, tree: Behaviour) -> Behaviour:
+        """Return the whole tree of a run with what the domain adds to it."""
         return tree
 
     def _computed(self, method: Callable[[], AnyT]) -> AnyT:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import asdict, field
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from osc2tx_runtime.errors import BeyondMapError
+from osc2tx_runtime.domain.placing.entries import Entries, entering_actors
+from osc2tx_runtime.domain.placing.rehearsal import AllEnteredError, Rehearsal, ways_in
+from osc2tx_runtime.errors import BeyondMapError, ScenarioError
 from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.settings import RunSettings
@@ -20,11 +23,13 @@ from osc2tx_runtime.running.map_warnings import map_warnings
 from osc2tx_runtime.running.output_files import check_outputs, write_output
 from osc2tx_runtime.running.requirements import check_requirements
 from osc2tx_runtime.running.world_choice import make_world
+from osc2tx_runtime.world.embedded import EmbeddedWorld
 from osc2tx_shared.classes import dataclass, replace
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.monitoring.phase import Violation
     from osc2tx_runtime.domain.monitoring.run import Monitors
+    from osc2tx_runtime.domain.placing.entries import WayIn
     from osc2tx_runtime.domain.scenario import Scenario
     from osc2tx_runtime.language.tree.base import Behaviour
     from osc2tx_runtime.world.protocol import World
@@ -88,7 +93,7 @@ def run_scenario(
     """
     settings = settings or RunSettings()
     check_outputs(settings)
-    run = partial(_run, on_progress, observer, read, keep_trace=keep_trace)
+    run = partial(_run, scenario_class, on_progress, observer, read, keep_trace=keep_trace)
     may_redraw = world is None and settings.world == "embedded" and settings.draws is None
     for draw in range(REDRAWS if may_redraw else 0):
         scenario = scenario_class(replace(settings, draw=settings.draw + draw))
@@ -102,6 +107,7 @@ def run_scenario(
 
 
 def _run(
+    scenario_class: Callable[[RunSettings], Scenario],
     on_progress: OnProgress | None,
     observer: Observer | None,
     read: Callable[[Path], RoadMap],
@@ -116,10 +122,13 @@ def _run(
     Raises:
         BeyondMapError: The map surely has no room for the request, unless it `is_last`.
     """
-    root = scenario.create_tree()
+    root, settings = scenario.create_tree(), scenario.settings
     world = checked_world(world or make_world(scenario, read))
     try:
         context = make_context(scenario, world, keep_trace, observer)
+        entering = [actor for actor in entering_actors(root) if actor not in settings.spawn]
+        if entering:
+            context.entries = Entries(rehearsed(scenario_class, settings, entering, world.map))
         place_actors(scenario, context)
         setup_tree(root, context)
         check_requirements(root, context)
@@ -145,6 +154,28 @@ def _run(
         outcome.place,
         tuple(monitors.violations),
     )
+
+
+def rehearsed(
+    scenario_class: Callable[[RunSettings], Scenario],
+    settings: RunSettings,
+    actors: Sequence[str],
+    road_map: RoadMap,
+) -> dict[str, WayIn]:
+    """Return how actors enter that come later, from rehearsals without any output."""
+    quiet = replace(settings, trace=None, report=None)
+
+    def play(rehearsal: Rehearsal) -> None:
+        scenario = scenario_class(quiet)
+        root = scenario.create_tree()
+        context = make_context(scenario, EmbeddedWorld(road_map, quiet.dt), keep_trace=False)
+        context.entries = rehearsal
+        place_actors(scenario, context)
+        setup_tree(root, context)
+        with suppress(AllEnteredError, ScenarioError):  # what is wrong, the run itself tells
+            run_tree(root, context, observer=rehearsal)
+
+    return ways_in(play, actors, road_map, quiet.dt)
 
 
 def make_monitors(context: ExecutionContext) -> Monitors:

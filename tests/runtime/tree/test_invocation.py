@@ -204,20 +204,39 @@ def test_own_actors_and_placements_of_an_invoked_scenario() -> None:
     assert (state["s"], state["lane"]) == (20.0, -4)
 
 
-@pytest.mark.parametrize("late", [True, False])
-def test_a_placement_after_the_start_is_refused(late: bool) -> None:
-    class Late(Top):
+def later(top: type[Scenario], own: type[Scenario], waits: bool) -> type[Scenario]:
+    """Return a scenario that invokes another one later: after 0.1 s, or 0.05 s."""
+
+    class Late(top):  # type: ignore[misc, valid-type]
         def behavior(self) -> Behaviour:
-            own = self.invoke("x", Own)
-            if late:
-                return Serial("late", Wait(elapsed(0.1)), own)
-            return Parallel("late", Wait(elapsed(0.1)), own, start_to_start=0.05)
+            invoked = self.invoke("x", own)
+            if waits:
+                return Serial("late", Wait(elapsed(0.1)), invoked)
+            return Parallel("late", Wait(elapsed(0.1)), invoked, start_to_start=0.05)
+
+    return Late
+
+
+@pytest.mark.parametrize(("waits", "begins"), [(True, 0.1), (False, 0.05)])
+def test_a_placement_after_the_start_holds_by_then(waits: bool, begins: float) -> None:
+    """Its actor enters: it is where the invoked scenario places it when that starts."""
+    result = run_scenario(later(Top, Own, waits))
+    assert result.status == "success", result.reason
+    states = [x for x in lines(result, "state") if x["actor"] == "x.other"]
+    (there,) = (x for x in states if x["t"] == begins)
+    assert (there["s"], there["lane"]) == (20.0, -4)
+
+
+def test_a_placement_after_the_start_needs_an_action() -> None:
+    class Idle(Own):
+        def behavior(self) -> Behaviour:
+            return Serial("idle", Wait(elapsed(0.1)), self.other.drive(speed(5.0), duration=0.2))
 
     with pytest.raises(UnsupportedError) as caught:
-        run_scenario(Late)
+        run_scenario(later(Top, Idle, True))
     assert str(caught.value) == (
-        "own.osc: x places x.other, but does not start with the scenario;"
-        " place it in the scenario that runs"
+        "own.osc: x places x.other, but does not start with the scenario; let an action of x.other"
+        " state it"
     )
 
 

@@ -12,7 +12,7 @@ from osc2tx import __version__, cli
 from osc2tx.diagnostics import CODES
 from tests.unit.cli.shell import DRIVE, Shell
 
-HEAVY = ("black", "pint", "numpy", "lxml", "rich", "py_trees", "jinja2", "osc2tx_runtime")
+HEAVY = ("antlr4", "black", "pint", "numpy", "lxml", "rich", "py_trees", "jinja2", "osc2tx_runtime")
 
 
 def test_explain(shell: Shell) -> None:

@@ -209,7 +209,7 @@ def test_the_stamp_tells_one_osc2tx_from_another(
 
 def test_what_is_recalled_needs_no_stage(tmp_path: Path) -> None:
     (tmp_path / "a.osc").write_text(DRIVE.format(name="top"))
-    stages = ("antlr4", "osc2tx.compilation.driver", "osc2tx.syntax", "osc2tx.semantics")
+    stages = ("osc2tx.compilation.driver", "osc2tx.syntax", "osc2tx.semantics")
     stages += ("osc2tx.ir",)
     program = (
         "import sys, atexit\n"

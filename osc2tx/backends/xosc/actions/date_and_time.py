@@ -8,7 +8,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, MethodResult
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
 
 DAY, CLOCK = ("year", "month", "day"), ("hour", "minute", "second")
 """Parts of a local date and time."""
@@ -23,7 +23,7 @@ def environments(ctx: Context) -> list[ir.Actor]:
     ]
 
 
-def time_of_day(ctx: Context) -> Element | None:
+def time_of_day(ctx: Context) -> xml.TimeOfDay | None:
     """Return date and time at the start, if the scenario says them (§8.10.2).
 
     They are those of the zone of Greenwich; neither a fraction of a second nor a zone stands in the
@@ -32,7 +32,7 @@ def time_of_day(ctx: Context) -> Element | None:
     for actor in environments(ctx):
         date = _date(ctx.values.field(actor.name, ("datetime",)))
         if date is not None:
-            return element("TimeOfDay", animation=True, dateTime=date.isoformat())
+            return xml.TimeOfDay(animation=True, dateTime=date.isoformat())
     return None
 
 

@@ -17,7 +17,8 @@ from osc2tx.backends.xosc.facts.actors import ADHESION, road_condition
 from osc2tx.backends.xosc.flattening.storyboard.member_names import event_name
 from osc2tx.backends.xosc.flattening.tree_queries import actors_of, is_first, runs_beside
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import CloudState, FractionalCloudCover, PrecipitationType
 
 NOON = "2000-01-01T12:00:00"
 """Time of day where 1.0 asks for one and the scenario says none."""
@@ -34,14 +35,27 @@ HEAVIEST_RAIN = 50.0
 FAR = 100000.0
 """Visual range (m) where nobody speaks of fog."""
 
-OKTAS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
+OKTAS: tuple[FractionalCloudCover, ...] = (
+    "zeroOktas",
+    "oneOktas",
+    "twoOktas",
+    "threeOktas",
+    "fourOktas",
+    "fiveOktas",
+    "sixOktas",
+    "sevenOktas",
+    "eightOktas",
+    "nineOktas",
+)
 
 
 # --- sun and air --------------------------------------------------------------------------------
 
 
 @global_action("assign_celestial_position")
-def _celestial_position(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, ...]:
+def _celestial_position(
+    ctx: Context, node: ir.Invoke, arguments: Arguments
+) -> tuple[xml.GlobalAction, ...]:
     azimuth, elevation = arguments.number("azimuth"), arguments.number("elevation")
     source = arguments.expression("light_source")
     if source is not None and source.span.text.endswith("moon"):
@@ -55,11 +69,10 @@ def _celestial_position(ctx: Context, node: ir.Invoke, arguments: Arguments) -> 
     return (environment_action(ctx, node, _sun(ctx)),)
 
 
-def _sun(ctx: Context) -> Element:
+def _sun(ctx: Context) -> xml.Sun:
     elevation = ctx.weather.get("sun_elevation", math.pi / 2)
     brightness = max(math.sin(elevation), 0.0)
-    return element(
-        "Sun",
+    return xml.Sun(
         azimuth=ctx.weather.get("sun_azimuth", 0.0),
         elevation=elevation,
         illuminance=round(FULL_SUN * brightness, 3) if ctx.version >= "1.2" else None,
@@ -68,7 +81,7 @@ def _sun(ctx: Context) -> Element:
 
 
 @global_action("air")
-def _air(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, ...]:
+def _air(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[xml.GlobalAction, ...]:
     temperature, pressure = arguments.number("temperature"), arguments.number("pressure")
     humidity = arguments.number("relative_humidity")
     if temperature is not None:
@@ -87,7 +100,7 @@ def _air(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, 
 
 
 @global_action("wind")
-def _wind(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, ...]:
+def _wind(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[xml.GlobalAction, ...]:
     ctx.require("wind", "1.1", node.span)
     for name in ("speed", "direction"):
         value = arguments.number(name)
@@ -98,7 +111,7 @@ def _wind(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element,
     # The DSL says where it comes from, clockwise from north; the XML whither, counter-clockwise
     # from east.
     whither = (-0.5 * math.pi - ctx.weather["wind_direction"]) % (2.0 * math.pi)
-    wind = element("Wind", direction=round(whither, 9), speed=ctx.weather["wind_speed"])
+    wind = xml.Wind(direction=round(whither, 9), speed=ctx.weather["wind_speed"])
     return (environment_action(ctx, node, wind),)
 
 
@@ -106,7 +119,9 @@ def _wind(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element,
 
 
 @global_action("fog")
-def _fog_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, ...]:
+def _fog_action(
+    ctx: Context, node: ir.Invoke, arguments: Arguments
+) -> tuple[xml.GlobalAction, ...]:
     visual_range = arguments.number("visual_range")
     if visual_range is None:
         raise Inexpressible("it says no visual range", node.span)
@@ -114,12 +129,14 @@ def _fog_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[El
     return (environment_action(ctx, node, _fog(ctx)),)
 
 
-def _fog(ctx: Context) -> Element:
-    return element("Fog", visualRange=ctx.weather.get("visual_range", FAR))
+def _fog(ctx: Context) -> xml.Fog:
+    return xml.Fog(visualRange=ctx.weather.get("visual_range", FAR))
 
 
 @global_action("clouds")
-def _clouds_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, ...]:
+def _clouds_action(
+    ctx: Context, node: ir.Invoke, arguments: Arguments
+) -> tuple[xml.GlobalAction, ...]:
     cloudiness = arguments.number("cloudiness")
     if cloudiness is None or not 0.0 <= cloudiness < len(OKTAS):
         raise Inexpressible("the cloud cover is not between 0 and 9 oktas", node.span)
@@ -133,12 +150,11 @@ def _clouds_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple
             Remedy(version="1.2"),
         )
     if ctx.version >= "1.2":
-        cover = f"{OKTAS[round(cloudiness)]}Oktas"
-        return (environment_action(ctx, node, cover=cover),)
+        return (environment_action(ctx, node, cover=OKTAS[round(cloudiness)]),)
     return (environment_action(ctx, node, state=_cloud_state(ctx)),)
 
 
-def _cloud_state(ctx: Context) -> str:
+def _cloud_state(ctx: Context) -> CloudState:
     cloudiness = ctx.weather.get("cloudiness", 0.0)
     if cloudiness == 0.0:
         return "free"
@@ -148,7 +164,7 @@ def _cloud_state(ctx: Context) -> str:
 @global_action("rain", "snow")
 def _precipitation_action(
     ctx: Context, node: ir.Invoke, arguments: Arguments
-) -> tuple[Element, ...]:
+) -> tuple[xml.GlobalAction, ...]:
     intensity = arguments.number("intensity")
     if intensity is None:
         raise Inexpressible("it says no intensity", node.span)
@@ -168,24 +184,26 @@ def _precipitation_action(
     return (environment_action(ctx, node, _precipitation(ctx)),)
 
 
-def _precipitation(ctx: Context) -> Element:
-    kind, intensity = "dry", 0.0
-    for name in ("rain", "snow"):
+def _precipitation(ctx: Context) -> xml.Precipitation:
+    kind: PrecipitationType = "dry"
+    intensity = 0.0
+    names: tuple[PrecipitationType, ...] = ("rain", "snow")
+    for name in names:
         amount = ctx.weather.get(f"{name}_intensity", 0.0)
         if amount > 0.0:
             kind, intensity = name, round(amount / MMPH, 9)
     if ctx.version == "1.0":
         relative = round(min(intensity / HEAVIEST_RAIN, 1.0), 6)
-        return element("Precipitation", precipitationType=kind, intensity=relative)
-    return element("Precipitation", precipitationType=kind, precipitationIntensity=intensity)
+        return xml.Precipitation(precipitationType=kind, intensity=relative)
+    return xml.Precipitation(precipitationType=kind, precipitationIntensity=intensity)
 
 
 # --- the environment as a whole -----------------------------------------------------------------
 
 
-def initial_environment(ctx: Context) -> tuple[Element, ...]:
+def initial_environment(ctx: Context) -> tuple[xml.GlobalAction, ...]:
     """Return the actions for what the environment is from the start on, whoever acts."""
-    actions: list[Element] = []
+    actions: list[xml.GlobalAction] = []
     for actor in environments(ctx):
         said = {value.path[0] for value in actor.values}
         if "geodetic_position" in said:
@@ -209,22 +227,20 @@ def initial_environment(ctx: Context) -> tuple[Element, ...]:
 def environment_action(
     ctx: Context,
     source: ir.Invoke | ir.Actor,
-    *weather: Element,
+    *weather: xml.WeatherPart,
     temperature: float | None = None,
     pressure: float | None = None,
-    cover: str | None = None,
-    state: str | None = None,
-) -> Element:
+    cover: FractionalCloudCover | None = None,
+    state: CloudState | None = None,
+) -> xml.GlobalAction:
     """Return the action that changes parts of the weather; 1.0 has to state all of it."""
-    parts = {part.name: part for part in weather}
+    parts: dict[str, xml.WeatherPart] = {part.tag: part for part in weather}
     clock = None
     if ctx.version == "1.0":
-        everything = (_sun(ctx), _fog(ctx), _precipitation(ctx))
-        parts = {part.name: part for part in everything}
+        parts = {part.tag: part for part in (_sun(ctx), _fog(ctx), _precipitation(ctx))}
         state = _cloud_state(ctx)
         clock = _stated_again(ctx, source)
-    told = element(
-        "Weather",
+    told = xml.Weather(
         *parts.values(),
         temperature=temperature,
         atmosphericPressure=pressure,
@@ -235,11 +251,11 @@ def environment_action(
     return _environment(ctx, name, told, clock, _road(ctx, source))
 
 
-def _stated_again(ctx: Context, source: ir.Invoke | ir.Actor) -> Element:
+def _stated_again(ctx: Context, source: ir.Invoke | ir.Actor) -> xml.TimeOfDay:
     """Return the time of day that 1.0 asks for with each word about the weather."""
     clock = time_of_day(ctx)
     if clock is None:
-        return element("TimeOfDay", animation=False, dateTime=NOON)
+        return xml.TimeOfDay(animation=False, dateTime=NOON)
     if isinstance(source, ir.Invoke) and not is_first(ctx.scenario.body, source):
         ctx.report.approximate(
             f"action {source.action}",
@@ -251,12 +267,12 @@ def _stated_again(ctx: Context, source: ir.Invoke | ir.Actor) -> Element:
     return clock
 
 
-def _environment(ctx: Context, name: str, *parts: Element | None) -> Element:
-    environment = element("Environment", *parts, name=ctx.names.new(f"environment_{name}"))
-    return element("GlobalAction", element("EnvironmentAction", environment))
+def _environment(ctx: Context, name: str, *parts: xml.EnvironmentPart | None) -> xml.GlobalAction:
+    environment = xml.Environment(*parts, name=ctx.names.new(f"environment_{name}"))
+    return xml.GlobalAction(xml.EnvironmentAction(environment))
 
 
-def _road(ctx: Context, source: ir.Invoke | ir.Actor) -> Element | None:
+def _road(ctx: Context, source: ir.Invoke | ir.Actor) -> xml.RoadCondition | None:
     """Return how slippery roads are: the DSL leaves that to the world, tools have to be told."""
     adhesion = ADHESION.get(road_condition(ctx.weather))
     if adhesion is None and ctx.version > "1.0" and "adhesion" not in ctx.weather:
@@ -266,7 +282,7 @@ def _road(ctx: Context, source: ir.Invoke | ir.Actor) -> Element | None:
         ctx.weather["adhesion"] = adhesion
         if is_new and isinstance(source, ir.Invoke) and not is_first(ctx.scenario.body, source):
             _report_lost_grip(ctx, source, adhesion)
-    return element("RoadCondition", frictionScaleFactor=1.0 if adhesion is None else adhesion)
+    return xml.RoadCondition(frictionScaleFactor=1.0 if adhesion is None else adhesion)
 
 
 def _report_lost_grip(ctx: Context, source: ir.Invoke, adhesion: float) -> None:

@@ -16,7 +16,7 @@ from osc2tx.backends.xosc.facts.actors import Course, Limits, held_by, road_cond
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL, ActorState, Demand
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass
 
 Ending: TypeAlias = Literal["goal", "open", "instant"]
@@ -36,11 +36,15 @@ class Change:
     """
 
     domain: str
-    actions: tuple[Element, ...]
+    actions: tuple[xml.ActionPart, ...]
     time: float | None
     during: ActorState
     after: ActorState
     goes_on: bool = False
+
+
+Global: TypeAlias = xml.GlobalAction | xml.UserDefinedAction
+"""An action that concerns no entity."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +52,7 @@ class Later:
     """A global action that is carried out so many seconds after its invocation began."""
 
     seconds: float
-    action: Element
+    action: Global
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +69,7 @@ class Performance:
     changes: tuple[Change, ...]
     ends: Ending
     lasts: float | None = None
-    reached: tuple[Element, ...] = ()
+    reached: tuple[xml.ByEntityCondition, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,17 +185,16 @@ class Leaf:
         self.is_start = is_start
         self.course: Course | None = None
         self.distance: float | None = None
-        self.reached: tuple[Element, ...] = ()
+        self.reached: tuple[xml.ByEntityCondition, ...] = ()
         self.uneven: Uneven | None = None
-        self.others: list[tuple[CastMember, Element, str]] = []
+        self.others: list[tuple[CastMember, xml.ActionPart, str]] = []
 
-    def on_me(self, condition: Element) -> Element:
+    def on_me(self, condition: xml.EntityConditionPart) -> xml.ByEntityCondition:
         """Return a condition on the actor."""
-        me = element("EntityRef", entityRef=self.member.name)
-        return element(
-            "ByEntityCondition",
-            element("TriggeringEntities", me, triggeringEntitiesRule="any"),
-            element("EntityCondition", condition),
+        me = xml.EntityRef(entityRef=self.member.name)
+        return xml.ByEntityCondition(
+            xml.TriggeringEntities(me, triggeringEntitiesRule="any"),
+            xml.EntityCondition(condition),
         )
 
     @property
@@ -233,7 +236,6 @@ def construct_of_action(node: ir.Invoke) -> str:
 
 
 Perform: TypeAlias = Callable[[Leaf], Performance]
-PerformGlobal: TypeAlias = Callable[[Context, ir.Invoke, Arguments], tuple[Element | Later, ...]]
-"""Returns `GlobalAction` or `UserDefinedAction` elements."""
+PerformGlobal: TypeAlias = Callable[[Context, ir.Invoke, Arguments], tuple[Global | Later, ...]]
 
 Modify: TypeAlias = Callable[[Leaf, ir.ModifierCall, Arguments], tuple[Change, ...]]

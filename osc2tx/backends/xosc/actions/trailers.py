@@ -8,7 +8,7 @@ from osc2tx.backends.xosc.actions.speed.speed_changes import within_limits
 from osc2tx.backends.xosc.entities.towing import only_trailer
 from osc2tx.backends.xosc.facts.actors import held_by, road_condition
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
 
 
 @action("connect_trailer")
@@ -16,7 +16,7 @@ def _connect(leaf: Leaf) -> Performance:
     trailer = leaf.arguments.entity("trailer")
     if trailer is None:
         raise Inexpressible("it names no trailer", leaf.node.span)
-    return _act(leaf, element("ConnectTrailerAction", trailerRef=trailer.name))
+    return _act(leaf, xml.ConnectTrailerAction(trailerRef=trailer.name))
 
 
 @action("disconnect_trailer")
@@ -28,11 +28,11 @@ def _disconnect(leaf: Leaf) -> Performance:
     else:
         limits = held_by(trailer.limits, road_condition(leaf.ctx.weather))
         leaf.others.append((trailer, within_limits(0.0, limits, "asap", None), "stands"))
-    return _act(leaf, element("DisconnectTrailerAction"))
+    return _act(leaf, xml.DisconnectTrailerAction())
 
 
-def _act(leaf: Leaf, what: Element) -> Performance:
+def _act(leaf: Leaf, what: xml.TrailerActionPart) -> Performance:
     leaf.ctx.require("a trailer that is coupled", "1.3", leaf.node.span)
     leaf.ctx.require_support("TrailerAction", leaf.node.span)
-    action = element("PrivateAction", element("TrailerAction", what))
+    action = xml.PrivateAction(xml.TrailerAction(what))
     return Performance((Change("trailer", (action,), 0.0, leaf.state, leaf.state),), "goal")

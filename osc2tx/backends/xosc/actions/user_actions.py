@@ -17,9 +17,9 @@ from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import WAY, ActorState
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
-from osc2tx.backends.xosc.xml.tree import Element, element, text_of
 from osc2tx.diagnostics import Span
-from osc2tx_shared.classes import replace
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import text_of
 
 # Holds the speed and keeps the lane, as the default controller of the XML does.
 DEFAULT = "steady_driver"
@@ -48,12 +48,14 @@ def user_action(leaf: Leaf) -> Performance:
     return Performance((change,), "open")
 
 
-def global_command(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, ...]:
+def global_command(
+    ctx: Context, node: ir.Invoke, arguments: Arguments
+) -> tuple[xml.UserDefinedAction, ...]:
     """Return the same for one that has no actor."""
     return (_command(ctx, node, arguments),)
 
 
-def _command(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Element:
+def _command(ctx: Context, node: ir.Invoke, arguments: Arguments) -> xml.UserDefinedAction:
     ctx.require_support("CustomCommandAction", node.span)
     if node.duration is None and not node.until:
         raise Inexpressible(
@@ -69,11 +71,11 @@ def _command(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Element:
     return command_of(node.action, values)
 
 
-def command_of(name: str, arguments: Mapping[str, Constant | None]) -> Element:
+def command_of(name: str, arguments: Mapping[str, Constant | None]) -> xml.UserDefinedAction:
     """Return the action that gives a tool a command of its own."""
     text = ", ".join(f"{parameter}={_text(value)}" for parameter, value in arguments.items())
-    command = replace(element("CustomCommandAction", type=name), text=text or None)
-    return element("UserDefinedAction", command)
+    command = xml.CustomCommandAction(text=text or None, type=name)
+    return xml.UserDefinedAction(command)
 
 
 def _text(value: Constant | None) -> str:

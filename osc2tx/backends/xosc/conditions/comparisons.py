@@ -9,7 +9,9 @@ from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Element
+from osc2tx.xosc.literals import Rule
 
 
 class Comparison(NamedTuple):
@@ -30,7 +32,7 @@ class Comparison(NamedTuple):
     owner: str
     name: str
     arguments: Mapping[str, Constant]
-    rule: str
+    rule: Rule
     value: float
     is_edge: bool
     source: ir.Expression
@@ -48,29 +50,26 @@ class Comparison(NamedTuple):
         return value.name if isinstance(value, Member) else default
 
 
-Groups: TypeAlias = tuple[tuple[Element, ...], ...]
+Groups: TypeAlias = "tuple[tuple[xml.ConditionPart, ...], ...]"
 """Conditions: an OR of ANDs; an edge belongs to the first one of a group."""
 
 Measure: TypeAlias = Callable[[Context, Comparison], Groups]
 
 
-def of_entity(actor: str, condition: Element) -> Element:
+def of_entity(actor: str, condition: xml.EntityConditionPart) -> xml.ByEntityCondition:
     """Return the condition on one entity."""
-    return element(
-        "ByEntityCondition",
-        element(
-            "TriggeringEntities",
-            element("EntityRef", entityRef=actor),
+    return xml.ByEntityCondition(
+        xml.TriggeringEntities(
+            xml.EntityRef(entityRef=actor),
             triggeringEntitiesRule="any",
         ),
-        element("EntityCondition", condition),
+        xml.EntityCondition(condition),
     )
 
 
-def relative_speed(ctx: Context, actor: str, other: str, rule: str, value: float) -> Groups:
+def relative_speed(ctx: Context, actor: str, other: str, rule: Rule, value: float) -> Groups:
     """Return the condition on the difference (m/s) of the speeds of two actors."""
-    condition = element(
-        "RelativeSpeedCondition",
+    condition = xml.RelativeSpeedCondition(
         entityRef=other,
         rule=rule,
         value=value,
@@ -79,7 +78,7 @@ def relative_speed(ctx: Context, actor: str, other: str, rule: str, value: float
     return ((of_entity(actor, condition),),)
 
 
-MIRRORED = {
+MIRRORED: Mapping[Rule, Rule] = {
     "greaterThan": "lessThan",
     "greaterOrEqual": "lessOrEqual",
     "lessThan": "greaterThan",
@@ -103,10 +102,10 @@ READ_SPEEDS = frozenset(
 
 def speeds_read(part: Element) -> frozenset[str]:
     """Return the actors at whose speed a condition below an element looks."""
-    if part.name != "ByEntityCondition":
+    if part.tag != "ByEntityCondition":
         return frozenset[str]().union(*map(speeds_read, part.children))
     triggering, condition = part.children
-    if condition.children[0].name not in READ_SPEEDS:
+    if condition.children[0].tag not in READ_SPEEDS:
         return frozenset()
     return frozenset(_references(triggering)) | frozenset(_references(condition))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import cos, pi, sin
 
 from osc2tx.backends.xosc.conditions.comparisons import MIRRORED, Comparison, Groups, of_entity
@@ -9,7 +10,11 @@ from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.stationary_actors import faces_along, standing_heading
 from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import CoordinateSystem, RelativeDistanceType, Rule
+
+AXES: Mapping[str, RelativeDistanceType] = {"longitudinal": "longitudinal", "lateral": "lateral"}
+"""Members of the directions of the library -> literals."""
 
 
 def object_distance(ctx: Context, c: Comparison) -> Groups:
@@ -21,9 +26,10 @@ def object_distance(ctx: Context, c: Comparison) -> Groups:
         if direction == "vertical":
             raise Inexpressible("there is no condition on a vertical distance", c.source.span)
         return _signed(ctx, c, direction, freespace, "entity", ahead_is_positive=True)
-    kind = "euclidianDistance" if ctx.version >= "1.1" else "cartesianDistance"
-    condition = element(
-        "RelativeDistanceCondition",
+    kind: RelativeDistanceType = (
+        "euclidianDistance" if ctx.version >= "1.1" else "cartesianDistance"
+    )
+    condition = xml.RelativeDistanceCondition(
         entityRef=c.reference(),
         relativeDistanceType=kind,
         value=c.value,
@@ -68,7 +74,7 @@ def _signed(
     c: Comparison,
     direction: str,
     freespace: bool,
-    system: str,
+    system: CoordinateSystem,
     *,
     ahead_is_positive: bool,
 ) -> Groups:
@@ -101,10 +107,9 @@ def _signed(
         return ((is_clear(ctx, me, other, ahead=is_ahead is rule.startswith("less")),),)
     distance = of_entity(
         me,
-        element(
-            "RelativeDistanceCondition",
+        xml.RelativeDistanceCondition(
             entityRef=other,
-            relativeDistanceType=direction,
+            relativeDistanceType=AXES[direction],
             coordinateSystem=system if ctx.version >= "1.1" else None,
             value=value,
             freespace=freespace,
@@ -117,10 +122,10 @@ def _signed(
 def in_order(
     ctx: Context,
     c: Comparison,
-    measure: Element,
+    measure: xml.ConditionPart,
     direction: str,
     is_ahead: bool,
-    rule: str,
+    rule: Rule,
     amount: str,
 ) -> Groups:
     """Return the conditions for a measure without a sign, and for the side that it is on.
@@ -149,7 +154,9 @@ def in_order(
     return ((measure,),)
 
 
-def _shifted(ctx: Context, c: Comparison, direction: str, system: str) -> Groups | None:
+def _shifted(
+    ctx: Context, c: Comparison, direction: str, system: CoordinateSystem
+) -> Groups | None:
     """Return the condition on the distance to a place far beyond the reference.
 
     That distance is the one asked for, with its sign, and so much more. The place lies in the
@@ -161,26 +168,24 @@ def _shifted(ctx: Context, c: Comparison, direction: str, system: str) -> Groups
     if heading is None:
         return None
     angle = heading if direction == "longitudinal" else heading + 0.5 * pi
-    place = element(
-        "RelativeWorldPosition",
+    place = xml.RelativeWorldPosition(
         entityRef=c.reference(),
         dx=round(FAR * cos(angle), 6),
         dy=round(FAR * sin(angle), 6),
         dz=0.0,
     )
-    condition = element(
-        "DistanceCondition",
-        element("Position", place),
+    condition = xml.DistanceCondition(
+        xml.Position(place),
         value=FAR + c.value,
         rule=c.rule,
         freespace=False,
         coordinateSystem=system,
-        relativeDistanceType=direction,
+        relativeDistanceType=AXES[direction],
     )
     return ((of_entity(c.actor, condition),),)
 
 
-def is_clear(ctx: Context, me: str, other: str, *, ahead: bool) -> Element:
+def is_clear(ctx: Context, me: str, other: str, *, ahead: bool) -> xml.ByEntityCondition:
     """Return the condition that another actor is not ahead of one, or not behind, on any lane.
 
     Ahead is where the one looks, whatever the other one does.
@@ -188,10 +193,9 @@ def is_clear(ctx: Context, me: str, other: str, *, ahead: bool) -> Element:
     every_lane = ctx.profile.needs_lane_range
     return of_entity(
         me,
-        element(
-            "RelativeClearanceCondition",
-            element("RelativeLaneRange", from_=-MANY_LANES, to=MANY_LANES) if every_lane else None,
-            element("EntityRef", entityRef=other),
+        xml.RelativeClearanceCondition(
+            xml.RelativeLaneRange(from_=-MANY_LANES, to=MANY_LANES) if every_lane else None,
+            xml.EntityRef(entityRef=other),
             distanceForward=FAR if ahead else 0.0,
             distanceBackward=0.0 if ahead else FAR,
             freeSpace=False,
@@ -200,7 +204,7 @@ def is_clear(ctx: Context, me: str, other: str, *, ahead: bool) -> Element:
     )
 
 
-def note_facing(ctx: Context, c: Comparison, freespace: bool, system: str) -> None:
+def note_facing(ctx: Context, c: Comparison, freespace: bool, system: CoordinateSystem) -> None:
     """Report what a distance along the road depends on: how the other one looks, and its lane."""
     if system != "road":
         return

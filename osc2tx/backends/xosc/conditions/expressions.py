@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TypeGuard
 
 from osc2tx import ir
@@ -13,8 +14,9 @@ from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.events.event_parameters import parameter_condition
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Constant, Named
+from osc2tx.xosc.literals import Rule
 
-RULES = {
+RULES: Mapping[str, Rule] = {
     ">": "greaterThan",
     "<": "lessThan",
     ">=": "greaterOrEqual",
@@ -169,7 +171,7 @@ def _speed_of(ctx: Context, expression: ir.Expression) -> str | None:
     return ctx.cast[actor.name].name
 
 
-def _rule(ctx: Context, operator: str, expression: ir.Binary) -> str:
+def _rule(ctx: Context, operator: str, expression: ir.Binary) -> Rule:
     """Return the literal; 1.0 has no rules that include the boundary."""
     if ctx.version > "1.0" or operator in (">", "<", "=="):
         return RULES[operator]
@@ -186,7 +188,7 @@ def _rule(ctx: Context, operator: str, expression: ir.Binary) -> str:
     return RULES[strict]
 
 
-def _measured(ctx: Context, measure: ir.Expression, rule: str, value: float, edge: Edge) -> Groups:
+def _measured(ctx: Context, measure: ir.Expression, rule: Rule, value: float, edge: Edge) -> Groups:
     match measure:
         case ir.Attribute(base=base, name=name, owner=owner):
             arguments: dict[str, Constant] = {}

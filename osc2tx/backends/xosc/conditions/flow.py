@@ -9,7 +9,8 @@ from __future__ import annotations
 from itertools import product
 from typing import Literal, TypeAlias
 
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import StoryboardElementState
 from osc2tx_shared.classes import dataclass, replace
 
 ElementKind: TypeAlias = Literal["act", "action", "event", "maneuver", "maneuverGroup", "story"]
@@ -37,7 +38,7 @@ class Test:
         follows: Such moments before that one, each with the seconds that surely lie between.
     """
 
-    condition: Element
+    condition: xml.ConditionPart
     edge: Edge = "none"
     delay: float = 0.0
     latched: bool = False
@@ -150,8 +151,8 @@ def single(test: Test) -> Flow:
 
 def chosen(parameter: str, value: str) -> Flow:
     """Return the flow of a parameter of the document that has a value."""
-    condition = element("ParameterCondition", parameterRef=parameter, rule="equalTo", value=value)
-    return single(Test(element("ByValueCondition", condition), latched=True, is_constant=True))
+    condition = xml.ParameterCondition(parameterRef=parameter, rule="equalTo", value=value)
+    return single(Test(xml.ByValueCondition(condition), latched=True, is_constant=True))
 
 
 def run_start() -> Test:
@@ -159,27 +160,24 @@ def run_start() -> Test:
 
     It holds from the second step on, when tools know the velocities.
     """
-    condition = element("SimulationTimeCondition", value=0.0, rule="greaterThan")
-    return Test(element("ByValueCondition", condition), latched=True, reached=0.0)
+    condition = xml.SimulationTimeCondition(value=0.0, rule="greaterThan")
+    return Test(xml.ByValueCondition(condition), latched=True, reached=0.0)
 
 
 def at_time(seconds: float) -> Test:
     """Return the test for a time since the start of the run; 1.0 has no `greaterOrEqual`."""
     if seconds <= 0.0:
         return run_start()
-    condition = element("SimulationTimeCondition", value=seconds, rule="greaterOrEqual")
-    return Test(element("ByValueCondition", condition), latched=True, reached=seconds)
+    condition = xml.SimulationTimeCondition(value=seconds, rule="greaterOrEqual")
+    return Test(xml.ByValueCondition(condition), latched=True, reached=seconds)
 
 
-def state_of(kind: ElementKind, name: str, state: str = "completeState") -> Test:
+def state_of(kind: ElementKind, name: str, state: StoryboardElementState = "completeState") -> Test:
     """Return the test for the state of an element; running acts count as latched inside of them."""
-    condition = element(
-        "StoryboardElementStateCondition",
+    condition = xml.StoryboardElementStateCondition(
         storyboardElementType=kind,
         storyboardElementRef=name,
         state=state,
     )
     is_moment = (kind, state) in (("event", "completeState"), ("act", "runningState"))
-    return Test(
-        element("ByValueCondition", condition), latched=True, event=name if is_moment else None
-    )
+    return Test(xml.ByValueCondition(condition), latched=True, event=name if is_moment else None)

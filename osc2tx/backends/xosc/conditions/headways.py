@@ -12,7 +12,8 @@ from osc2tx.backends.xosc.conditions.comparisons import (
 from osc2tx.backends.xosc.conditions.distances import in_order, note_facing, overhang
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import Rule
 
 
 def time_headway(ctx: Context, c: Comparison) -> Groups:
@@ -57,8 +58,7 @@ def _between(ctx: Context, c: Comparison, *, is_ahead: bool, freespace: bool) ->
     me, other = c.actor, c.reference()
     behind, ahead = (me, other) if is_ahead else (other, me)
     newer = ctx.version >= "1.1"
-    condition = element(
-        "TimeHeadwayCondition",
+    condition = xml.TimeHeadwayCondition(
         entityRef=ahead,
         value=value,
         rule=rule,
@@ -72,7 +72,7 @@ def _between(ctx: Context, c: Comparison, *, is_ahead: bool, freespace: bool) ->
     if rule.startswith("less") or c.is_edge or not groups[0][1:]:
         return groups
     # Who stands comes to no place: the time of the XML is undefined, and compares with nothing.
-    standing = element("SpeedCondition", value=TOUCHING, rule="lessThan")
+    standing = xml.SpeedCondition(value=TOUCHING, rule="lessThan")
     return (*groups, (of_entity(behind, standing), *groups[0][1:]))
 
 
@@ -87,12 +87,11 @@ def time_to_collision(ctx: Context, c: Comparison) -> Groups:
     paired with it: that one is ahead, and not beside. Who moves away is never reached.
     """
     newer = ctx.version >= "1.1"
-    target = element("EntityRef", entityRef=c.reference())
+    target = xml.EntityRef(entityRef=c.reference())
     time = of_entity(
         c.actor,
-        element(
-            "TimeToCollisionCondition",
-            element("TimeToCollisionConditionTarget", target),
+        xml.TimeToCollisionCondition(
+            xml.TimeToCollisionConditionTarget(target),
             value=c.value,
             rule=c.rule,
             freespace=True,
@@ -114,12 +113,11 @@ def time_to_collision(ctx: Context, c: Comparison) -> Groups:
     return ((time,), (_across(ctx, c, "greaterThan"),), *away)
 
 
-def _across(ctx: Context, c: Comparison, rule: str) -> Element:
+def _across(ctx: Context, c: Comparison, rule: Rule) -> xml.ByEntityCondition:
     """Return the condition on the space between the sides of two actors."""
     return of_entity(
         c.actor,
-        element(
-            "RelativeDistanceCondition",
+        xml.RelativeDistanceCondition(
             entityRef=c.reference(),
             relativeDistanceType="lateral",
             coordinateSystem="entity" if ctx.version >= "1.1" else None,

@@ -7,6 +7,7 @@ measured and compared, and returns the condition on entities, or raises `Inexpre
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TypeAlias
 
 from osc2tx.backends.xosc.conditions.comparisons import Comparison, Groups, Measure, of_entity
 from osc2tx.backends.xosc.conditions.distances import (
@@ -25,18 +26,21 @@ from osc2tx.backends.xosc.conditions.point_distances import (
     t_coordinate,
 )
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.xml.tree import element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import DirectionalDimension
+
+Motion: TypeAlias = xml.SpeedCondition | xml.AccelerationCondition
 
 
 def _speed(ctx: Context, c: Comparison) -> Groups:
-    return _motion(ctx, c, "SpeedCondition", "longitudinal")
+    return _motion(ctx, c, xml.SpeedCondition, "longitudinal")
 
 
 def _acceleration(ctx: Context, c: Comparison) -> Groups:
-    return _motion(ctx, c, "AccelerationCondition", "longitudinal")
+    return _motion(ctx, c, xml.AccelerationCondition, "longitudinal")
 
 
-def _part_of(condition: str, direction: str | None) -> Measure:
+def _part_of(condition: type[Motion], direction: DirectionalDimension | None) -> Measure:
     """Return the measure of a part of a speed or an acceleration, or of its amount (1.2)."""
 
     def measure(ctx: Context, c: Comparison) -> Groups:
@@ -46,10 +50,11 @@ def _part_of(condition: str, direction: str | None) -> Measure:
     return measure
 
 
-def _motion(ctx: Context, c: Comparison, condition: str, direction: str | None) -> Groups:
+def _motion(
+    ctx: Context, c: Comparison, condition: type[Motion], direction: DirectionalDimension | None
+) -> Groups:
     """Return the condition on a speed or an acceleration along an axis of the actor."""
-    made = element(
-        condition,
+    made = condition(
         rule=c.rule,
         value=c.value,
         direction=direction if ctx.version >= "1.2" else None,
@@ -60,13 +65,13 @@ def _motion(ctx: Context, c: Comparison, condition: str, direction: str | None) 
 MEASURES: Mapping[str, Measure] = {
     "speed": _speed,
     "velocity.translational.x": _speed,
-    "velocity.translational.y": _part_of("SpeedCondition", "lateral"),
-    "velocity.translational.z": _part_of("SpeedCondition", "vertical"),
-    "velocity.translational.norm": _part_of("SpeedCondition", None),
+    "velocity.translational.y": _part_of(xml.SpeedCondition, "lateral"),
+    "velocity.translational.z": _part_of(xml.SpeedCondition, "vertical"),
+    "velocity.translational.norm": _part_of(xml.SpeedCondition, None),
     "acceleration.translational.x": _acceleration,
-    "acceleration.translational.y": _part_of("AccelerationCondition", "lateral"),
-    "acceleration.translational.z": _part_of("AccelerationCondition", "vertical"),
-    "acceleration.translational.norm": _part_of("AccelerationCondition", None),
+    "acceleration.translational.y": _part_of(xml.AccelerationCondition, "lateral"),
+    "acceleration.translational.z": _part_of(xml.AccelerationCondition, "vertical"),
+    "acceleration.translational.norm": _part_of(xml.AccelerationCondition, None),
     "object_distance": object_distance,
     "road_distance": road_distance,
     "space_gap": space_gap,

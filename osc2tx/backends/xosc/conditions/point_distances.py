@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from osc2tx.backends.xosc.actions.position.points_and_lines import xml_position
 from osc2tx.backends.xosc.conditions.comparisons import Comparison, Groups, of_entity
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.xml.tree import element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import CoordinateSystem, RelativeDistanceType
 
 
 def distance_to_xyz(ctx: Context, c: Comparison) -> Groups:
@@ -23,7 +26,7 @@ def distance_to_road_point(ctx: Context, c: Comparison) -> Groups:
     return _distance_to(ctx, c, c.member("direction", "longitudinal"), "lane" if lane else "road")
 
 
-def _distance_to(ctx: Context, c: Comparison, direction: str, system: str) -> Groups:
+def _distance_to(ctx: Context, c: Comparison, direction: str, system: CoordinateSystem) -> Groups:
     """Return the condition on the distance to a point, which the XML measures without sign."""
     point = xml_position(ctx, c.arguments.get("point"))
     newer, is_free = ctx.version >= "1.1", direction == "euclidean"
@@ -40,9 +43,8 @@ def _distance_to(ctx: Context, c: Comparison, direction: str, system: str) -> Gr
                 "conditions on distances have no sign",
                 f"differs only once the point is passed by more than {value:g} m",
             )
-    condition = element(
-        "DistanceCondition",
-        element("Position", point.element),
+    condition = xml.DistanceCondition(
+        xml.Position(point.element),
         value=value,
         rule=rule,
         freespace=c.member("mode", "reference_points") == "bounding_boxes",
@@ -53,7 +55,7 @@ def _distance_to(ctx: Context, c: Comparison, direction: str, system: str) -> Gr
     return ((of_entity(c.actor, condition),),)
 
 
-_KINDS = {
+_KINDS: Mapping[str, RelativeDistanceType] = {
     "euclidean": "euclidianDistance",
     "longitudinal": "longitudinal",
     "lateral": "lateral",
@@ -86,14 +88,13 @@ def _coordinate(ctx: Context, c: Comparison, direction: str, aside: float) -> Gr
         reason = "a condition on coordinates of a road needs a map with just one road"
         raise Inexpressible(reason, c.source.span)
     newer = ctx.version >= "1.1"
-    condition = element(
-        "DistanceCondition",
-        element("Position", element("RoadPosition", roadId=road, s=0.0, t=-aside)),
+    condition = xml.DistanceCondition(
+        xml.Position(xml.RoadPosition(roadId=road, s=0.0, t=-aside)),
         value=c.value + aside,
         rule=c.rule,
         freespace=False,
         alongRoute=None if newer else True,
         coordinateSystem="road" if newer else None,
-        relativeDistanceType=direction if newer else None,
+        relativeDistanceType=_KINDS[direction] if newer else None,
     )
     return ((of_entity(c.actor, condition),),)

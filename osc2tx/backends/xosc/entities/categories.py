@@ -8,6 +8,7 @@ from typing import NamedTuple
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.xosc.literals import Role, VehicleCategory
 
 HARMONIZED = "1.4"
 """First version whose literals are those of the DSL; it deprecates the older ones."""
@@ -22,8 +23,8 @@ class _Category(NamedTuple):
         loss: What the older one does not say.
     """
 
-    literal: str
-    older: str | None
+    literal: VehicleCategory
+    older: VehicleCategory | None
     loss: str = ""
 
 
@@ -61,16 +62,16 @@ _CATEGORIES: Mapping[str, _Category] = {
 }
 
 # `trailer_category` (§8.7.17).
-_TRAILERS: Mapping[str, str] = {
+_TRAILERS: Mapping[str, VehicleCategory] = {
     "semi_trailer": "semitrailer",
     "full_trailer": "trailer",
     "central_axle_trailer": "trailer",
 }
 
-NO_ROLE = "none"
+NO_ROLE: Role = "none"
 
 # `traffic_participant_role` (§8.7.20) -> literal from 1.4 on, and in 1.2 and 1.3.
-_ROLES: Mapping[str, tuple[str, str]] = {
+_ROLES: Mapping[str, tuple[Role, Role]] = {
     "agriculture": ("agriculture", NO_ROLE),
     "ambulance": ("ambulance", "ambulance"),
     "civil": ("civil", "civil"),
@@ -92,7 +93,7 @@ _ROLES: Mapping[str, tuple[str, str]] = {
 }
 
 
-def vehicle_literal(ctx: Context, member: CastMember) -> str:
+def vehicle_literal(ctx: Context, member: CastMember) -> VehicleCategory:
     """Return what kind of vehicle an actor is; what gets lost is reported.
 
     Raises:
@@ -112,12 +113,12 @@ def vehicle_literal(ctx: Context, member: CastMember) -> str:
     return category.older
 
 
-def trailer_literal(category: str) -> str:
+def trailer_literal(category: str) -> VehicleCategory:
     """Return what kind of trailer a `trailer_category` is."""
     return _TRAILERS[category]
 
 
-def role_literal(ctx: Context, role: str) -> str:
+def role_literal(ctx: Context, role: str) -> Role:
     """Return a role, in versions that have roles; `NO_ROLE` where they have no literal for it."""
     newer, older = _ROLES[role]
     return newer if ctx.version >= HARMONIZED else older

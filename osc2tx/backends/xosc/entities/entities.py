@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 from osc2tx.backends.xosc.actions.user_actions import check_model
@@ -18,8 +18,9 @@ from osc2tx.backends.xosc.entities.towing import couplings, towing
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.report import GENERIC, Metres
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
-from osc2tx.backends.xosc.xml.schema import has_attribute
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import Role, VehicleCategory
+from osc2tx.xosc.schema import has_attribute
 
 WHEEL_DIAMETER = 0.6
 MAX_STEERING = 0.5
@@ -36,7 +37,7 @@ class Axle(NamedTuple):
     position_z: float
 
 
-def axles(ctx: Context, member: CastMember) -> list[Element]:
+def axles(ctx: Context, member: CastMember) -> list[xml.AxlesPart]:
     """Return the axles, those of the scenario if it has some, from front to rear."""
     shape = member.shape
     track = round(0.9 * shape.width, 3)
@@ -55,12 +56,12 @@ def axles(ctx: Context, member: CastMember) -> list[Element]:
     if len(found) == 1 and ctx.version < "1.3":  # a front axle cannot be left out yet
         found = [found[0], *found]
     if len(found) == 1:
-        return [_axle("RearAxle", found[0])]
+        return [_axle(xml.RearAxle, found[0])]
     front_most, *others, rear_most = found
     return [
-        _axle("FrontAxle", front_most),
-        _axle("RearAxle", rear_most),
-        *(_axle("AdditionalAxle", axle) for axle in others),
+        _axle(xml.FrontAxle, front_most),
+        _axle(xml.RearAxle, rear_most),
+        *(_axle(xml.AdditionalAxle, axle) for axle in others),
     ]
 
 
@@ -76,9 +77,10 @@ def _as_said(ctx: Context, name: str, path: tuple[str, ...], usual: Axle) -> Axl
     return usual._replace(**numbers)
 
 
-def _axle(tag: str, axle: Axle) -> Element:
-    return element(
-        tag,
+def _axle(
+    kind: type[xml.FrontAxle | xml.RearAxle | xml.AdditionalAxle], axle: Axle
+) -> xml.AxlesPart:
+    return kind(
         maxSteering=axle.max_steering,
         wheelDiameter=axle.wheel_diameter,
         trackWidth=axle.track_width,
@@ -114,7 +116,7 @@ MASS = {VEHICLE: 1500.0, PEDESTRIAN: 80.0, MISC: 100.0}
 """Kilograms; the DSL knows no mass."""
 
 
-def scenario_objects(ctx: Context) -> list[Element]:
+def scenario_objects(ctx: Context) -> list[xml.ScenarioObject]:
     """Return the entities in source order, those that are towed first."""
     objects = []
     for scope in ctx.scope.all():
@@ -126,32 +128,29 @@ def scenario_objects(ctx: Context) -> list[Element]:
     return sorted(objects, key=lambda each: each.get("name") not in towed)
 
 
-def _scenario_object(ctx: Context, member: CastMember) -> Element:
+def _scenario_object(ctx: Context, member: CastMember) -> xml.ScenarioObject:
     check_model(ctx, member)
-    return element(
-        "ScenarioObject",
+    return xml.ScenarioObject(
         _BODIES[member.kind](ctx, member),
         name=member.name,
     )
 
 
-def _vehicle(ctx: Context, member: CastMember) -> Element:
+def _vehicle(ctx: Context, member: CastMember) -> xml.Vehicle:
     _note_origin(ctx, member)
     limits = member.limits
     demand = ctx.whole_demand(member.name)
     jerk = limits.jerk if ctx.version >= "1.2" else None
-    return element(
-        "Vehicle",
+    return xml.Vehicle(
         _bounding_box(ctx, member),
-        element(
-            "Performance",
+        xml.Performance(
             maxSpeed=max(TOP_SPEED, round(demand.speed, 6)),
             maxAcceleration=max(limits.acceleration, demand.acceleration),
             maxDeceleration=max(limits.deceleration, demand.deceleration),
             maxAccelerationRate=jerk,
             maxDecelerationRate=jerk,
         ),
-        element("Axles", *axles(ctx, member)),
+        xml.Axles(*axles(ctx, member)),
         _properties(ctx, member),
         *couplings(ctx, member),
         name=member.model or member.category,
@@ -174,14 +173,14 @@ def _note_origin(ctx: Context, member: CastMember) -> None:
         )
 
 
-def _category(ctx: Context, member: CastMember) -> str:
+def _category(ctx: Context, member: CastMember) -> VehicleCategory:
     trailer = ctx.values.field(member.actor.name, ("trailer_category",))
     if isinstance(trailer, Member):
         return trailer_literal(trailer.name)
     return vehicle_literal(ctx, member)
 
 
-def _pedestrian(ctx: Context, member: CastMember) -> Element:
+def _pedestrian(ctx: Context, member: CastMember) -> xml.Pedestrian:
     is_animal = "animal" in member.actor.lineage
     if is_animal and ctx.profile.person_model:
         ctx.report.approximate(
@@ -192,8 +191,7 @@ def _pedestrian(ctx: Context, member: CastMember) -> Element:
             GENERIC,
         )
     model = member.model or ctx.profile.person_model or member.name
-    return element(
-        "Pedestrian",
+    return xml.Pedestrian(
         _bounding_box(ctx, member),
         _properties(ctx, member),
         name=model,
@@ -205,9 +203,8 @@ def _pedestrian(ctx: Context, member: CastMember) -> Element:
     )
 
 
-def _misc(ctx: Context, member: CastMember) -> Element:
-    return element(
-        "MiscObject",
+def _misc(ctx: Context, member: CastMember) -> xml.MiscObject:
+    return xml.MiscObject(
         _bounding_box(ctx, member),
         _properties(ctx, member),
         name=member.model or member.name,
@@ -227,30 +224,29 @@ def _looks(ctx: Context, member: CastMember, kind: str) -> str | None:
     return model if is_said and isinstance(model, str) else None
 
 
-def _role(ctx: Context, member: CastMember, kind: str) -> str | None:
+def _role(ctx: Context, member: CastMember, kind: str) -> Role | None:
     role = ctx.values.field(member.actor.name, ("role",))
     if not isinstance(role, Member) or not has_attribute(kind, "role", ctx.version):
         return None
     return role_literal(ctx, role.name)
 
 
-def _bounding_box(ctx: Context, member: CastMember) -> Element:
+def _bounding_box(ctx: Context, member: CastMember) -> xml.BoundingBox:
     shape = member.shape
     center = {"x": round(shape.centre, 6), "y": 0.0, "z": shape.height / 2}
     for axis in center:
         given = ctx.values.field(member.actor.name, ("bounding_box", "center", axis))
         if isinstance(given, (int, float)):
             center[axis] = float(given)
-    return element(
-        "BoundingBox",
-        element("Center", x=center["x"], y=center["y"], z=center["z"]),
-        element("Dimensions", width=shape.width, length=shape.length, height=shape.height),
+    return xml.BoundingBox(
+        xml.Center(x=center["x"], y=center["y"], z=center["z"]),
+        xml.Dimensions(width=shape.width, length=shape.length, height=shape.height),
     )
 
 
-def _properties(ctx: Context, member: CastMember) -> Element:
+def _properties(ctx: Context, member: CastMember) -> xml.Properties:
     name = member.actor.name
-    found: dict[str, str] = {}
+    found: dict[str, str | float] = dict(ctx.values.own_fields(name))
     color, role = ctx.values.field(name, ("color",)), ctx.values.field(name, ("role",))
     model = ctx.values.field(name, ("geometry_reference",))
     if isinstance(color, str):
@@ -263,8 +259,8 @@ def _properties(ctx: Context, member: CastMember) -> Element:
         found["model3d"] = model
     if ctx.profile.ego_property and member is _ego(ctx):
         found["type"] = ctx.profile.ego_property
-    properties = (element("Property", name=key, value=value) for key, value in found.items())
-    return element("Properties", *properties)
+    properties = (xml.Property(name=key, value=value) for key, value in found.items())
+    return xml.Properties(*properties)
 
 
 def _ego(ctx: Context) -> CastMember | None:
@@ -274,4 +270,8 @@ def _ego(ctx: Context) -> CastMember | None:
     return next(called, next(iter(vehicles), None))
 
 
-_BODIES = {VEHICLE: _vehicle, PEDESTRIAN: _pedestrian, MISC: _misc}
+_BODIES: Mapping[str, Callable[[Context, CastMember], xml.ScenarioObjectPart]] = {
+    VEHICLE: _vehicle,
+    PEDESTRIAN: _pedestrian,
+    MISC: _misc,
+}

@@ -15,13 +15,13 @@ from osc2tx.backends.xosc.entities.start_statements import (
 from osc2tx.backends.xosc.entities.towing import towing
 from osc2tx.backends.xosc.report import NoPlace
 from osc2tx.backends.xosc.state import ActorState
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
 
 OF_MOVEMENT = frozenset({"acceleration", "distance", "physical_movement"})
 """Modifiers that say nothing about the start, and are written down with their invocation."""
 
 
-def initial_actions(ctx: Context) -> list[Element]:
+def initial_actions(ctx: Context) -> list[xml.Private]:
     """Return the start of each actor, references first, and note what is known about them."""
     for member in ctx.entities:
         ctx.states[member.name] = ActorState()
@@ -34,9 +34,7 @@ def initial_actions(ctx: Context) -> list[Element]:
     privates = []
     for start in in_order(starts):
         if start.id in placing.refused:
-            refusal = placing.refused[start.id]
-            span = refusal.span or start.span
-            ctx.report.cannot("placement", span, refusal.reason, refusal.remedy)
+            ctx.report.refuse("placement", start.span, placing.refused[start.id])
         elif start.id in placing.positions:
             with ctx.within(start.scope), ctx.report_as("placement", start.span):
                 note_turn(ctx, start)
@@ -45,9 +43,9 @@ def initial_actions(ctx: Context) -> list[Element]:
     return privates
 
 
-def _private(ctx: Context, start: Start, position: Element) -> Element:
+def _private(ctx: Context, start: Start, position: xml.PositionPart) -> xml.Private:
     member = start.member
-    actions = [element("PrivateAction", element("TeleportAction", element("Position", position)))]
+    actions = [xml.PrivateAction(xml.TeleportAction(xml.Position(position)))]
     speed = speed_at_start(ctx, start)
     if speed != 0.0:
         actions.append(speed_action(speed, "step", "time", 0.0))
@@ -59,4 +57,4 @@ def _private(ctx: Context, start: Start, position: Element) -> Element:
     for name, arguments in start.modifiers.items():
         if name not in OF_MOVEMENT:
             arguments.finish()
-    return element("Private", *actions, entityRef=member.name)
+    return xml.Private(*actions, entityRef=member.name)

@@ -10,9 +10,10 @@ from osc2tx.backends.xosc.entities.start_positions import position_of
 from osc2tx.backends.xosc.entities.start_statements import Start, speed_at_start
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 from osc2tx.backends.xosc.facts.start_places import Placed, StartRoom, box_at, trailer_pose
-from osc2tx.backends.xosc.report import Inexpressible, NoPlace
+from osc2tx.backends.xosc.report import NoPlace
 from osc2tx.backends.xosc.state import ActorState, known
-from osc2tx.backends.xosc.xml.tree import Element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Unwritable
 from osc2tx_shared.classes import replace
 
 
@@ -31,8 +32,8 @@ class InitialPlacing(StartRoom[Start]):
         super().__init__(0 if ctx.roads is None else len(ctx.roads.map.spawn_points()))
         self._ctx = ctx
         self._tows = tows
-        self.positions: dict[str, Element] = {}
-        self.refused: dict[str, Inexpressible] = {}
+        self.positions: dict[str, xml.PositionPart] = {}
+        self.refused: dict[str, Unwritable] = {}
 
     def place(self, start: Start) -> Placed:
         """Find the position of an actor."""
@@ -43,7 +44,7 @@ class InitialPlacing(StartRoom[Start]):
         except NoPlace as error:
             error.span = error.span or start.span
             raise
-        except Inexpressible as error:
+        except Unwritable as error:
             self.refused[start.id] = error
             return self._noted(start, None)
 

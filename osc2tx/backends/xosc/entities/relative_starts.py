@@ -19,7 +19,7 @@ from osc2tx.backends.xosc.facts.maps import LanePosition, Roads
 from osc2tx.backends.xosc.facts.start_places import LaneNumber, lane_beside, place_ahead
 from osc2tx.backends.xosc.report import Inexpressible, NoPlace
 from osc2tx.backends.xosc.state import ActorState, known
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass
 
 NEAR = 1e-3
@@ -60,7 +60,7 @@ class Said:
         return len(names) == 1 and self.from_entry is None
 
 
-def beside(ctx: Context, start: Start) -> tuple[Element, ActorState]:
+def beside(ctx: Context, start: Start) -> tuple[xml.PositionPart, ActorState]:
     """Return a place in or beside the lane of another actor, so far ahead of it or behind it."""
     said = _said(ctx, start)
     if said.is_of_one:
@@ -82,11 +82,10 @@ def beside(ctx: Context, start: Start) -> tuple[Element, ActorState]:
 
 def _relative(
     ctx: Context, start: Start, said: Said, lanes: int, mine: LanePosition | None
-) -> tuple[Element, ActorState]:
+) -> tuple[xml.PositionPart, ActorState]:
     offset = lateral_of(ctx, start, mine)
     distance = {"ds" if ctx.version == "1.0" else "dsLane": said.along}
-    position = element(
-        "RelativeLanePosition",
+    position = xml.RelativeLanePosition(
         orientation_in_lane(ctx, start, mine),
         entityRef=said.reference.name,
         dLane=lanes,

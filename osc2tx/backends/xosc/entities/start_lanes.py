@@ -11,10 +11,10 @@ from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 from osc2tx.backends.xosc.facts.start_places import LaneNumber
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import ActorState, known
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
 
 
-def in_lane(ctx: Context, start: Start, place: LanePosition) -> tuple[Element, ActorState]:
+def in_lane(ctx: Context, start: Start, place: LanePosition) -> tuple[xml.PositionPart, ActorState]:
     """Return the place in a lane; where it is across the lane and turned to comes from others.
 
     Who walks is put to the point: tools would take it along the lane, and it goes straight on.
@@ -27,8 +27,7 @@ def in_lane(ctx: Context, start: Start, place: LanePosition) -> tuple[Element, A
         return at_pose(there, pitch, roll)
     right_hand = 1 if place.lane < 0 else -1  # where there is no map to ask
     sign = right_hand if ctx.roads is None else ctx.roads.leftwards(place) or right_hand
-    element_ = element(
-        "LanePosition",
+    element_ = xml.LanePosition(
         orientation_in_lane(ctx, start, place),
         roadId=place.road,
         laneId=place.lane,
@@ -39,10 +38,11 @@ def in_lane(ctx: Context, start: Start, place: LanePosition) -> tuple[Element, A
     return element_, ActorState(speed=known(0.0), offset=known(offset), lane=known_lane)
 
 
-def at_pose(pose: Pose, pitch: float | None, roll: float | None) -> tuple[Element, ActorState]:
+def at_pose(
+    pose: Pose, pitch: float | None, roll: float | None
+) -> tuple[xml.PositionPart, ActorState]:
     """Return a point in the world, on a lane or not."""
-    position = element(
-        "WorldPosition",
+    position = xml.WorldPosition(
         x=pose.x,
         y=pose.y,
         z=pose.z,

@@ -13,7 +13,7 @@ from osc2tx.backends.xosc.entities.stationary_actors import stands
 from osc2tx.backends.xosc.facts.actors import ALIGNED, Linear, apart, course_of_shift, lost_across
 from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
 
 AXES = {"length_to_width": 0.5 * math.pi, "width_to_length": -0.5 * math.pi}
 """Angle (rad) between the lines that `yaw_measure_by` names."""
@@ -57,7 +57,9 @@ def _heading_of(ctx: Context, other: CastMember, source: Arguments) -> float:
     return pose.h
 
 
-def orientation_in_lane(ctx: Context, start: Start, place: LanePosition | None) -> Element | None:
+def orientation_in_lane(
+    ctx: Context, start: Start, place: LanePosition | None
+) -> xml.Orientation | None:
     """Return how an actor on a lane is turned; `None`: along the lane.
 
     Raises:
@@ -68,9 +70,7 @@ def orientation_in_lane(ctx: Context, start: Start, place: LanePosition | None) 
     if ctx.roads is None or place is None:
         raise Inexpressible("where the lane leads is only known during the run", start.span)
     heading, pitch, roll = turned(ctx, start, ctx.roads.pose(place).h)
-    return element(
-        "Orientation", type="absolute", h=round(heading, 9), p=pitch or None, r=roll or None
-    )
+    return xml.Orientation(type="absolute", h=round(heading, 9), p=pitch or None, r=roll or None)
 
 
 def note_turn(ctx: Context, start: Start) -> None:

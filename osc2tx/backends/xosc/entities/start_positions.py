@@ -23,12 +23,12 @@ from osc2tx.backends.xosc.facts.start_places import (
 from osc2tx.backends.xosc.report import Inexpressible, NoPlace
 from osc2tx.backends.xosc.state import ActorState
 from osc2tx.backends.xosc.values.constants import Constant, Named
-from osc2tx.backends.xosc.xml.tree import Element
+from osc2tx.xosc import elements as xml
 
 at_start("location", "position", "along", "lane", "lateral", "on_path")
 
 
-def position_of(ctx: Context, start: Start, is_free: IsFree) -> tuple[Element, ActorState]:
+def position_of(ctx: Context, start: Start, is_free: IsFree) -> tuple[xml.PositionPart, ActorState]:
     """Return the position of an actor at the start, and what is known about the actor there.
 
     Args:
@@ -57,7 +57,9 @@ def position_of(ctx: Context, start: Start, is_free: IsFree) -> tuple[Element, A
     return _on_road(ctx, start, road, is_free)
 
 
-def _at_pose(ctx: Context, start: Start, location: Arguments) -> tuple[Element, ActorState]:
+def _at_pose(
+    ctx: Context, start: Start, location: Arguments
+) -> tuple[xml.PositionPart, ActorState]:
     pose = location.get("pose")
     if not isinstance(pose, Named):
         raise Inexpressible("the pose is not known before the run", location.source.span)
@@ -84,7 +86,9 @@ def _part(ctx: Context, owner: str, path: tuple[str, ...]) -> float | None:
     return float(value)
 
 
-def _at_point(ctx: Context, start: Start, position: Arguments) -> tuple[Element, ActorState]:
+def _at_point(
+    ctx: Context, start: Start, position: Arguments
+) -> tuple[xml.PositionPart, ActorState]:
     if "at_point" in position:
         point = position.get("at_point")
         if not isinstance(point, Named):
@@ -120,7 +124,7 @@ def _heading_at(
 
 def _near_point(
     ctx: Context, start: Start, point: tuple[float, float, float]
-) -> tuple[Element, ActorState]:
+) -> tuple[xml.PositionPart, ActorState]:
     """Return the place in the lane that is nearest to a point, or in one of the same road."""
     near = required_roads(ctx).map.locate(*point)
     if near is None:
@@ -142,7 +146,7 @@ def _numbered(ctx: Context, start: Start, place: LanePosition) -> LanePosition:
 
 def _on_route(
     ctx: Context, start: Start, along: Arguments, is_free: IsFree
-) -> tuple[Element, ActorState]:
+) -> tuple[xml.PositionPart, ActorState]:
     """Return the place at which a route begins, or so far from there; in a free lane of it."""
     lane, position = start.modifiers.get("lane"), start.modifiers.get("position")
     offset = along.number("start_offset") or 0.0
@@ -160,7 +164,7 @@ def _on_route(
 
 def _on_road(
     ctx: Context, start: Start, road: Constant | None, is_free: IsFree
-) -> tuple[Element, ActorState]:
+) -> tuple[xml.PositionPart, ActorState]:
     name, position, lane = start.id, start.modifiers.get("position"), lane_number(start)
     spawn = dict(map(read_spawn, ctx.options.spawns)).get(name)
     if ctx.roads is None:

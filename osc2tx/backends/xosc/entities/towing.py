@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TypeVar
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Arguments
@@ -12,7 +13,7 @@ from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import DRAWBAR
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Named
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
 
 at_start("tow_trailer")
 
@@ -36,35 +37,37 @@ def towing(ctx: Context) -> dict[str, str]:
     return found
 
 
-def _hitch(ctx: Context, vehicle: CastMember) -> Element:
+def _hitch(ctx: Context, vehicle: CastMember) -> xml.TrailerHitch:
     """Return where a vehicle tows: at its rear end, if the scenario says nothing else."""
-    return _half(ctx, "TrailerHitch", vehicle, "trailer_receiver", -vehicle.shape.rear)
+    return _half(ctx, xml.TrailerHitch, vehicle, "trailer_receiver", -vehicle.shape.rear)
 
 
-def _coupler(ctx: Context, trailer: CastMember) -> Element:
+def _coupler(ctx: Context, trailer: CastMember) -> xml.TrailerCoupler:
     """Return where a trailer is towed: before its box, likewise."""
-    return _half(ctx, "TrailerCoupler", trailer, "coupler", trailer.shape.front + DRAWBAR)
+    return _half(ctx, xml.TrailerCoupler, trailer, "coupler", trailer.shape.front + DRAWBAR)
 
 
-def _half(ctx: Context, tag: str, member: CastMember, field: str, usual: float) -> Element:
+Half = TypeVar("Half", xml.TrailerCoupler, xml.TrailerHitch)
+
+
+def _half(ctx: Context, kind: type[Half], member: CastMember, field: str, usual: float) -> Half:
     x, z = (ctx.values.field(member.actor.name, (field, f"position_{axis}")) for axis in "xz")
-    return element(
-        tag,
+    return kind(
         dx=round(float(x) if isinstance(x, (int, float)) else usual, 6),
         dz=float(z) if isinstance(z, (int, float)) else None,
     )
 
 
-def couplings(ctx: Context, member: CastMember) -> tuple[Element, ...]:
+def couplings(ctx: Context, member: CastMember) -> tuple[xml.VehiclePart, ...]:
     """Return what a vehicle has for being coupled, and the trailer that it tows at the start."""
     if ctx.version < "1.3" or not any("trailer" in m.actor.lineage for m in ctx.cast.values()):
         return ()
     if "trailer" in member.actor.lineage:
         return (_coupler(ctx, member),)
-    parts = [_hitch(ctx, member)] if _tows(ctx, member) else []
+    parts: list[xml.VehiclePart] = [_hitch(ctx, member)] if _tows(ctx, member) else []
     for trailer, tow in towing(ctx).items():
         if tow == member.name:
-            parts.append(element("Trailer", element("TrailerRef", entityRef=trailer)))
+            parts.append(xml.Trailer(xml.TrailerRef(entityRef=trailer)))
     return tuple(parts)
 
 

@@ -37,6 +37,7 @@ from osc2tx.backends.xosc.flattening.tree_queries import (
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.state import either
 from osc2tx.diagnostics import Span
+from osc2tx.xosc.element import Unwritable
 
 
 class Flattener:
@@ -67,9 +68,8 @@ class Flattener:
         try:
             start, skipped = unless_active(self._builder, node, start)
             return self._flatten(node, self._builder.mark_start(node, start)) | skipped
-        except Inexpressible as error:
-            span = error.span or node.span
-            self._ctx.report.cannot(construct_of(node), span, error.reason, error.remedy)
+        except Unwritable as error:
+            self._ctx.report.refuse(construct_of(node), node.span, error)
             return start
         finally:
             self._builder.place = outer

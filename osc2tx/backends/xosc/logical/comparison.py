@@ -7,8 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from math import isclose
 from typing import NamedTuple, TypeAlias
 
-from osc2tx.backends.xosc.xml.tree import Element
-from osc2tx_shared.classes import replace
+from osc2tx.xosc.element import Element
 
 Shown: TypeAlias = Mapping[str, float]
 """Values of the parameters of a document, by their names there."""
@@ -19,8 +18,7 @@ SAID_BESIDE = frozenset({"FileHeader", "ParameterDeclarations"})
 
 def story_of(document: Element) -> Element:
     """Return a document with the parts that say what happens."""
-    parts = tuple(part for part in document.children if part.name not in SAID_BESIDE)
-    return replace(document, children=parts)
+    return document.with_children(*(p for p in document.children if p.tag not in SAID_BESIDE))
 
 
 class Place(NamedTuple):
@@ -54,7 +52,7 @@ def differences(document: Element, other: Element, shown: Shown) -> frozenset[Pl
 
 
 def _unlike(a: Element, b: Element, shown: Shown, path: tuple[int, ...]) -> Iterator[Place]:
-    if a.name != b.name or len(a.children) != len(b.children) or a.text != b.text:
+    if a.tag != b.tag or len(a.children) != len(b.children) or a.text != b.text:
         raise _OtherShape
     left, right = dict(a.attributes), dict(b.attributes)
     if left.keys() != right.keys():

@@ -13,11 +13,13 @@ from typing import TypeAlias
 from osc2tx.backends.xosc.logical.comparison import SAID_BESIDE, Place, story_of
 from osc2tx.backends.xosc.logical.parameters import STEPS, OpenParameter, declared, value_text
 from osc2tx.backends.xosc.logical.sampling import Domain, Row
-from osc2tx.backends.xosc.xml.names import Names
-from osc2tx.backends.xosc.xml.schema import ROOT_TYPE, element_type
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.backends.xosc.names import Names
 from osc2tx.options import XmlVersion
-from osc2tx_shared.classes import dataclass, replace
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Element
+from osc2tx.xosc.literals import ParameterType
+from osc2tx.xosc.schema import ROOT_TYPE, element_type
+from osc2tx_shared.classes import dataclass
 
 
 def needs_table(domain: Domain) -> bool:
@@ -28,7 +30,9 @@ def needs_table(domain: Domain) -> bool:
     return len(domain.parameters) > 1 and combinations > domain.most_rows
 
 
-def document(header: Element, file: str, distributions: Sequence[Element]) -> Element:
+def document(
+    header: xml.FileHeader, file: str, distributions: Sequence[xml.DeterministicPart]
+) -> xml.OpenSCENARIO:
     """Return the document.
 
     Args:
@@ -36,47 +40,43 @@ def document(header: Element, file: str, distributions: Sequence[Element]) -> El
         file: Name of the document of the scenario.
         distributions: What it holds.
     """
-    return element(
-        "OpenSCENARIO",
+    return xml.OpenSCENARIO(
         header,
-        element(
-            "ParameterValueDistribution",
-            element("ScenarioFile", filepath=file),
-            element("Deterministic", *distributions),
+        xml.ParameterValueDistribution(
+            xml.ScenarioFile(filepath=file),
+            xml.Deterministic(*distributions),
         ),
     )
 
 
-def single(parameter: OpenParameter, domain: Domain) -> Element:
+def single(
+    parameter: OpenParameter, domain: Domain
+) -> xml.DeterministicSingleParameterDistribution:
     """Return the values of one parameter; tools combine them with those of others."""
+    values: xml.DistributionSet | xml.DistributionRange
     if parameter.choices:
-        values = element(
-            "DistributionSet",
-            *(element("Element", value=value_text(choice)) for choice in parameter.choices),
+        values = xml.DistributionSet(
+            *(xml.Element(value=value_text(choice)) for choice in parameter.choices),
         )
     else:
         low, high = parameter.limits(domain.values(parameter))
-        values = element(
-            "DistributionRange",
-            element("Range", lowerLimit=low, upperLimit=high),
+        values = xml.DistributionRange(
+            xml.Range(lowerLimit=low, upperLimit=high),
             stepWidth=floor((high - low) / STEPS * 1e9) / 1e9,  # reach the end
         )
-    return element("DeterministicSingleParameterDistribution", values, parameterName=parameter.name)
+    return xml.DeterministicSingleParameterDistribution(values, parameterName=parameter.name)
 
 
 def table(
     parameters: Sequence[OpenParameter], rows: Sequence[Row], columns: Sequence[Column]
-) -> Element:
+) -> xml.DeterministicMultiParameterDistribution:
     """Return the values of parameters together, with those of what follows from them."""
     known = {parameter.name for parameter in parameters}
     following = [column for column in columns if column.name not in known]
-    return element(
-        "DeterministicMultiParameterDistribution",
-        element(
-            "ValueSetDistribution",
+    return xml.DeterministicMultiParameterDistribution(
+        xml.ValueSetDistribution(
             *(
-                element(
-                    "ParameterValueSet",
+                xml.ParameterValueSet(
                     *(_assigned(p.name, value_text(row.point[p.key])) for p in parameters),
                     *(_assigned(column.name, column.texts[index]) for column in following),
                 )
@@ -86,14 +86,14 @@ def table(
     )
 
 
-def _assigned(name: str, value: str) -> Element:
-    return element("ParameterAssignment", parameterRef=name, value=value)
+def _assigned(name: str, value: str) -> xml.ParameterAssignment:
+    return xml.ParameterAssignment(parameterRef=name, value=value)
 
 
 MOST_COLUMNS = 60
 """Attributes that follow from parameters; a table with more is no help to anyone."""
 
-_TYPES = {
+_TYPES: Mapping[str, ParameterType] = {
     "Boolean": "boolean",
     "Double": "double",
     "Int": "int",
@@ -117,11 +117,11 @@ class Column:
     """
 
     name: str
-    type: str
+    type: ParameterType
     texts: Texts
     places: tuple[Place, ...]
 
-    def declaration(self, version: XmlVersion) -> Element:
+    def declaration(self, version: XmlVersion) -> xml.ParameterDeclaration:
         """Return its declaration."""
         return declared(self.name, self.type, self.texts[0], version)
 
@@ -156,40 +156,38 @@ def _text(node: Element, place: Place) -> str:
     return dict(node.attributes)[place.attribute]
 
 
-def _type_and_name(story: Element, place: Place) -> tuple[str, str]:
+def _type_and_name(story: Element, place: Place) -> tuple[ParameterType, str]:
     """Return the type of a parameter for an attribute, and what it is called after."""
     node, owner = story, ""
-    part = element_type(ROOT_TYPE).children[story.name]
+    part = element_type(ROOT_TYPE).children[story.tag]
     for index in place.path:
         node = node.children[index]
-        part = element_type(part.type).children[node.name]
-        if node.name != "Action":  # its event is called after the source
+        part = element_type(part.type).children[node.tag]
+        if node.tag != "Action":  # its event is called after the source
             owner = node.get("name") or node.get("entityRef") or owner
     attribute = element_type(part.type).attributes[place.attribute]
-    return _TYPES.get(attribute.type, "string"), f"{owner or node.name}_{place.attribute}"
+    return _TYPES.get(attribute.type, "string"), f"{owner or node.tag}_{place.attribute}"
 
 
 def with_columns(document: Element, columns: Sequence[Column], version: XmlVersion) -> Element:
     """Return a document whose attributes refer to columns, which it declares."""
     names = {place: column.name for column in columns for place in column.places}
     story = _referring(story_of(document), names, ())
-    beside = [part for part in document.children if part.name in SAID_BESIDE]
-    declared_ = [
-        n for part in beside if part.name == "ParameterDeclarations" for n in part.children
-    ]
-    known = {node.get("name") for node in declared_}
+    beside = [part for part in document.children if part.tag in SAID_BESIDE]
+    declarations = document.find(xml.ParameterDeclarations) or xml.ParameterDeclarations()
+    known = {node.name for node in declarations.all(xml.ParameterDeclaration)}
     added = [column.declaration(version) for column in columns if column.name not in known]
-    parts = [part for part in beside if part.name != "ParameterDeclarations"]
-    parts.append(element("ParameterDeclarations", *declared_, *added))
-    return replace(document, children=(*parts, *story.children))
+    parts = [part for part in beside if part.tag != "ParameterDeclarations"]
+    declarations = declarations.with_children(*declarations.children, *added)
+    return document.with_children(*parts, declarations, *story.children)
 
 
 def _referring(node: Element, names: Mapping[Place, str], path: tuple[int, ...]) -> Element:
-    attributes = tuple(
-        (key, f"${names[Place(path, key)]}" if Place(path, key) in names else text)
+    attributes = {
+        key: f"${names[Place(path, key)]}" if Place(path, key) in names else text
         for key, text in node.attributes
-    )
-    children = tuple(
+    }
+    children = (
         _referring(child, names, (*path, index)) for index, child in enumerate(node.children)
     )
-    return replace(node, attributes=attributes, children=children)
+    return node.with_attributes(attributes).with_children(*children)

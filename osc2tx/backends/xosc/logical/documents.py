@@ -34,8 +34,9 @@ from osc2tx.backends.xosc.logical.parameters import (
     value_text,
 )
 from osc2tx.backends.xosc.logical.sampling import Domain, Row, inward
-from osc2tx.backends.xosc.xml.tree import Element
 from osc2tx.options import XmlVersion
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Element
 from osc2tx_shared.classes import dataclass, replace
 
 Write: TypeAlias = Callable[[Choosing], tuple[Context, Element | None]]
@@ -72,7 +73,7 @@ class Logical:
         """Open parameters that are parameters of the document."""
         return self.domain.parameters
 
-    def distributions(self) -> list[Element]:
+    def distributions(self) -> Sequence[xml.DeterministicPart]:
         """Return the values that its parameters may have."""
         if self.rows:
             return [table(self.kept, self.rows, self.columns)]

@@ -11,15 +11,17 @@ from collections.abc import Iterator, Mapping
 from typing import TypeAlias
 
 from osc2tx import ir
+from osc2tx.backends.xosc.names import Names, plain
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope, key_of, open_scopes
 from osc2tx.backends.xosc.values.constants import Constant, Member
 from osc2tx.backends.xosc.values.folding import Values
-from osc2tx.backends.xosc.values.symbolic_numbers import Symbol
-from osc2tx.backends.xosc.xml.names import Names, plain
-from osc2tx.backends.xosc.xml.tree import Element, element, text_of
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlVersion
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import text_of
+from osc2tx.xosc.expressions import Symbol
+from osc2tx.xosc.literals import ParameterType
 from osc2tx_shared.classes import dataclass
 
 STEPS = 4
@@ -81,7 +83,7 @@ class OpenParameter:
         )
 
     @property
-    def type(self) -> str:
+    def type(self) -> ParameterType:
         """The type of its declaration: `double`, `int`, `boolean` or `string`."""
         if self.is_number:
             return "int" if self.is_whole else "double"
@@ -282,22 +284,25 @@ def _sides(scope: Scope, names: Names) -> Iterator[OpenParameter]:
 
 def declaration(
     parameter: OpenParameter, nominal: Constant, values: Values, version: XmlVersion
-) -> Element:
+) -> xml.ParameterDeclaration:
     """Return the declaration, from 1.1 on with its limits if they are constants."""
     limits = None
     if version >= "1.1" and not parameter.choices and not parameter.is_dependent:
         low, high = parameter.limits(values)
-        limits = element(
-            "ConstraintGroup",
-            element("ValueConstraint", rule="greaterOrEqual", value=low),
-            element("ValueConstraint", rule="lessOrEqual", value=high),
+        limits = xml.ConstraintGroup(
+            xml.ValueConstraint(rule="greaterOrEqual", value=low),
+            xml.ValueConstraint(rule="lessOrEqual", value=high),
         )
     return declared(parameter.name, parameter.type, value_text(nominal), version, limits)
 
 
 def declared(
-    name: str, type_: str, value: str, version: XmlVersion, limits: Element | None = None
-) -> Element:
+    name: str,
+    type_: ParameterType,
+    value: str,
+    version: XmlVersion,
+    limits: xml.ConstraintGroup | None = None,
+) -> xml.ParameterDeclaration:
     """Return the declaration of a parameter; before 1.2 `int` is called `integer`."""
     type_ = "integer" if type_ == "int" and version < "1.2" else type_
-    return element("ParameterDeclaration", limits, name=name, parameterType=type_, value=value)
+    return xml.ParameterDeclaration(limits, name=name, parameterType=type_, value=value)

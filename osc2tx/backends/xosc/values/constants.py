@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import TypeAlias
 
 from osc2tx import ir
@@ -78,8 +78,11 @@ class UserTypes:
             return None if field is None else field.default
         return self.default(field.type.name, path[1:])
 
+    def fields(self, type_name: str) -> Iterator[ir.UserField]:
+        """Yield the fields that a type has by files of the module, those of bases first."""
+        for name in reversed(ir.lineage(type_name, self._types)):
+            if name in self._types:
+                yield from self._types[name].fields
+
     def _field(self, type_name: str, name: str) -> ir.UserField | None:
-        lineage = ir.lineage(type_name, self._types)
-        types = (self._types[each] for each in lineage if each in self._types)
-        fields = (field for own in types for field in own.fields)
-        return next((field for field in fields if field.name == name), None)
+        return next((field for field in self.fields(type_name) if field.name == name), None)

@@ -7,7 +7,7 @@ what is given for it, a number or a `Symbol`, else the middle.
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from copy import copy
 
 from osc2tx import ir
@@ -20,7 +20,7 @@ from osc2tx.backends.xosc.values.constants import (
     Named,
     UserTypes,
 )
-from osc2tx.backends.xosc.values.symbolic_numbers import Symbol
+from osc2tx.xosc.expressions import Symbol
 
 MAKERS = frozenset(
     {
@@ -149,6 +149,21 @@ class Values:
             default = self._types.default(declaration.type, path)
             return None if default is None else self.of(default)
         return None
+
+    def own_fields(self, name: str) -> Iterator[tuple[str, str | float]]:
+        """Yield the plain values of the fields that files of the user give to an actor.
+
+        Nothing in a document depends on them, so what only the run knows is left out.
+        """
+        for field in self._types.fields(self.type_of(name)):
+            try:
+                value = self.field(name, (field.name,))
+            except Inexpressible:
+                continue
+            if isinstance(value, Member):
+                yield field.name, value.name
+            elif isinstance(value, (int, float, str)):
+                yield field.name, value
 
     def type_of(self, name: str) -> str:
         """Return the type of an actor or struct."""

@@ -11,6 +11,7 @@ from osc2tx_runtime.domain.modifiers import (
     MapModifier,
     SetTrafficLightsControlFile,
 )
+from osc2tx_runtime.domain.placing.entries import Entries
 from osc2tx_runtime.domain.placing.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.placing.placer import Placer
 from osc2tx_runtime.domain.placing.start_order import (
@@ -54,6 +55,7 @@ class ScenarioInitializer(StartRoom[ActorStart]):
         self._map_objects = map_objects
         self._world = context.world
         self._placer = Placer(context.world)
+        self._ways = context.entries.ways if isinstance(context.entries, Entries) else {}
 
     def run(self, placements: Sequence[Placement]) -> None:
         """Places every physical actor and sets the routes of those with a destination.
@@ -147,6 +149,10 @@ class ScenarioInitializer(StartRoom[ActorStart]):
     def place(self, start: ActorStart) -> Placed:
         """Places one actor."""
         actor = start.actor
+        way = self._ways.get(actor.id)
+        if way is not None:
+            self._world.place(actor.id, way.start, way.speed, way.heading, way.tilt)
+            return self._placed_now(actor)
         if start.towed_by is not None:
             tow = self._world.state(start.towed_by.id)
             self._world.place(actor.id, pose_behind(tow, actor.shape), tow.v)
@@ -205,6 +211,9 @@ class ScenarioInitializer(StartRoom[ActorStart]):
     # --- routes -------------------------------------------------------------------------------
 
     def _set_routes(self) -> None:
+        for actor_id, way in self._ways.items():
+            if isinstance(way.goal, LanePosition) and way.heading is None:
+                self._world.set_route(actor_id, self._world.map.route_to(way.goal))
         for actor_id, goal in self._context.settings.destination.items():
             if actor_id not in self._placed:
                 raise SettingsError(f"--destination {actor_id}={goal}: {actor_id} is not placed")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Unpack
 
@@ -238,6 +239,11 @@ class ModifiedMotion(MotionAction):
         self._phase: DurationLimits | None = None
         self._given = self.modifiers
         self.planned: float | None = None
+
+    def state_at_start(self, modifiers: Sequence[Modifier]) -> None:
+        """Let the action also have modifiers that hold at its start; before setup."""
+        super().state_at_start(modifiers)
+        self._given = self.modifiers
 
     def initialise(self) -> None:
         """Read the arguments of the modifiers that are read late, and start."""

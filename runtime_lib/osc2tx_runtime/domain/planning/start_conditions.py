@@ -12,7 +12,12 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.domain.modifiers import Lane, Lateral, Modifier, Orient, Position, Speed, Yaw
 from osc2tx_runtime.domain.modifiers.groups import PLACES
 from osc2tx_runtime.domain.placing.placer import Placer
-from osc2tx_runtime.domain.placing.pose_resolution import heading_of, headings_of, tilt_of
+from osc2tx_runtime.domain.placing.pose_resolution import (
+    heading_of,
+    headings_of,
+    pose_of,
+    tilt_of,
+)
 from osc2tx_runtime.domain.planning.lateral.lateral_speed_planning import lateral_speed_bounds
 from osc2tx_runtime.domain.planning.lateral.lateral_targets import lanes_wanted
 from osc2tx_runtime.domain.planning.longitudinal.goals import way_to
@@ -122,6 +127,11 @@ def _check_measured(action: ModifiedMotion, at_start: Sequence[Modifier]) -> Non
 
 
 def _check_place(action: ModifiedMotion, position: Position) -> None:
+    if position.absolute and not position.project_on_route:
+        at, _ = pose_of(action.movable, position)
+        off = math.hypot(action.here.x - at.x, action.here.y - at.y)
+        _within(off, 0.0, 0.0, _NEAR, "its distance from its point is", "m")
+        return
     here, low, high, what = measured(action, position)
     _within(here, low, high, _NEAR, what, "m")
 

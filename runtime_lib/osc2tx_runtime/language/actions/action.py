@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar, TypedDict
 
@@ -71,6 +72,10 @@ class Action(BaseAction):
         if self.slots is self.registered.slots:  # not narrowed by a subclass
             self.slots = method.slots
         super().become(method)
+
+    def state_at_start(self, modifiers: Sequence[Modifier]) -> None:
+        """Let the action also have modifiers that hold at its start; before setup."""
+        self.modifiers = (*modifiers, *self.modifiers)
 
     def takes(self, modifier: Modifier) -> bool:
         """Return whether the action carries out a modifier."""

@@ -127,6 +127,8 @@ class BaseAction(Leaf):
         self._start_step = self.context.step
         if self._limits is not None:
             self._limits.begin()
+        if self.context.entries is not None:
+            self.context.entries.begins(self)
         self.context.trace.action("start", self)
         if self.context.monitors is not None:
             self.context.monitors.begins(self)

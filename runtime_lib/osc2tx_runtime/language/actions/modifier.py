@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 from osc2tx_runtime.language.actions.argument_rules import check_arguments
 from osc2tx_runtime.world.protocol import Feature
-from osc2tx_shared.classes import dataclass
+from osc2tx_shared.classes import dataclass, replace
 from osc2tx_shared.rules import ModifierRules, Rule
 
 __all__ = ["COURSE", "LANE", "SIDE", "Modifier", "ModifierFacts"]
@@ -73,6 +73,11 @@ class Modifier:
     def is_start(self) -> bool:
         """Whether it is a demand on the start alone."""
         return getattr(self, "at", "all") == "start" and self.facts.rules.starts
+
+    def at_start(self) -> Modifier:
+        """Return it as a demand on the start alone, where it can be one."""
+        options: dict[str, Any] = {"at": "start"} if self.facts.rules.starts else {}
+        return replace(self, **options)
 
     def given(self) -> dict[str, Any]:
         """Parameters with values other than those of a modifier without arguments."""

@@ -19,7 +19,12 @@ from osc2tx_runtime.language.tree.coverage import Recording
 from osc2tx_runtime.language.tree.directives import Until
 from osc2tx_runtime.language.tree.ending import End, Ending
 from osc2tx_runtime.language.tree.events import Event
-from osc2tx_runtime.language.tree.invocation import invocations, own_nodes, unique_name
+from osc2tx_runtime.language.tree.invocation import (
+    Invocation,
+    own_nodes,
+    started_at_once,
+    unique_name,
+)
 from osc2tx_runtime.language.tree.override import Mode, guard
 from osc2tx_runtime.language.tree.parallel import Parallel
 from osc2tx_runtime.language.tree.variables import Sampling, SamplingStart
@@ -168,28 +173,48 @@ def around(scenario: ScenarioParts, tree: Behaviour, whole: Node) -> Node:
     """Return a node around a tree that the module does not write."""
     whole.synthetic, whole.label = True, None
     whole.source, whole.scope = getattr(tree, "source", ""), scenario._path
+    whole.listeners = scenario.label_events
     return whole
 
 
 def invoked_placements(scenario: ScenarioParts, tree: Behaviour) -> list[Placement]:
-    """Return the placements of all scenarios that a tree invokes.
+    """Return the placements of the scenarios that start with a tree.
 
-    UnsupportedError: If one of them starts later: actors cannot be placed then. UnsupportedError:
-        If one of them starts later: nobody can be put anywhere then.
+    Those of scenarios that start later become conditions on the start of their actions again.
     """
     found: list[Placement] = []
-    for invocation, at_once in invocations(tree, scenario.one_of == "race"):
-        placements = invocation.scenario.placements
-        if not at_once:
-            placements = [placement for placement in placements if not placement.throughout]
-        if placements and not at_once:
-            raise UnsupportedError(
-                f"{invocation.name} places {placements[0].actor.id}, but does not start with the"
-                " scenario; place it in the scenario that runs",
-                placements[0].source,
-            )
-        found += placements
+    race = scenario.one_of == "race"
+    for node, at_once in started_at_once(tree, race):
+        if not isinstance(node, Invocation):
+            continue
+        if at_once:
+            found += node.scenario.placements
+            continue
+        for placement in node.scenario.placements:
+            if not placement.throughout:
+                _state_at_start(node, placement, race)
     return found
+
+
+def _state_at_start(invocation: Invocation, placement: Placement, race: bool) -> None:
+    """State a placement at the first action of its actor.
+
+    Raises:
+        UnsupportedError: It has none when the scenario starts.
+    """
+    for action, at_once in started_at_once(invocation, race):
+        if not at_once or not isinstance(action, Action) or action.actor is not placement.actor:
+            continue
+        stated = [m for m in placement.modifiers if m not in action.modifiers]
+        starts = [m.at_start() for m in stated if m.facts.rules.starts]
+        if len(starts) == len(stated) and all(map(action.takes, starts)):
+            action.state_at_start(starts)
+            return
+    raise UnsupportedError(
+        f"{invocation.name} places {placement.actor.id}, but does not start with the scenario; let"
+        f" an action of {placement.actor.id} state it",
+        placement.source,
+    )
 
 
 def number_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:

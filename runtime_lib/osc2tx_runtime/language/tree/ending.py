@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from py_trees.decorators import Decorator
 
+from osc2tx_runtime.language.context import PostedEvent
 from osc2tx_runtime.language.tree.base import (
     FAILURE,
     RUNNING,
@@ -19,6 +20,9 @@ from osc2tx_runtime.language.tree.base import (
 )
 
 __all__ = ["End", "Ending", "Fail"]
+
+WHOLE = "do"
+"""Label of all that a scenario does, in modules in which something reacts to its failure."""
 
 
 class End(Leaf):
@@ -63,11 +67,19 @@ class Ending(Node, Decorator):
         super().__init__(name=behavior.name, child=behavior)
         self._ends = sorted(ends, key=lambda end: end.name)
         self.failed_by: Fail | None = None
+        self._failure: PostedEvent | None = None
+        self._is_posted = False
 
     def setup(self, **kwargs: object) -> None:
         """Take the context; find out how to tick the tree."""
         super().setup(**kwargs)
+        listeners = self.context.label_events if self.listeners is None else self.listeners
+        self._failure = listeners.get((WHOLE, "fail"))
         self._pulse_child = pulse_of(self.decorated)
+
+    def initialise(self) -> None:
+        """Start: nothing has failed yet."""
+        self._is_posted = False
 
     def length(self) -> int | None:
         """Return nothing: only the run can tell."""
@@ -88,6 +100,9 @@ class Ending(Node, Decorator):
             return RUNNING
         reached = [end for end in self._ends if end.status is RUNNING]
         failed = [end for end in reached if isinstance(end, Fail)]
+        if status is RUNNING and failed and self._failure is not None and not self._is_posted:
+            self._is_posted = True
+            self.context.post(self._failure)  # what reacts to it is in the tree, and still runs
         if status is RUNNING and reached and not self.context.settled:
             self.context.request_settling()  # what still happens at this instant belongs to it
             return RUNNING

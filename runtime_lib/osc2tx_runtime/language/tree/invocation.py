@@ -8,14 +8,21 @@ from typing import TYPE_CHECKING, Any
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.declared import BaseActor
 from osc2tx_runtime.language.tree.base import Behaviour, Node
-from osc2tx_runtime.language.tree.compositions import OneOf, Serial
+from osc2tx_runtime.language.tree.compositions import OneOf, Serial, is_service
 from osc2tx_runtime.language.tree.duration_limits import Duration
 from osc2tx_runtime.language.tree.parallel import Parallel
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.scenario_parts import ScenarioParts
 
-__all__ = ["Invocation", "check_recursion", "draw_key", "invocations", "own_nodes", "unique_name"]
+__all__ = [
+    "Invocation",
+    "check_recursion",
+    "draw_key",
+    "own_nodes",
+    "started_at_once",
+    "unique_name",
+]
 
 
 class Invocation(Serial):
@@ -91,20 +98,19 @@ def own_nodes(root: Behaviour) -> Iterator[Node]:
             yield from own_nodes(child)
 
 
-def invocations(
+def started_at_once(
     node: Behaviour, race: bool, at_once: bool = True
-) -> Iterator[tuple[Invocation, bool]]:
-    """Yield the invocations in a tree, and whether they surely start with it.
+) -> Iterator[tuple[Behaviour, bool]]:
+    """Yield the nodes of a tree, parents first, and whether they surely start with it.
 
     Args:
         node: Root of the tree.
         race: All members of a `one_of` start.
         at_once: The root does.
     """
-    if isinstance(node, Invocation):
-        yield node, at_once
+    yield node, at_once
     for child, first in zip(node.children, starts_at_once(node, race), strict=True):
-        yield from invocations(child, race, at_once and first)
+        yield from started_at_once(child, race, at_once and first)
 
 
 def starts_at_once(node: Behaviour, race: bool) -> list[bool]:
@@ -121,4 +127,4 @@ def starts_at_once(node: Behaviour, race: bool) -> list[bool]:
         return [low == 0 or (low > 0 and index == 0) for index in range(len(members))]
     if isinstance(node, OneOf):
         return [race] * len(members)
-    return [len(members) == 1] * len(members)
+    return [len(members) == 1 and not is_service(node)] * len(members)

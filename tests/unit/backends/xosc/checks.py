@@ -16,7 +16,7 @@ from qc_openscenario import constants
 from qc_openscenario.main import run_checks
 
 from osc2tx.backends.xosc import XmlScenario
-from tests.unit.backends.xosc.schemas import validator
+from tests.unit.xosc.schemas import validator
 
 NAMED = ("Story", "Act", "ManeuverGroup", "Maneuver", "Event", "Action", "Condition")
 LOCAL = ("ManeuverGroup", "Maneuver", "Action", "Condition")

@@ -6,7 +6,7 @@ from typing import Any
 
 from lxml import etree
 
-from tests.unit.backends.xosc.schemas import schema_of
+from tests.unit.xosc.schemas import schema_of
 
 XSD = "{http://www.w3.org/2001/XMLSchema}"
 ROOT_TYPE = "OpenScenario"

@@ -8,12 +8,12 @@ from lxml import etree
 
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, at_time, run_start, single, state_of
 from osc2tx.backends.xosc.conditions.flow import Test as Condition
-from osc2tx.backends.xosc.xml.tree import element
 from osc2tx.options import XmlOptions
+from osc2tx.xosc import elements as xml
 from tests.unit.backends.xosc.documents import compiled, documents
 
 A, B = single(state_of("event", "a")), single(state_of("event", "b"))
-EDGE = single(Condition(element("ByEntityCondition"), "rising"))
+EDGE = single(Condition(xml.ByEntityCondition(), "rising"))
 
 
 def names(flow: Flow) -> list[list[str | None]]:

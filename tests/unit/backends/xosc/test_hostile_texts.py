@@ -5,10 +5,10 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.xml.tree import element, text_of
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions, XmlOptions
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Unwritable, text_of
 from tests.unit.backends.xosc.checks import schema_errors, story_problems
 
 SOURCE = """\
@@ -91,8 +91,8 @@ def test_names_that_look_alike_stay_apart(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("text", ["$x", "${1}", "a\x00b", "a\x1bb", "\ufffe", "\ud800"])
 def test_attributes_refuse(text: str) -> None:
-    with pytest.raises(Inexpressible):
-        element("Property", name="a", value=text)
+    with pytest.raises(Unwritable):
+        xml.Property(name="a", value=text)
 
 
 def test_attributes_take_all_other_texts() -> None:

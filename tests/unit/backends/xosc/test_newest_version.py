@@ -12,7 +12,7 @@ from osc2tx.options import CompileOptions, Standard, XmlOptions, XmlVersion
 from tests.unit.backends.xosc.checks import schema_errors
 from tests.unit.backends.xosc.deprecations import deprecated
 from tests.unit.backends.xosc.documents import documents
-from tests.unit.backends.xosc.schemas import TOOL
+from tests.unit.xosc.schemas import TOOL
 
 NEW = tomllib.loads(TOOL.with_name("xosc_1_4.toml").read_text(encoding="utf-8"))
 

@@ -6,9 +6,9 @@ import pytest
 from lxml import etree
 
 from osc2tx.backends.xosc.logical.comparison import evaluated
-from osc2tx.backends.xosc.values.symbolic_numbers import LONGEST, Symbol
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions, XmlOptions, XmlVersion
+from osc2tx.xosc.expressions import LONGEST, Symbol
 from tests.unit.backends.xosc.checks import schema_errors, story_problems
 
 SOURCE = """\

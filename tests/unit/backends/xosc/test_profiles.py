@@ -1,6 +1,6 @@
 """Profiles of tools: one for each name that `--xml-profile` takes."""
 
-from osc2tx.backends.xosc.xml.profiles import PROFILES
+from osc2tx.backends.xosc.profiles import PROFILES
 from osc2tx.options import DEFAULT_XML_VERSION, ONLY_VERSIONS, XML_PROFILES
 
 

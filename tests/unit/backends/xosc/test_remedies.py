@@ -2,8 +2,8 @@
 
 import pytest
 
+from osc2tx.backends.xosc.profiles import PROFILES, ToolProfile
 from osc2tx.backends.xosc.report import Remedy
-from osc2tx.backends.xosc.xml.profiles import PROFILES, ToolProfile
 from osc2tx.options import XmlOptions, XmlProfile
 from tests.unit.backends.xosc.documents import compiled, documents
 from tests.xosc.test_parity import SCENARIOS

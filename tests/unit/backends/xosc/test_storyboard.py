@@ -3,20 +3,21 @@
 from osc2tx.backends.xosc.conditions import flow
 from osc2tx.backends.xosc.conditions.flow import Flow, run_start, state_of
 from osc2tx.backends.xosc.flattening.storyboard.storyboard import StoryboardWriter
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Element
 
 
 def on(name: str) -> Element:
-    value = element("VariableCondition", variableRef=name, rule="equalTo", value="true")
-    return element("ByValueCondition", value)
+    value = xml.VariableCondition(variableRef=name, rule="equalTo", value="true")
+    return xml.ByValueCondition(value)
 
 
 def order(*group: flow.Test) -> list[str]:
     """Return the tags and edges of a written group."""
-    trigger = StoryboardWriter("1.3").trigger("StartTrigger", Flow((group,)), "start")
+    trigger = StoryboardWriter("1.3").trigger(xml.StartTrigger, Flow((group,)), "start")
     (written,) = trigger.children
     return [
-        f"{condition.children[0].children[0].name} {condition.get('conditionEdge')}"
+        f"{condition.children[0].children[0].tag} {condition.get('conditionEdge')}"
         for condition in written.children
     ]
 

@@ -17,7 +17,8 @@ from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.facts.oncoming_lanes import is_oncoming, number_of_oncoming
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres
 from osc2tx.backends.xosc.state import LATERAL, ActorState, known
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import DynamicsDimension, DynamicsShape
 from osc2tx_shared.classes import replace
 
 LANE_WIDTH = 3.5
@@ -133,17 +134,17 @@ def lane_change(
         if own_lanes is None:
             leaf.ctx.require_support("RelativeTargetLane/entityRef", leaf.node.span)
         reference, lanes = None, count
-    goal = element("RelativeTargetLane", entityRef=reference or leaf.member.name, value=lanes)
+    goal: xml.LaneChangeTargetPart
+    goal = xml.RelativeTargetLane(entityRef=reference or leaf.member.name, value=lanes)
     number = _number_among_oncoming(leaf, here, target, offset)
     if number is not None:
-        goal = element("AbsoluteTargetLane", value=number)
+        goal = xml.AbsoluteTargetLane(value=number)
     elif is_absolute and target is not None and leaf.ctx.can("AbsoluteTargetLane", "1.0"):
-        goal = element("AbsoluteTargetLane", value=target.lane)
+        goal = xml.AbsoluteTargetLane(value=target.lane)
     action = lateral(
-        element(
-            "LaneChangeAction",
+        xml.LaneChangeAction(
             _dynamics(leaf, shape, time),
-            element("LaneChangeTarget", goal),
+            xml.LaneChangeTarget(goal),
             targetLaneOffset=along_t(leaf, offset, target) or None,
         )
     )
@@ -220,15 +221,16 @@ def note_drift(
     )
 
 
-def shape_of(leaf: Leaf, course: Profile, profile: str) -> str:
+def shape_of(leaf: Leaf, course: Profile, profile: str) -> DynamicsShape:
     """Return the literal for a course; where the scenario leaves it open, any is right."""
     is_free = profile == "none" and not leaf.ctx.profile.has_shapes
     return "linear" if isinstance(course, Linear) or is_free else "sinusoidal"
 
 
-def _dynamics(leaf: Leaf, shape: str, time: float) -> Element:
+def _dynamics(leaf: Leaf, shape: DynamicsShape, time: float) -> xml.LaneChangeActionDynamics:
     """Return the dynamics of a lane change, over a distance for tools that ask for it."""
-    dimension, value = "time", time
+    dimension: DynamicsDimension = "time"
+    value = time
     speed = leaf.state.speed
     asks = f"LaneChangeActionDynamics/{dimension}" in leaf.ctx.profile.unsupported
     if asks and speed is not None and speed.is_known and speed.low > 0.0 and time > 0.0:
@@ -243,8 +245,7 @@ def _dynamics(leaf: Leaf, shape: str, time: float) -> Element:
             " longer",
             GENERIC,
         )
-    return element(
-        "LaneChangeActionDynamics",
+    return xml.LaneChangeActionDynamics(
         dynamicsShape=shape,
         dynamicsDimension=dimension,
         value=round(value, 6),
@@ -340,6 +341,6 @@ def offset_of(state: ActorState) -> float:
     return state.offset.low if state.offset is not None and state.offset.is_known else 0.0
 
 
-def lateral(action: Element) -> Element:
+def lateral(action: xml.LateralActionPart) -> xml.PrivateAction:
     """Return the private action around a lateral one."""
-    return element("PrivateAction", element("LateralAction", action))
+    return xml.PrivateAction(xml.LateralAction(action))

@@ -24,7 +24,7 @@ from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.facts.oncoming_lanes import is_oncoming
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LATERAL, known
-from osc2tx.backends.xosc.xml.tree import element
+from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 
 INSIDE = 1.2
@@ -83,16 +83,12 @@ def offset_change(
     half_turn = math.pi / course.duration
     peak_rate = 0.5 * way * half_turn * half_turn
     action = lateral(
-        element(
-            "LaneOffsetAction",
-            element(
-                "LaneOffsetActionDynamics",
+        xml.LaneOffsetAction(
+            xml.LaneOffsetActionDynamics(
                 dynamicsShape=shape,
                 maxLateralAcc=round(peak_rate, 6),
             ),
-            element(
-                "LaneOffsetTarget", element("AbsoluteTargetLaneOffset", value=along_t(leaf, offset))
-            ),
+            xml.LaneOffsetTarget(xml.AbsoluteTargetLaneOffset(value=along_t(leaf, offset))),
             continuous=False,
         )
     )

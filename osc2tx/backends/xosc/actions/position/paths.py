@@ -29,7 +29,7 @@ from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
 from osc2tx.backends.xosc.values.constants import Constant, Named
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 
 
@@ -158,9 +158,9 @@ def _is_there(leaf: Leaf, point: Waypoint) -> bool:
     return pose is not None and math.hypot(point.x - pose.x, point.y - pose.y) < 1e-3
 
 
-def _own_place(leaf: Leaf) -> Element:
+def _own_place(leaf: Leaf) -> xml.RelativeObjectPosition:
     """Return the place of the actor itself."""
-    return element("RelativeObjectPosition", entityRef=leaf.member.name, dx=0.0, dy=0.0)
+    return xml.RelativeObjectPosition(entityRef=leaf.member.name, dx=0.0, dy=0.0)
 
 
 def _at_end(leaf: Leaf, line: Line, corners: Sequence[Waypoint], state: ActorState) -> ActorState:
@@ -182,11 +182,10 @@ def _at_end(leaf: Leaf, line: Line, corners: Sequence[Waypoint], state: ActorSta
 # --- elements -----------------------------------------------------------------------------------
 
 
-def _vertex(leaf: Leaf, line: Line, point: Waypoint) -> tuple[float, Element]:
+def _vertex(leaf: Leaf, line: Line, point: Waypoint) -> tuple[float, xml.PositionPart]:
     if line.frame is None:
         h = None if point.h is None else round(point.h, 9)
-        place = element(
-            "WorldPosition",
+        place = xml.WorldPosition(
             x=round(point.x, 6),
             y=round(point.y, 6),
             z=round(point.z, 6),
@@ -197,9 +196,13 @@ def _vertex(leaf: Leaf, line: Line, point: Waypoint) -> tuple[float, Element]:
     return point.time, _FRAMES[line.frame](leaf, line.reference, point)
 
 
-def _relative(tag: str, leaf: Leaf, reference: str, point: Waypoint) -> Element:
-    return element(
-        tag,
+def _relative(
+    kind: type[xml.RelativeObjectPosition | xml.RelativeWorldPosition],
+    leaf: Leaf,
+    reference: str,
+    point: Waypoint,
+) -> xml.PositionPart:
+    return kind(
         entityRef=reference,
         dx=round(point.x, 6),
         dy=round(point.y, 6),
@@ -207,17 +210,14 @@ def _relative(tag: str, leaf: Leaf, reference: str, point: Waypoint) -> Element:
     )
 
 
-def _road_relative(leaf: Leaf, reference: str, point: Waypoint) -> Element:
-    return element(
-        "RelativeRoadPosition", entityRef=reference, ds=round(point.x, 6), dt=round(point.y, 6)
-    )
+def _road_relative(leaf: Leaf, reference: str, point: Waypoint) -> xml.RelativeRoadPosition:
+    return xml.RelativeRoadPosition(entityRef=reference, ds=round(point.x, 6), dt=round(point.y, 6))
 
 
-def _lane_relative(leaf: Leaf, reference: str, point: Waypoint) -> Element:
+def _lane_relative(leaf: Leaf, reference: str, point: Waypoint) -> xml.RelativeLanePosition:
     along = round(point.x, 6)
     newer = leaf.ctx.version >= "1.1"
-    return element(
-        "RelativeLanePosition",
+    return xml.RelativeLanePosition(
         entityRef=reference,
         dLane=0,
         dsLane=along if newer else None,
@@ -226,31 +226,27 @@ def _lane_relative(leaf: Leaf, reference: str, point: Waypoint) -> Element:
     )
 
 
-_FRAMES: Mapping[str, Callable[[Leaf, str, Waypoint], Element]] = {
-    "object_relative": partial(_relative, "RelativeObjectPosition"),
-    "world_relative": partial(_relative, "RelativeWorldPosition"),
+_FRAMES: Mapping[str, Callable[[Leaf, str, Waypoint], xml.PositionPart]] = {
+    "object_relative": partial(_relative, xml.RelativeObjectPosition),
+    "world_relative": partial(_relative, xml.RelativeWorldPosition),
     "road_relative": _road_relative,
     "lane_relative": _lane_relative,
 }
 
 
 def follow(
-    leaf: Leaf, vertices: Sequence[tuple[float, Element]], is_timed: bool, is_exact: bool
-) -> Element:
+    leaf: Leaf, vertices: Sequence[tuple[float, xml.PositionPart]], is_timed: bool, is_exact: bool
+) -> xml.PrivateAction:
     """Return the action along a polyline; a tool that ignores times cannot do a timed one."""
     if is_timed:
         leaf.ctx.require_support("FollowTrajectoryAction", leaf.node.span)
     older = leaf.ctx.version == "1.0"
-    trajectory = element(
-        "Trajectory",
-        element(
-            "Shape",
-            element(
-                "Polyline",
+    trajectory = xml.Trajectory(
+        xml.Shape(
+            xml.Polyline(
                 *(
-                    element(
-                        "Vertex",
-                        element("Position", place),
+                    xml.Vertex(
+                        xml.Position(place),
                         # 1.0 asks for times even where nobody reads them.
                         time=round(time, 6) if is_timed else float(number) if older else None,
                     )
@@ -261,18 +257,14 @@ def follow(
         name=leaf.ctx.names.new(f"way_{leaf.event}"),
         closed=False,
     )
-    timing = element("Timing", domainAbsoluteRelative="relative", scale=1.0, offset=0.0)
-    return element(
-        "PrivateAction",
-        element(
-            "RoutingAction",
-            element(
-                "FollowTrajectoryAction",
-                trajectory if older else element("TrajectoryRef", trajectory),
-                element("TimeReference", timing if is_timed else element("None")),
-                element(
+    timing = xml.Timing(domainAbsoluteRelative="relative", scale=1.0, offset=0.0)
+    return xml.PrivateAction(
+        xml.RoutingAction(
+            xml.FollowTrajectoryAction(
+                trajectory if older else xml.TrajectoryRef(trajectory),
+                xml.TimeReference(timing if is_timed else xml.None_()),
+                xml.TrajectoryFollowingMode(
                     # Between times tools that `follow` choose speeds of their own.
-                    "TrajectoryFollowingMode",
                     followingMode="position" if is_exact or is_timed else "follow",
                 ),
             ),

@@ -23,7 +23,7 @@ from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
 from osc2tx.backends.xosc.values.constants import Member, Named
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 
 
@@ -38,7 +38,7 @@ def _assign_position(leaf: Leaf) -> Performance:
 
 
 def _put(leaf: Leaf, target: XmlPosition) -> tuple[Change, ...]:
-    place = target.element
+    place: xml.PositionPart = target.element
     state = leaf.state
     if leaf.member.walks and target.pose is not None:
         pose = target.pose  # which looks along the road: a point has no heading
@@ -98,7 +98,9 @@ def _distance(arguments: Arguments) -> tuple[float, CastMember]:
     return (distance if ahead is not None else -distance), reference
 
 
-def beside(leaf: Leaf, reference: CastMember, lanes: int, along: float, offset: float) -> Element:
+def beside(
+    leaf: Leaf, reference: CastMember, lanes: int, along: float, offset: float
+) -> xml.RelativeLanePosition:
     """Return the place so many lanes to the left of another actor and so far ahead of it (m)."""
     ctx = leaf.ctx
     lane = lane_of(leaf, reference)
@@ -109,8 +111,7 @@ def beside(leaf: Leaf, reference: CastMember, lanes: int, along: float, offset: 
             leaf.node.span,
             Remedy(version="1.1"),
         )
-    return element(
-        "RelativeLanePosition",
+    return xml.RelativeLanePosition(
         entityRef=reference.name,
         dLane=lanes,
         dsLane=along if newer else None,
@@ -119,11 +120,11 @@ def beside(leaf: Leaf, reference: CastMember, lanes: int, along: float, offset: 
     )
 
 
-def _teleport(leaf: Leaf, place: Element) -> Element:
+def _teleport(leaf: Leaf, place: xml.PositionPart) -> xml.PrivateAction:
     """Return the action that puts an actor somewhere, who may be on its way."""
     if leaf.member.kind == VEHICLE or leaf.state.speed != known(0.0):
         leaf.ctx.require_support("TeleportAction/moving", leaf.node.span)
-    return element("PrivateAction", element("TeleportAction", element("Position", place)))
+    return xml.PrivateAction(xml.TeleportAction(xml.Position(place)))
 
 
 @action("assign_orientation")
@@ -138,18 +139,18 @@ def _assign_orientation(leaf: Leaf) -> Performance:
         value = ctx.values.field(given.name, (name,))
         angles[attribute] = float(value) if isinstance(value, (int, float)) else 0.0
     h, pose = round(angles["h"], 9), leaf.state.pose
+    place: xml.PositionPart
     if pose is not None:
         pose = pose._replace(h=h, pitch=round(angles["p"], 9), roll=round(angles["r"], 9))
         place = world_position(pose)
     else:
-        turn = element(
-            "Orientation",
+        turn = xml.Orientation(
             type="absolute",
             h=h,
             p=round(angles["p"], 9) or None,
             r=round(angles["r"], 9) or None,
         )
-        place = element("RelativeObjectPosition", turn, entityRef=leaf.member.name, dx=0.0, dy=0.0)
+        place = xml.RelativeObjectPosition(turn, entityRef=leaf.member.name, dx=0.0, dy=0.0)
     after = replace(leaf.state, pose=pose)
     return Performance((Change(LATERAL, (_teleport(leaf, place),), 0.0, after, after),), "goal")
 
@@ -178,12 +179,10 @@ def _acquire(leaf: Leaf, target: XmlPosition) -> Performance:
     state = leaf.state
     if state.speed is None or state.speed.low <= 0.0:
         raise Inexpressible("it may stand, and a place says no speed", leaf.node.span)
-    position = element("Position", target.element)
-    acquire = element("RoutingAction", element("AcquirePositionAction", position))
+    position = xml.Position(target.element)
+    acquire = xml.RoutingAction(xml.AcquirePositionAction(position))
     after = replace(state, lane=target.lane, offset=known(0.0)).finished(LATERAL)
-    change = Change(
-        LATERAL, (element("PrivateAction", acquire),), None, replace(state, lane=None), after
-    )
+    change = Change(LATERAL, (xml.PrivateAction(acquire),), None, replace(state, lane=None), after)
     there = at_place(leaf.ctx, target.element, target.lane, leaf.construct, leaf.node.span)
     reached = tuple(map(leaf.on_me, there))
     return Performance((change, *apply_modifiers(leaf)), "goal", reached=reached)
@@ -194,8 +193,9 @@ def _straight_to(leaf: Leaf, target: XmlPosition) -> Performance:
     here, there = leaf.state.pose, target.pose
     if there is None:
         raise Inexpressible("where the point is needs the map, which is not at hand")
+    start: xml.PositionPart
     if here is None:
-        start = element("RelativeObjectPosition", entityRef=leaf.member.name, dx=0.0, dy=0.0)
+        start = xml.RelativeObjectPosition(entityRef=leaf.member.name, dx=0.0, dy=0.0)
         goal = world_position(there)
         time = None
     else:
@@ -205,7 +205,7 @@ def _straight_to(leaf: Leaf, target: XmlPosition) -> Performance:
         goal = world_position(there)
         time = math.hypot(there.x - here.x, there.y - here.y)
     speed = leaf.state.speed
-    actions: tuple[Element, ...] = ()
+    actions: tuple[xml.ActionPart, ...] = ()
     v = speed.low if speed is not None and speed.is_known else None
     if v == 0.0:
         v = CRUISE

@@ -15,7 +15,7 @@ from osc2tx.backends.xosc.actions.speed.steady_speeds import steady_speed
 from osc2tx.backends.xosc.facts.actors import Linear, way_between
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
-from osc2tx.backends.xosc.xml.tree import element
+from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass, replace
 
 
@@ -79,8 +79,7 @@ def _along_road(leaf: Leaf, call: ir.ModifierCall, distance: float) -> tuple[Cha
     place = roads.from_entry(lane, distance)
     if place is None:
         raise Inexpressible(f"the road ends before {distance:g} m", call.span)
-    goal = element(
-        "LanePosition",
+    goal = xml.LanePosition(
         roadId=place.road,
         laneId=place.lane,
         s=round(place.s, 6),

@@ -10,10 +10,10 @@ from osc2tx.backends.xosc.facts.map_search import (
     end_of,
 )
 from osc2tx.backends.xosc.facts.maps import LanePosition
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
 
 
-def assign_route(leaf: Leaf, segment: MapSegment) -> tuple[Element, LanePosition]:
+def assign_route(leaf: Leaf, segment: MapSegment) -> tuple[xml.PrivateAction, LanePosition]:
     """Return the action that gives an actor a route, and the place of its end."""
     roads = required_roads(leaf.ctx)
     begin, end = begin_of(roads, segment), end_of(roads, segment)
@@ -24,18 +24,14 @@ def assign_route(leaf: Leaf, segment: MapSegment) -> tuple[Element, LanePosition
             for each in (begin, end)
         )
     waypoints = (
-        element("Waypoint", element("Position", place), routeStrategy="shortest")
+        xml.Waypoint(xml.Position(place), routeStrategy="shortest")
         for place in (lane_position(begin), lane_position(end))
     )
-    route = element(
-        "Route", *waypoints, name=leaf.ctx.names.new(f"route_{leaf.event}"), closed=False
-    )
-    assign = element("RoutingAction", element("AssignRouteAction", route))
-    return element("PrivateAction", assign), end
+    route = xml.Route(*waypoints, name=leaf.ctx.names.new(f"route_{leaf.event}"), closed=False)
+    assign = xml.RoutingAction(xml.AssignRouteAction(route))
+    return xml.PrivateAction(assign), end
 
 
-def lane_position(place: LanePosition) -> Element:
+def lane_position(place: LanePosition) -> xml.LanePosition:
     """Return the element of the middle of a lane at a place."""
-    return element(
-        "LanePosition", roadId=place.road, laneId=place.lane, s=round(place.s, 6), offset=0.0
-    )
+    return xml.LanePosition(roadId=place.road, laneId=place.lane, s=round(place.s, 6), offset=0.0)

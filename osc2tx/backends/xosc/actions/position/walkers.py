@@ -18,7 +18,8 @@ from osc2tx.backends.xosc.facts.curves import Waypoint, thinned
 from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import WAY, known
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import DynamicsShape
 from osc2tx_shared.classes import replace
 
 SAMPLES = 20
@@ -83,17 +84,17 @@ def stand(leaf: Leaf) -> Change:
     return change_pace(leaf, 0.0, course)
 
 
-def _straight_on(leaf: Leaf, start: Pose, course: Profile) -> Element:
+def _straight_on(leaf: Leaf, start: Pose, course: Profile) -> xml.PrivateAction:
     """Return the action with which a walker goes on along its heading until something else."""
     keeps_heading = leaf.ctx.profile.walkers_keep_heading and leaf.member.kind == PEDESTRIAN
     if not keeps_heading:
         return _trajectory(leaf, start, course)
     goal = course.value(course.duration)
-    shape = "linear" if course.duration else "step"
+    shape: DynamicsShape = "linear" if course.duration else "step"
     return speed_action(goal, shape, "time", course.duration)
 
 
-def _trajectory(leaf: Leaf, start: Pose, course: Profile) -> Element:
+def _trajectory(leaf: Leaf, start: Pose, course: Profile) -> xml.PrivateAction:
     """Return the way of a walker; its last stretch is long.
 
     Its speed is even between two points, so those of a speed that is read are close together.
@@ -109,8 +110,7 @@ def _trajectory(leaf: Leaf, start: Pose, course: Profile) -> Element:
     vertices = [
         (
             point.time,
-            element(
-                "WorldPosition",
+            xml.WorldPosition(
                 x=round(point.x, 6),
                 y=round(point.y, 6),
                 z=point.z,

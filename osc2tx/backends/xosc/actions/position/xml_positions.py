@@ -8,8 +8,9 @@ from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.values.constants import Constant, MethodResult, Named
-from osc2tx.backends.xosc.xml.tree import Element, element
 from osc2tx.diagnostics import Span
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import Rule
 from osc2tx_shared.classes import dataclass
 
 REACHED = 1.0
@@ -37,7 +38,7 @@ class XmlPosition:
         pose: Where it is in the world, if that is known.
     """
 
-    element: Element
+    element: xml.PositionPart
     lane: LanePosition | None
     pose: Pose | None
 
@@ -51,8 +52,8 @@ def at_world(ctx: Context, x: float, y: float, z: float) -> XmlPosition:
 
 
 def at_place(
-    ctx: Context, place: Element, lane: LanePosition | None, construct: str, span: Span
-) -> tuple[Element, ...]:
+    ctx: Context, place: xml.PositionPart, lane: LanePosition | None, construct: str, span: Span
+) -> tuple[xml.DistanceCondition, ...]:
     """Return the conditions to have come to a place along its lane; all have to hold.
 
     Args:
@@ -68,8 +69,7 @@ def at_place(
         bound = Metres(REACHED, "before the place, where it counts as there")
         ctx.report.approximate(construct, span, "a place is a circle about a point", bound)
         return (_distance(ctx, place, REACHED, "lessThan"),)
-    there = element(
-        "LanePosition",
+    there = xml.LanePosition(
         roadId=before.road,
         laneId=before.lane,
         s=round(before.s, 6),
@@ -82,10 +82,11 @@ def at_place(
     )
 
 
-def _distance(ctx: Context, place: Element, metres: float, rule: str) -> Element:
-    return element(
-        "DistanceCondition",
-        element("Position", place),
+def _distance(
+    ctx: Context, place: xml.PositionPart, metres: float, rule: Rule
+) -> xml.DistanceCondition:
+    return xml.DistanceCondition(
+        xml.Position(place),
         value=metres,
         freespace=False,
         rule=rule,
@@ -93,10 +94,9 @@ def _distance(ctx: Context, place: Element, metres: float, rule: str) -> Element
     )
 
 
-def world_position(pose: Pose) -> Element:
+def world_position(pose: Pose) -> xml.WorldPosition:
     """Return the element of a pose in the world."""
-    return element(
-        "WorldPosition",
+    return xml.WorldPosition(
         x=round(pose.x, 6),
         y=round(pose.y, 6),
         z=round(pose.z, 6),
@@ -113,11 +113,11 @@ def on_road(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
     if not isinstance(road, str):
         raise Inexpressible("the point names no road")
     if not isinstance(lane, str) or lane == "":
-        return XmlPosition(element("RoadPosition", roadId=road, s=s, t=t), None, None)
+        return XmlPosition(xml.RoadPosition(roadId=road, s=s, t=t), None, None)
     if not lane.removeprefix("-").isdecimal():
         raise Inexpressible(f"`{lane}` is no number of a lane")
     number = int(lane)
-    place = element("LanePosition", roadId=road, laneId=number, s=s, offset=t)
+    place = xml.LanePosition(roadId=road, laneId=number, s=s, offset=t)
     if ctx.roads is None:
         return XmlPosition(place, None, None)
     on = ctx.roads.place(road, number, s, t)
@@ -136,14 +136,13 @@ def on_earth(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
     lane = None
     if ctx.roads is not None and pose is not None:
         lane = ctx.roads.locate(pose.x, pose.y, pose.z)
-    place = element(
-        GLOBE,
+    place = xml.GeoPosition(
         latitudeDeg=round(math.degrees(latitude), 9),
         longitudeDeg=round(math.degrees(longitude), 9),
         altitude=altitude or None,
     )
     if ctx.version == "1.1":
-        place = element(GLOBE, latitude=latitude, longitude=longitude, height=altitude or None)
+        place = xml.GeoPosition(latitude=latitude, longitude=longitude, height=altitude or None)
     return XmlPosition(place, lane, pose)
 
 

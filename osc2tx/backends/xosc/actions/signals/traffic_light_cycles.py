@@ -11,7 +11,7 @@ from itertools import cycle as endless
 from typing import NamedTuple
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import Arguments, Later
+from osc2tx.backends.xosc.actions.leaf import Arguments, Global, Later
 from osc2tx.backends.xosc.actions.registry import global_action
 from osc2tx.backends.xosc.actions.signals.traffic_lights import (
     States,
@@ -26,7 +26,8 @@ from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.tree_queries import is_first, is_last
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Named
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import TrafficSignalSemantics
 
 CONTROLLER = "TrafficSignalControllerAction"
 
@@ -35,7 +36,7 @@ MOST_SWITCHES = 1000
 
 
 # `semantic_traffic_light_state` (§8.15.3.1) -> literal.
-_MEANINGS: Mapping[str, str] = {
+_MEANINGS: Mapping[str, TrafficSignalSemantics] = {
     "attention": "attention_go",
     "caution": "caution",
     "go": "go",
@@ -70,9 +71,7 @@ class _Cycle(NamedTuple):
 
 
 @global_action("play_cycles")
-def _play_cycles(
-    ctx: Context, node: ir.Invoke, arguments: Arguments
-) -> tuple[Element | Later, ...]:
+def _play_cycles(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Global | Later, ...]:
     given = arguments.get("cycles")
     if not isinstance(given, tuple):
         raise Inexpressible("the cycles are not known before the run", node.span)
@@ -129,7 +128,7 @@ def _phase(ctx: Context, name: str) -> _Phase:
 # --- elements -----------------------------------------------------------------------------------
 
 
-def _controller(ctx: Context, cycle: _Cycle) -> Element:
+def _controller(ctx: Context, cycle: _Cycle) -> xml.GlobalAction:
     """Add a controller to the road network; return the action that starts it."""
     name = ctx.names.new(cycle.name)
     phases = []
@@ -137,11 +136,10 @@ def _controller(ctx: Context, cycle: _Cycle) -> Element:
         states = []
         for signal, shown in phase.shown:
             text = state_text(ctx, signal, shown)
-            states.append(element("TrafficSignalState", trafficSignalId=signal, state=text))
+            states.append(xml.TrafficSignalState(trafficSignalId=signal, state=text))
             ctx.lamps[signal] = None
         phases.append(
-            element(
-                "Phase",
+            xml.Phase(
                 *states,
                 name=phase.name,
                 duration=phase.duration,
@@ -149,22 +147,24 @@ def _controller(ctx: Context, cycle: _Cycle) -> Element:
             )
         )
     delay = cycle.offset or None
-    ctx.controllers.append(element("TrafficSignalController", *phases, name=name, delay=delay))
+    ctx.controllers.append(xml.TrafficSignalController(*phases, name=name, delay=delay))
     first = cycle.phases[0].name
-    return infrastructure(element(CONTROLLER, trafficSignalControllerRef=name, phase=first))
+    return infrastructure(
+        xml.TrafficSignalControllerAction(trafficSignalControllerRef=name, phase=first)
+    )
 
 
-def _meaning(ctx: Context, phase: _Phase) -> str | None:
+def _meaning(ctx: Context, phase: _Phase) -> TrafficSignalSemantics | None:
     """Return what all lights of a phase mean, if that is one thing."""
     found = {_MEANINGS[roads_of(ctx).meaning_of(*shown)] for shown in phase.shown}
     return found.pop() if len(found) == 1 else None
 
 
-def _written_out(ctx: Context, cycle: _Cycle, lasting: float) -> list[Element | Later]:
+def _written_out(ctx: Context, cycle: _Cycle, lasting: float) -> list[Global | Later]:
     """Return the switches that a cycle makes in a time (s)."""
     period = sum(phase.duration for phase in cycle.phases)
     end = cycle.offset % period - period  # of the phases before the start
-    found: list[Element | Later] = []
+    found: list[Global | Later] = []
     for phase in endless(cycle.phases):
         begin, end = end, end + phase.duration
         if begin >= lasting:

@@ -16,7 +16,7 @@ from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.maps import Roads
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Member, MethodResult, Named
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
 
 WORDS: Mapping[str, str] = {"is_off": "off", "is_on": "on", "is_flashing": "flashing"}
 """State of a lamp -> its word."""
@@ -30,7 +30,9 @@ States: TypeAlias = tuple[str, ...]
 
 
 @global_action("set_semantic_state", "set_group_semantic_state")
-def _set_meaning(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, ...]:
+def _set_meaning(
+    ctx: Context, node: ir.Invoke, arguments: Arguments
+) -> tuple[xml.GlobalAction, ...]:
     meaning = arguments.member("state", "off")
     actions = []
     for signal in _addressed(ctx, node, arguments):
@@ -41,14 +43,14 @@ def _set_meaning(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[E
 
 
 @global_action("set_state", "set_group_state")
-def _set_state(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, ...]:
+def _set_state(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[xml.GlobalAction, ...]:
     given = arguments.get("state")
     signals = _addressed(ctx, node, arguments)
     return tuple(switch(ctx, signal, states_of(ctx, given, signal)) for signal in signals)
 
 
 @global_action("set_bulb_state", "set_group_bulb_state")
-def _set_lamp(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Element, ...]:
+def _set_lamp(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[xml.GlobalAction, ...]:
     color = arguments.member("bulb_color", "unknown")
     icon = arguments.member("bulb_kind", "unknown")
     wanted = arguments.member("bulb_state", OFF)
@@ -68,29 +70,26 @@ def _set_lamp(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Elem
     return tuple(actions)
 
 
-def switch(ctx: Context, signal: str, states: States) -> Element:
+def switch(ctx: Context, signal: str, states: States) -> xml.GlobalAction:
     """Return the action that lets a light show something, and note that it does."""
     ctx.lamps[signal] = states
     return infrastructure(
-        element(
-            "TrafficSignalStateAction",
+        xml.TrafficSignalStateAction(
             name=_name(ctx, signal),
             state=state_text(ctx, signal, states),
         )
     )
 
 
-def infrastructure(action: Element) -> Element:
+def infrastructure(action: xml.TrafficSignalActionPart) -> xml.GlobalAction:
     """Return the global action around one on traffic lights."""
-    return element(
-        "GlobalAction", element("InfrastructureAction", element("TrafficSignalAction", action))
-    )
+    return xml.GlobalAction(xml.InfrastructureAction(xml.TrafficSignalAction(action)))
 
 
 # --- conditions ---------------------------------------------------------------------------------
 
 
-def shows(ctx: Context, call: ir.MethodCall) -> tuple[Element, ...]:
+def shows(ctx: Context, call: ir.MethodCall) -> tuple[xml.ConditionPart, ...]:
     """Return the conditions that all hold if a light, or all lights of a group, show something.
 
     Raises:
@@ -102,9 +101,8 @@ def shows(ctx: Context, call: ir.MethodCall) -> tuple[Element, ...]:
     signals = lights_of_group(ctx, owner) if is_group else (_map_id(ctx, owner),)
     texts = [(signal, state_text(ctx, signal, states_of(ctx, given, signal))) for signal in signals]
     return tuple(
-        element(
-            "ByValueCondition",
-            element("TrafficSignalCondition", name=_name(ctx, signal), state=text),
+        xml.ByValueCondition(
+            xml.TrafficSignalCondition(name=_name(ctx, signal), state=text),
         )
         for signal, text in texts
     )

@@ -9,12 +9,13 @@ from osc2tx.backends.xosc.actions.registry import action
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.actors import automatic_light
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import LightMode, VehicleLightType
 
 AUTO = "auto"
 """The mode in which lights follow sun and fog."""
 
-LIGHTS: Mapping[str, Mapping[str, str]] = {
+LIGHTS: Mapping[str, Mapping[VehicleLightType, LightMode]] = {
     "off": {"lowBeam": "off", "highBeam": "off", "daytimeRunningLights": "off"},
     "daytime": {"daytimeRunningLights": "on", "lowBeam": "off", "highBeam": "off"},
     "low_beam": {"lowBeam": "on", "highBeam": "off"},
@@ -48,7 +49,7 @@ def _set_lights(leaf: Leaf) -> Performance:
     return Performance((change,), "instant")
 
 
-def followed_lights(ctx: Context) -> dict[str, tuple[Element, ...]]:
+def followed_lights(ctx: Context) -> dict[str, tuple[xml.ActionPart, ...]]:
     """Return the actions of vehicles whose automatic lights change with the weather."""
     now = automatic_light(ctx.weather)
     changing = [name for name, lit in ctx.automatic_lights.items() if lit != now]
@@ -56,19 +57,16 @@ def followed_lights(ctx: Context) -> dict[str, tuple[Element, ...]]:
     return {name: _shining(now) for name in changing}
 
 
-def _shining(mode: str) -> tuple[Element, ...]:
+def _shining(mode: str) -> tuple[xml.ActionPart, ...]:
     return tuple(_light(light, state) for light, state in LIGHTS[mode].items())
 
 
-def _light(light: str, state: str) -> Element:
-    return element(
-        "PrivateAction",
-        element(
-            "AppearanceAction",
-            element(
-                "LightStateAction",
-                element("LightType", element("VehicleLight", vehicleLightType=light)),
-                element("LightState", mode=state),
+def _light(light: VehicleLightType, state: LightMode) -> xml.PrivateAction:
+    return xml.PrivateAction(
+        xml.AppearanceAction(
+            xml.LightStateAction(
+                xml.LightType(xml.VehicleLight(vehicleLightType=light)),
+                xml.LightState(mode=state),
             ),
         ),
     )

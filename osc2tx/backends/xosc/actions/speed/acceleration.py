@@ -34,7 +34,7 @@ from osc2tx.backends.xosc.flattening.tree_queries import follower
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LONGITUDINAL, Demand, Interval, known
 from osc2tx.backends.xosc.values.constants import Member, Named
-from osc2tx.backends.xosc.xml.tree import Element
+from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass, replace
 
 
@@ -216,7 +216,7 @@ def _ramp(leaf: Leaf, course: Linear | Quintic, duration: float) -> Change:
     return Change(LONGITUDINAL, (_drawn(leaf, ramp, points),), duration, during, after)
 
 
-def _drawn(leaf: Leaf, ramp: Ramp, points: list[float]) -> Element:
+def _drawn(leaf: Leaf, ramp: Ramp, points: list[float]) -> xml.PrivateAction:
     if leaf.ctx.can(PROFILE_ACTION, "1.2"):
         return through_points(ramp)
     even = Linear(points[0], points[-1], ramp.duration)

@@ -6,6 +6,7 @@ distance rigid, which is what a gap needs that is there already.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import inf
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
@@ -16,7 +17,8 @@ from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.flattening.tree_queries import predecessor
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import LateralDisplacement, LongitudinalDisplacement
 from osc2tx_shared.classes import dataclass, replace
 
 HOW = "how it closes the gap, and when it is there, is up to the tool"
@@ -25,9 +27,11 @@ HOW = "how it closes the gap, and when it is there, is up to the tool"
 SURE = 1e-6
 """Metres by which a gap may be another one and still counts as there."""
 
-SIDES = {
+ALONG: Mapping[str, LongitudinalDisplacement] = {
     "ahead": "leadingReferencedEntity",
     "behind": "trailingReferencedEntity",
+}
+ACROSS: Mapping[str, LateralDisplacement] = {
     "left": "leftToReferencedEntity",
     "right": "rightToReferencedEntity",
 }
@@ -114,22 +118,20 @@ def hold(
     is_rigid = _is_rigid(leaf, gap, keeps=keeps, missing=missing)
     leaf.follow(gap.reference, rigid=is_rigid)
     limits = leaf.limits
-    constraints = element(
-        "DynamicConstraints",
+    constraints = xml.DynamicConstraints(
         maxAcceleration=limits.acceleration,
         maxDeceleration=limits.deceleration,
         maxSpeed=None if newer else TOP_SPEED,
     )
     action = longitudinal(
-        element(
-            "LongitudinalDistanceAction",
+        xml.LongitudinalDistanceAction(
             None if is_rigid else constraints,
             entityRef=gap.reference.name,
             distance=distance,
             timeGap=time,
             freespace=freespace,
             continuous=keeps,
-            displacement=SIDES[gap.side] if newer else None,
+            displacement=ALONG[gap.side] if newer else None,
             coordinateSystem="lane" if newer else None,
         )
     )
@@ -257,20 +259,18 @@ def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None)
     limits = leaf.limits
     # Between reference points: the free space of the XML shrinks where boxes turn.
     sides = 0.5 * (leaf.member.shape.width + gap.reference.shape.width)
-    constraints = element(
-        "DynamicConstraints",
+    constraints = xml.DynamicConstraints(
         maxAcceleration=limits.lateral,
         maxDeceleration=limits.lateral,
         maxSpeed=LATERAL_SPEED,
     )
-    action = element(
-        "LateralDistanceAction",
+    action = xml.LateralDistanceAction(
         None if _is_rigid(leaf, gap, keeps=keeps, missing=missing) else constraints,
         entityRef=gap.reference.name,
         distance=round(gap.size + sides, 6),
         freespace=False,
         continuous=keeps,
-        displacement=SIDES[gap.side] if newer else None,
+        displacement=ACROSS[gap.side] if newer else None,
         coordinateSystem="road" if newer else None,
     )
     after = replace(leaf.state, offset=None, lane=None).finished(LATERAL)
@@ -281,5 +281,5 @@ LATERAL_SPEED = 3.0
 """m/s across the road; the DSL says none."""
 
 
-def _lateral(action: Element) -> Element:
-    return element("PrivateAction", element("LateralAction", action))
+def _lateral(action: xml.LateralActionPart) -> xml.PrivateAction:
+    return xml.PrivateAction(xml.LateralAction(action))

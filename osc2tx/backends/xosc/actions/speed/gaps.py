@@ -10,7 +10,7 @@ from __future__ import annotations
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Arguments, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers
-from osc2tx.backends.xosc.actions.speed.gap_elements import SIDES, Gap, reach
+from osc2tx.backends.xosc.actions.speed.gap_elements import ACROSS, ALONG, Gap, reach
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.flattening.tree_queries import predecessor
 from osc2tx.backends.xosc.report import Inexpressible
@@ -63,7 +63,7 @@ def _asked_for(leaf: Leaf, node: ir.Invoke, arguments: Arguments) -> Gap:
         roads, lane = leaf.ctx.roads, leaf.state.lane
         is_right_hand = roads is None or lane is None or roads.is_right_hand(lane.road)
         side = "left" if (side == "inside") is is_right_hand else "right"
-    if target is None or reference is None or side not in SIDES:
+    if target is None or reference is None or side not in (*ALONG, *ACROSS):
         raise Inexpressible("it needs a target, a direction and a reference", node.span)
     if target < 0.0:
         target, side = -target, OPPOSITE[side]

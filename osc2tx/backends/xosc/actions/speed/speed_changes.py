@@ -30,7 +30,8 @@ from osc2tx.backends.xosc.facts.actors import (
 )
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, ActorState, Demand, Interval, known
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import DynamicsShape
 from osc2tx_shared.classes import replace
 
 POINTS = 12
@@ -117,7 +118,7 @@ def _from_known(
     profile: str,
     peak: float | None,
     lasting: float | None,
-) -> Element:
+) -> xml.PrivateAction:
     """Return the change from a speed that is known, whose action may last shorter than it."""
     if isinstance(course, Linear):
         return speed_action(target, "linear", "time", course.duration)
@@ -147,10 +148,10 @@ def _accelerations(leaf: Leaf, target: float, profile: str, peak: float | None) 
 
 def _from_unknown(
     leaf: Leaf, target: float, profile: str, peak: float | None, duration: float | None
-) -> Element:
+) -> xml.PrivateAction:
     limits = leaf.limits
     if duration is not None and profile != "asap":
-        shape = "linear" if profile == "constant" else _curve(leaf, profile)
+        shape: DynamicsShape = "linear" if profile == "constant" else _curve(leaf, profile)
         return speed_action(target, shape, "time", duration)
     if profile in ("none", "asap"):
         note_acceleration(leaf, target, profile, peak)
@@ -159,11 +160,11 @@ def _from_unknown(
     limit = _limit_towards(leaf, target, profile)
     share = {"asap": 1.0, "smooth": COMFORT * GENTLE}.get(profile, COMFORT)
     rate = round(share * limit, 6) if peak is None else peak
-    shape = "sinusoidal" if profile == "smooth" else "linear"
+    curve: DynamicsShape = "sinusoidal" if profile == "smooth" else "linear"
     if leaf.ctx.can(RATE, "1.0"):
         if profile in ("none", "asap"):
             note_even_change(leaf, _even_courses(leaf, target, profile, peak, rate), None)
-        return speed_action(target, shape, "rate", rate)  # which is the peak of the shape
+        return speed_action(target, curve, "rate", rate)  # which is the peak of the shape
     return speed_action(target, "linear", "time", _longest(leaf, target, profile, rate))
 
 
@@ -195,7 +196,7 @@ def _longest(leaf: Leaf, target: float, profile: str, rate: float) -> float:
     return duration
 
 
-def _curve(leaf: Leaf, profile: str) -> str:
+def _curve(leaf: Leaf, profile: str) -> DynamicsShape:
     """Return the shape of a smooth change; tools without shapes do as they like if they may."""
     is_free = profile == "none" and not leaf.ctx.profile.has_shapes
     return "linear" if is_free else "sinusoidal"
@@ -226,34 +227,33 @@ def _limit_towards(leaf: Leaf, target: float, profile: str) -> float:
     return taken
 
 
-def within_limits(target: float, limits: Limits, profile: str, peak: float | None) -> Element:
+def within_limits(
+    target: float, limits: Limits, profile: str, peak: float | None
+) -> xml.PrivateAction:
     """Return the fastest change within limits of acceleration and jerk."""
     share = 1.0 if profile == "asap" else COMFORT
     return longitudinal(
-        element(
-            PROFILE_ACTION,
-            element(
-                "DynamicConstraints",
+        xml.SpeedProfileAction(
+            xml.DynamicConstraints(
                 maxAcceleration=share * limits.acceleration if peak is None else peak,
                 maxAccelerationRate=limits.jerk,
                 maxDeceleration=share * limits.deceleration if peak is None else peak,
                 maxDecelerationRate=limits.jerk,
             ),
-            element("SpeedProfileEntry", speed=target),
+            xml.SpeedProfileEntry(speed=target),
             followingMode="follow",
         )
     )
 
 
-def through_points(course: Course, count: int = POINTS) -> Element:
+def through_points(course: Course, count: int = POINTS) -> xml.PrivateAction:
     """Return a course through points, with times since the point before."""
     step = course.duration / count
     entries = [
-        element(
-            "SpeedProfileEntry",
+        xml.SpeedProfileEntry(
             time=round(step, 9),
             speed=round(course.value(index * step), 9),
         )
         for index in range(1, count + 1)
     ]
-    return longitudinal(element(PROFILE_ACTION, *entries, followingMode="position"))
+    return longitudinal(xml.SpeedProfileAction(*entries, followingMode="position"))

@@ -8,22 +8,23 @@ from typing import Literal
 from osc2tx.backends.xosc.actions.leaf import Leaf, Performance
 from osc2tx.backends.xosc.report import GENERIC
 from osc2tx.backends.xosc.state import LONGITUDINAL
-from osc2tx.backends.xosc.values.symbolic_numbers import Symbol
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.expressions import Symbol
+from osc2tx.xosc.literals import DynamicsDimension, DynamicsShape
 
 
-def speed_action(target: float, shape: str, dimension: str, value: float) -> Element:
+def speed_action(
+    target: float, shape: DynamicsShape, dimension: DynamicsDimension, value: float
+) -> xml.PrivateAction:
     """Return a `SpeedAction` to an absolute speed."""
     return longitudinal(
-        element(
-            "SpeedAction",
-            element(
-                "SpeedActionDynamics",
+        xml.SpeedAction(
+            xml.SpeedActionDynamics(
                 dynamicsShape=shape,
                 dynamicsDimension=dimension,
                 value=value,
             ),
-            element("SpeedActionTarget", element("AbsoluteTargetSpeed", value=target)),
+            xml.SpeedActionTarget(xml.AbsoluteTargetSpeed(value=target)),
         )
     )
 
@@ -34,10 +35,10 @@ def relative_speed(
     kind: Literal["delta", "factor"] = "delta",
     *,
     continuous: bool,
-    shape: str = "step",
-    dimension: str = "time",
+    shape: DynamicsShape = "step",
+    dimension: DynamicsDimension = "time",
     length: float = 0.0,
-) -> Element:
+) -> xml.PrivateAction:
     """Return the action that gives an actor a speed relative to that of another one.
 
     Args:
@@ -49,34 +50,31 @@ def relative_speed(
         dimension: Of the length of that change.
         length: That length: seconds, or m/s^2 for a rate.
     """
-    goal = element(
-        "RelativeTargetSpeed",
+    goal = xml.RelativeTargetSpeed(
         entityRef=reference,
         value=value,
         speedTargetValueType=kind,
         continuous=continuous,
     )
-    action = element(
-        "SpeedAction",
-        element(
-            "SpeedActionDynamics",
+    action = xml.SpeedAction(
+        xml.SpeedActionDynamics(
             dynamicsShape=shape,
             dynamicsDimension=dimension,
             value=length,
         ),
-        element("SpeedActionTarget", goal),
+        xml.SpeedActionTarget(goal),
     )
     return longitudinal(action)
 
 
-def hold_speed(entity: str) -> Element:
+def hold_speed(entity: str) -> xml.PrivateAction:
     """Return the action that ends a change of the speed where it is."""
     return relative_speed(entity, continuous=False)
 
 
-def longitudinal(action: Element) -> Element:
+def longitudinal(action: xml.LongitudinalActionPart) -> xml.PrivateAction:
     """Return the private action around a longitudinal one."""
-    return element("PrivateAction", element("LongitudinalAction", action))
+    return xml.PrivateAction(xml.LongitudinalAction(action))
 
 
 RISE = 1.0
@@ -89,7 +87,7 @@ TICK = 0.05
 """Seconds between two looks of such a tool: an action is over half of that late, on average."""
 
 
-def in_steps(leaf: Leaf, performance: Performance) -> tuple[Element, ...]:
+def in_steps(leaf: Leaf, performance: Performance) -> tuple[xml.ActionPart, ...]:
     """Return actions that change a speed one after the other; none where one action does it.
 
     That is for what nothing cuts short: the steps would go on.

@@ -16,6 +16,7 @@ from osc2tx.backends.xosc.facts.actors import COMFORT, Course
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, Demand, known
 from osc2tx.backends.xosc.values.constants import Bounds
+from osc2tx.xosc.literals import DynamicsDimension, DynamicsShape
 from osc2tx_shared.classes import replace
 
 SAME = 1e-6
@@ -140,7 +141,8 @@ def _relative(
     if factor == 1.0:
         factor = None
     leaf.follow(reference, rigid=False)
-    shape, dimension = "linear", "rate"
+    shape: DynamicsShape = "linear"
+    dimension: DynamicsDimension = "rate"
     length = _rate_towards(leaf, call, reference, factor, difference)
     if any(name in arguments for name in SHAPED):
         leaf.ctx.report.approximate(

@@ -16,7 +16,7 @@ from osc2tx.backends.xosc.flattening.events.directives import VERDICT
 from osc2tx.backends.xosc.flattening.storyboard.builder import StoryboardBuilder, construct_of
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Bounds
-from osc2tx.backends.xosc.xml.tree import element
+from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 
 Timed: TypeAlias = ir.Composition | ir.InvokeScenario
@@ -116,8 +116,8 @@ def _failing(
         builder.finished = builder.finished | failed
         return in_time
     ctx.monitors[VERDICT] = True
-    action = element("SetMonitorAction", monitorRef=VERDICT, value=False)
-    failing = (element("GlobalAction", action),)
+    action = xml.SetMonitorAction(monitorRef=VERDICT, value=False)
+    failing = (xml.GlobalAction(action),)
     told = builder.add(ctx.names.new(name), failing, failed, actor=builder.mark_actor)
     builder.finished = builder.finished | told
     ctx.report.exact(construct, span, f"if it takes another time, the monitor `{VERDICT}` says so")

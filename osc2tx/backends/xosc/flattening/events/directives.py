@@ -7,9 +7,9 @@ from osc2tx.backends.xosc.actions.user_actions import command_of, no_model
 from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Group, Test, single
 from osc2tx.backends.xosc.flattening.events.event_parameters import set_parameters
 from osc2tx.backends.xosc.flattening.storyboard.builder import StoryboardBuilder
+from osc2tx.backends.xosc.names import plain
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible
-from osc2tx.backends.xosc.xml.names import plain
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 
 MANY_TIMES = 1000000
@@ -21,7 +21,7 @@ def react_periodically(
     node: ir.On,
     every: ir.Every,
     start: Flow,
-    actions: tuple[Element, ...],
+    actions: tuple[xml.ActionPart, ...],
 ) -> None:
     """Write down what is done at the start and in each period after it."""
     ctx = builder.ctx
@@ -88,8 +88,8 @@ def finish(builder: StoryboardBuilder, node: ir.Finish, start: Flow) -> Flow:
         ctx.require("a verdict", "1.3", node.span)
         ctx.require_support("SetMonitorAction", node.span)
         ctx.monitors[VERDICT] = True
-        action = element("SetMonitorAction", monitorRef=VERDICT, value=False)
-        actions = (element("GlobalAction", action),)
+        action = xml.SetMonitorAction(monitorRef=VERDICT, value=False)
+        actions = (xml.GlobalAction(action),)
         start = builder.add(ctx.names.new("fail"), actions, start, actor=builder.mark_actor)
     builder.finished = builder.finished | start
     ctx.report.exact("emit end" if node.succeeds else "emit fail", node.span)

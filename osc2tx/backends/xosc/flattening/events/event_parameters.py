@@ -7,13 +7,14 @@ from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.logical.parameters import value_text
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant
-from osc2tx.backends.xosc.xml.tree import Element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import Rule
 
 ORDERLESS = frozenset({"equalTo", "notEqualTo"})
 """Rules for what is no number."""
 
 
-def set_parameters(ctx: Context, emission: ir.Emit) -> tuple[Element, ...]:
+def set_parameters(ctx: Context, emission: ir.Emit) -> tuple[xml.ActionPart, ...]:
     """Return the actions that set what an emission hands over.
 
     Raises:
@@ -28,8 +29,8 @@ def set_parameters(ctx: Context, emission: ir.Emit) -> tuple[Element, ...]:
 
 
 def parameter_condition(
-    ctx: Context, argument: ir.EventArgument, rule: str, value: Constant
-) -> Element:
+    ctx: Context, argument: ir.EventArgument, rule: Rule, value: Constant
+) -> xml.ByValueCondition:
     """Return the condition on what an event has handed over.
 
     Raises:

@@ -15,10 +15,10 @@ from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Test, at_time, sin
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.run_options import read_signal
 from osc2tx.backends.xosc.flattening.storyboard.storyboard import Event
+from osc2tx.backends.xosc.names import plain
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.scopes import Scope
-from osc2tx.backends.xosc.xml.names import plain
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
 
 WAITABLE = (ir.Moment.START, ir.Moment.END)
 """Life-cycle events; no behavior of the XML can fail."""
@@ -225,8 +225,8 @@ class EventTable:
             ctx.report.exact(f"signal {name}", at.span, note)
             return self._is_set(self.variable(name), is_early=is_early)
         if ctx.can("UserDefinedValueCondition", "1.0"):
-            value = element("UserDefinedValueCondition", name=name, rule="equalTo", value="true")
-            return single(Test(element("ByValueCondition", value), "rising"))
+            value = xml.UserDefinedValueCondition(name=name, rule="equalTo", value="true")
+            return single(Test(xml.ByValueCondition(value), "rising"))
         reason = f"`{name}` comes from outside: give its time with --signal {name}@1s"
         raise Inexpressible(reason, at.span, Remedy(version="1.2"))
 
@@ -237,7 +237,7 @@ class EventTable:
             return single(Test(condition, "rising"))
         return single(Test(condition, latched=variable not in self._fleeting))
 
-    def setting(self, name: str, value: str = "true") -> Element:
+    def setting(self, name: str, value: str = "true") -> xml.ActionPart:
         """Return the action that sets the variable of an event."""
         return self._ctx.set_variable(self.variable(name), value)
 

@@ -15,7 +15,7 @@ from osc2tx.backends.xosc.facts.actors import apart, course_of_shift
 from osc2tx.backends.xosc.flattening.storyboard.builder import StoryboardBuilder
 from osc2tx.backends.xosc.report import Metres, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, WAY, ActorState
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 
 BACK_TO_CENTRE = 1.5
@@ -106,7 +106,9 @@ def _beside(builder: StoryboardBuilder, actor: str) -> float:
     )
 
 
-def _ending(builder: StoryboardBuilder, actor: str, domain: str, member: ir.Behavior) -> Element:
+def _ending(
+    builder: StoryboardBuilder, actor: str, domain: str, member: ir.Behavior
+) -> xml.PrivateAction:
     if domain == LONGITUDINAL:
         return hold_speed(actor)
     reason = (
@@ -120,21 +122,15 @@ def _ending(builder: StoryboardBuilder, actor: str, domain: str, member: ir.Beha
         asks=("LaneChangeActionDynamics",),
     )
     builder.ctx.report.approximate(construct, member.span, reason, bound, finishing)
-    return element(
-        "PrivateAction",
-        element(
-            "LateralAction",
-            element(
-                "LaneChangeAction",
-                element(
-                    "LaneChangeActionDynamics",
+    return xml.PrivateAction(
+        xml.LateralAction(
+            xml.LaneChangeAction(
+                xml.LaneChangeActionDynamics(
                     dynamicsShape="sinusoidal",
                     dynamicsDimension="time",
                     value=BACK_TO_CENTRE,
                 ),
-                element(
-                    "LaneChangeTarget", element("RelativeTargetLane", entityRef=actor, value=0)
-                ),
+                xml.LaneChangeTarget(xml.RelativeTargetLane(entityRef=actor, value=0)),
             ),
         ),
     )

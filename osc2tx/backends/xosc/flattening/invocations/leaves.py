@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Later, Leaf, Performance
+from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Global, Later, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, WITHOUT_FORM
 from osc2tx.backends.xosc.actions.signals.vehicle_lights import followed_lights
 from osc2tx.backends.xosc.actions.speed.speed_elements import in_steps
@@ -22,7 +22,7 @@ from osc2tx.backends.xosc.flattening.storyboard.member_names import event_name
 from osc2tx.backends.xosc.flattening.tree_queries import entry_of, is_first
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL
-from osc2tx.backends.xosc.xml.tree import Element
+from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 
 
@@ -83,7 +83,9 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     return builder.mark_end(node, ends)
 
 
-def _steps(builder: StoryboardBuilder, leaf: Leaf, steps: tuple[Element, ...], start: Flow) -> Flow:
+def _steps(
+    builder: StoryboardBuilder, leaf: Leaf, steps: tuple[xml.ActionPart, ...], start: Flow
+) -> Flow:
     """Add an event for each step of a change, one after the other; return when the last is over."""
     goal, names = start, builder.ctx.names
     for index, step in enumerate(steps):
@@ -145,7 +147,7 @@ def _is_over(change: Change, lasting: float | None) -> bool:
 def _invoke_global(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     """Write down an action that concerns no entity; at the very start it goes to `Init`."""
     ctx, entry = builder.ctx, entry_of(node)
-    actions: tuple[Element | Later, ...] = ()
+    actions: tuple[Global | Later, ...] = ()
     with ctx.report_as(construct_of(node), node.span):
         arguments = Arguments(ctx, node.arguments, node)
         perform = global_command if entry is None else GLOBAL_ACTIONS[node.action]
@@ -166,12 +168,12 @@ def _invoke_global(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> 
 
 
 def _act_globally(
-    builder: StoryboardBuilder, name: str, actions: tuple[Element | Later, ...], start: Flow
+    builder: StoryboardBuilder, name: str, actions: tuple[Global | Later, ...], start: Flow
 ) -> Flow:
     """Add an event for actions that concern no entity; return when they are done."""
     ctx = builder.ctx
-    at_once = tuple(action for action in actions if isinstance(action, Element))
-    later: dict[float, list[Element]] = {}
+    at_once = tuple(action for action in actions if not isinstance(action, Later))
+    later: dict[float, list[xml.ActionPart]] = {}
     for action in actions:
         if isinstance(action, Later):
             later.setdefault(action.seconds, []).append(action.action)

@@ -14,7 +14,7 @@ from osc2tx.backends.xosc.flattening.tree_queries import actors_of, claims
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LATERAL, ActorState, merged
 from osc2tx.backends.xosc.values.constants import Bounds
-from osc2tx.backends.xosc.xml.tree import Element
+from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 
 RUN_START = single(run_start())
@@ -69,7 +69,7 @@ class StoryboardBuilder:
     def add(
         self,
         name: str,
-        actions: tuple[Element, ...],
+        actions: tuple[xml.ActionPart, ...],
         start: Flow,
         *,
         actor: str | None = None,

@@ -11,12 +11,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import field
+from typing import TypeVar
 
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Group, Test
-from osc2tx.backends.xosc.xml.names import Names
-from osc2tx.backends.xosc.xml.tree import Element, element
+from osc2tx.backends.xosc.names import Names
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlVersion
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import Priority
 from osc2tx_shared.classes import dataclass
 
 ACTION = "action"
@@ -44,10 +46,10 @@ class Event:
     """
 
     name: str
-    actions: tuple[Element, ...]
+    actions: tuple[xml.ActionPart, ...]
     start: Flow
     place: Span
-    priority: str = "parallel"
+    priority: Priority = "parallel"
     repeats: int | None = None
     is_step: bool = False
 
@@ -98,6 +100,9 @@ def _in_order(group: Group) -> Group:
     return tuple(sorted(telling, key=lambda test: (not test.latched, test.edge == "none")))
 
 
+Trigger = TypeVar("Trigger", xml.StartTrigger, xml.StopTrigger)
+
+
 class StoryboardWriter:
     """Writes acts as elements."""
 
@@ -105,19 +110,17 @@ class StoryboardWriter:
         """Take the version of the document."""
         self._version = version
 
-    def story(self, name: str, acts: Iterable[Act]) -> Element:
+    def story(self, name: str, acts: Iterable[Act]) -> xml.Story:
         """Return the story of all acts."""
-        return element("Story", *(self._act(act) for act in acts), name=name)
+        return xml.Story(*(self._act(act) for act in acts), name=name)
 
-    def trigger(self, tag: str, flow: Flow, name: str) -> Element:
-        """Return a trigger; its conditions have a name and numbers."""
+    def trigger(self, kind: type[Trigger], flow: Flow, name: str) -> Trigger:
+        """Return a trigger of a kind; its conditions have a name and numbers."""
         names = Names()
         groups = [
-            element(
-                "ConditionGroup",
+            xml.ConditionGroup(
                 *(
-                    element(
-                        "Condition",
+                    xml.Condition(
                         self._condition(test),
                         name=names.new(name),
                         delay=test.delay,
@@ -128,33 +131,30 @@ class StoryboardWriter:
             )
             for group in flow.groups
         ]
-        return element(tag, *groups)
+        return kind(*groups)
 
-    def _condition(self, test: Test) -> Element:
+    def _condition(self, test: Test) -> xml.ConditionPart:
         if test.reached is not None and self._version == "1.0":
             value = max(test.reached - SHORTLY, 0.0)
-            condition = element("SimulationTimeCondition", value=value, rule="greaterThan")
-            return element("ByValueCondition", condition)
+            condition = xml.SimulationTimeCondition(value=value, rule="greaterThan")
+            return xml.ByValueCondition(condition)
         return test.condition
 
-    def _act(self, act: Act) -> Element:
-        stop = None if act.stop.is_never else self.trigger("StopTrigger", act.stop, "stop")
-        return element(
-            "Act",
+    def _act(self, act: Act) -> xml.Act:
+        stop = None if act.stop.is_never else self.trigger(xml.StopTrigger, act.stop, "stop")
+        return xml.Act(
             *(self._group(actor, events) for actor, events in act.events.items()),
-            self.trigger("StartTrigger", act.start, "start"),
+            self.trigger(xml.StartTrigger, act.start, "start"),
             stop,
             name=act.name,
         )
 
-    def _group(self, actor: str | None, events: Sequence[Event]) -> Element:
+    def _group(self, actor: str | None, events: Sequence[Event]) -> xml.ManeuverGroup:
         name = actor or "scenario"
-        reference = None if actor is None else element("EntityRef", entityRef=actor)
-        return element(
-            "ManeuverGroup",
-            element("Actors", reference, selectTriggeringEntities=False),
-            element(
-                "Maneuver",
+        reference = None if actor is None else xml.EntityRef(entityRef=actor)
+        return xml.ManeuverGroup(
+            xml.Actors(reference, selectTriggeringEntities=False),
+            xml.Maneuver(
                 *(self._event(event) for event in events),
                 name=name,
             ),
@@ -162,15 +162,14 @@ class StoryboardWriter:
             maximumExecutionCount=1,
         )
 
-    def _event(self, event: Event) -> Element:
+    def _event(self, event: Event) -> xml.Event:
         names = Names()
         priority = event.priority
         if priority == "override" and self._version < "1.2":
             priority = "overwrite"
-        return element(
-            "Event",
-            *(element("Action", action, name=names.new(ACTION)) for action in event.actions),
-            self.trigger("StartTrigger", event.start, "start"),
+        return xml.Event(
+            *(xml.Action(action, name=names.new(ACTION)) for action in event.actions),
+            self.trigger(xml.StartTrigger, event.start, "start"),
             name=event.name,
             priority=priority,
             maximumExecutionCount=event.repeats,

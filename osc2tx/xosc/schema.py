@@ -1,4 +1,4 @@
-"""What each version of OpenSCENARIO XML has: elements, their order, attributes and literals.
+"""What each version of OpenSCENARIO XML has: elements, attributes, literals; units and defaults.
 
 The table `schema.json` is made from the schemas by `tools/make_xosc_schema.py`.
 """
@@ -6,7 +6,7 @@ The table `schema.json` is made from the schemas by `tools/make_xosc_schema.py`.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from functools import cache
 from importlib.resources import files
 from typing import Any, NamedTuple
@@ -25,12 +25,20 @@ class Part(NamedTuple):
         since: First version that has it.
         until: Last version that has it.
         required: Versions in which it cannot be left out.
+        deprecated: First version that would rather not have it; `""`: none.
+        unit: Of an attribute; `""`: it has none, or that of something else.
+        default: What counts for an attribute that is left out.
+        many: Whether there may be several such children.
     """
 
     type: str
     since: str
     until: str
-    required: Sequence[str]
+    required: Sequence[str] = ()
+    deprecated: str = ""
+    unit: str = ""
+    default: str | None = None
+    many: bool = False
 
     def is_in(self, version: XmlVersion) -> bool:
         """Whether a version has it."""
@@ -38,10 +46,27 @@ class Part(NamedTuple):
 
 
 class ElementType(NamedTuple):
-    """A type of the schema, its parts in the order of the schema."""
+    """A type of the schema, its parts in the order of the schema.
+
+    Attributes:
+        attributes: By name.
+        children: By tag.
+        choice: Children of which there is one at most.
+        choice_since: First version with this restriction.
+        needed: Versions in which there is one of these.
+        text: Whether it has character data.
+    """
 
     attributes: Mapping[str, Part]
     children: Mapping[str, Part]
+    choice: Sequence[str] = ()
+    choice_since: str = ""
+    needed: Sequence[str] = ()
+    text: bool = False
+
+    def choice_in(self, version: XmlVersion) -> Sequence[str]:
+        """Return the children of which a version allows one at most."""
+        return self.choice if self.choice_since <= version else ()
 
 
 class _Tables(NamedTuple):
@@ -57,6 +82,10 @@ def _tables() -> _Tables:
         name: ElementType(
             {key: Part(*part) for key, part in entry["attributes"].items()},
             {key: Part(*part) for key, part in entry["children"].items()},
+            entry.get("choice", ()),
+            entry.get("choice_since", ""),
+            entry.get("needed", ()),
+            entry.get("text", False),
         )
         for name, entry in data["types"].items()
     }
@@ -64,9 +93,41 @@ def _tables() -> _Tables:
 
 
 @cache
+def types_of(tag: str) -> tuple[ElementType, ...]:
+    """Return the types that elements with a tag may have: which one, their parent decides."""
+    types = _tables().types
+    names = {type_.children[tag].type for type_ in types.values() if tag in type_.children}
+    return tuple(types[name] for name in sorted(names) if name in types)
+
+
+@cache
+def tags() -> Set[str]:
+    """Return the tags of all elements."""
+    return frozenset(tag for type_ in _tables().types.values() for tag in type_.children)
+
+
+@cache
+def attributes_of(tag: str) -> Mapping[str, Part]:
+    """Return the attributes that elements with a tag may have, of whatever type they are."""
+    return {name: part for each in types_of(tag) for name, part in each.attributes.items()}
+
+
+@cache
 def element_type(name: str) -> ElementType:
     """Return a type of the schema; one without parts for simple types."""
     return _tables().types.get(name, ElementType({}, {}))
+
+
+def type_below(type_name: str, tag: str) -> str:
+    """Return the type of a child of a type; that of the tag alone if it should not be there."""
+    part = element_type(type_name).children.get(tag)
+    return _type_of_tag(tag) if part is None else part.type
+
+
+@cache
+def _type_of_tag(tag: str) -> str:
+    parts = (type_.children.get(tag) for type_ in _tables().types.values())
+    return next((part.type for part in parts if part is not None), tag)
 
 
 def has_attribute(type_name: str, attribute: str, version: XmlVersion) -> bool:
@@ -107,4 +168,10 @@ def literals(type_name: str, version: XmlVersion) -> frozenset[str] | None:
     enum = _tables().enums.get(type_name)
     if enum is None:
         return None
-    return frozenset(name for name, (since, until) in enum.items() if since <= version <= until)
+    return frozenset(name for name, (since, until, _) in enum.items() if since <= version <= until)
+
+
+@cache
+def all_literals(type_name: str) -> Mapping[str, Sequence[str]]:
+    """Return the literals of an enumeration: first and last version, and since when deprecated."""
+    return _tables().enums.get(type_name, {})

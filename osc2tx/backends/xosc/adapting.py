@@ -8,6 +8,7 @@ of their own: it starts when it is time to look, and sets a mark that others wai
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import TypeVar
 
 from osc2tx.backends.xosc.conditions.flow import (
     Flow,
@@ -21,7 +22,8 @@ from osc2tx.backends.xosc.conditions.flow import (
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.storyboard.storyboard import Act, Event
 from osc2tx.backends.xosc.report import GENERIC
-from osc2tx.backends.xosc.xml.tree import Element
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Element
 from osc2tx_shared.classes import replace
 
 
@@ -40,7 +42,7 @@ def adapted(ctx: Context, acts: Sequence[Act], end: Flow) -> tuple[tuple[Act, ..
     for act in acts:
         for event in act.all_events():
             for part in (*event.actions, *_conditions(event)):
-                for node in _walk(part):
+                for node in part.walk():
                     _check(ctx, event, node)
     if not ctx.profile.has_delays:
         acts = _Watch(ctx).through(acts)
@@ -53,12 +55,11 @@ def _beginning(ctx: Context, acts: Sequence[Act]) -> Iterator[Act]:
     """Yield the act that gives their first value to variables that something compares with it."""
     first = {name: value for name, (_, value) in ctx.variables.items()}
     conditions = (
-        (str(node.get("parameterRef")), node.get("value"))
+        (node.parameterRef, node.value)
         for act in acts
         for event in act.all_events()
         for part in _conditions(event)
-        for node in _walk(part)
-        if node.name == "ParameterCondition"
+        for node in part.below(xml.ParameterCondition)
     )
     compared = {name for name, value in conditions if first.get(name) == value}
     if compared:
@@ -77,19 +78,13 @@ def _conditions(event: Event) -> Iterator[Element]:
 def _features(node: Element) -> Iterator[str]:
     """Yield what an element asks of a tool, as in `ToolProfile.unsupported` and `deviates`."""
     for kind in ("dynamicsDimension", "relativeDistanceType", "rule"):
-        yield f"{node.name}/{node.get(kind)}"
+        yield f"{node.tag}/{node.get(kind)}"
     yield f"state/{node.get('state')}"
     for flag in ("alongRoute", "freespace"):
         if node.get(flag) == "true":
-            yield f"{node.name}/{flag}"
+            yield f"{node.tag}/{flag}"
     if node.get("dynamicsShape") != "step":
-        yield node.name
-
-
-def _walk(node: Element) -> Iterator[Element]:
-    yield node
-    for child in node.children:
-        yield from _walk(child)
+        yield node.tag
 
 
 def _check(ctx: Context, event: Event, node: Element) -> None:
@@ -111,21 +106,24 @@ _OPPOSITE_RULES = {"greaterThan": "lessThan", "lessThan": "greaterThan"}
 _OPPOSITE_VALUES = {"0": "1", "1": "0", "false": "true", "true": "false"}
 
 
+E = TypeVar("E", bound=Element)
+
+
 def _opposite(test: Test) -> Test:
     """Return the test that holds while another one does not."""
     return replace(test, edge="none", condition=_turned(test.condition))
 
 
-def _turned(node: Element) -> Element:
+def _turned(node: E) -> E:
     attributes = dict(node.attributes)
     rule = attributes.get("rule")
     if rule is None:
-        return replace(node, children=tuple(map(_turned, node.children)))
+        return node.with_children(*map(_turned, node.children))
     if rule == "equalTo":
         attributes["value"] = _OPPOSITE_VALUES[attributes["value"]]
     else:
         attributes["rule"] = _OPPOSITE_RULES[rule]
-    return replace(node, attributes=tuple(attributes.items()))
+    return node.with_attributes(attributes)
 
 
 class _Watch:

@@ -11,8 +11,8 @@ from __future__ import annotations
 import operator
 from collections.abc import Callable
 
-from osc2tx.backends.xosc.xml.names import number_text
 from osc2tx.diagnostics import InternalCompilerError
+from osc2tx.xosc.numbers import number_text
 
 LONGEST = 160
 """Characters of an expression; what is longer is no help to a reader."""

@@ -1,22 +1,21 @@
 """Lines of documents: each with a thing of its own, however long that is."""
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
-from lxml import etree
+from osc2tx.xosc import Element, read
+from osc2tx.xosc.writer import written
 
-from osc2tx.backends.xosc.xml.tree import lay_out
-
-GENERATED = Path(__file__).parents[4] / "generated"
-
-
-def laid_out(root: etree._Element) -> list[str]:
-    lay_out(root)
-    return etree.tostring(root, encoding="unicode").splitlines()
+GENERATED = Path(__file__).parents[3] / "generated"
 
 
 def lines_of(text: str) -> list[str]:
-    return laid_out(etree.fromstring(text))
+    return laid_out(read(text))
+
+
+def laid_out(root: Element) -> list[str]:
+    return written(root).splitlines()[1:]
 
 
 def test_a_line_of_the_repository_has_one_thing() -> None:
@@ -29,15 +28,27 @@ def test_a_line_of_the_repository_has_one_thing() -> None:
         assert [line for line in lines if len(opening.findall(line)) > 1] == [], tag
 
 
+def lengthened(node: Element, index: list[int], name: str) -> Element:
+    """Return a document with a longer text of an attribute of one of its elements."""
+    if not index:
+        return node.with_attributes(dict(node.attributes) | {name: "x" * 300})
+    children = list(node.children)
+    children[index[0]] = lengthened(children[index[0]], index[1:], name)
+    return node.with_children(*children)
+
+
+def paths(node: Element) -> Iterator[tuple[list[int], Element]]:
+    yield [], node
+    for place, child in enumerate(node.children):
+        yield from (([place, *path], below) for path, below in paths(child))
+
+
 def test_a_longer_value_changes_only_its_line() -> None:
-    parser = etree.XMLParser(remove_blank_text=True)
-    before = etree.parse(GENERATED / "cut_in.xosc", parser).getroot()
-    short = laid_out(before)
-    for index, node in enumerate(before.iter()):
-        for name in node.attrib:
-            after = etree.parse(GENERATED / "cut_in.xosc", parser).getroot()
-            list(after.iter())[index].attrib[name] = "x" * 300
-            long = laid_out(after)
+    root = read((GENERATED / "cut_in.xosc").read_bytes())
+    short = laid_out(root)
+    for path, node in paths(root):
+        for name, _ in node.attributes:
+            long = laid_out(lengthened(root, path, name))
             assert len(long) == len(short)
             assert sum(old != new for old, new in zip(short, long, strict=True)) == 1
 

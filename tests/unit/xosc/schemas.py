@@ -12,7 +12,7 @@ from typing import Any
 
 from lxml import etree
 
-TOOL = Path(__file__).parents[4] / "tools" / "make_xosc_schema.py"
+TOOL = Path(__file__).parents[3] / "tools" / "make_xosc_schema.py"
 OFFICIAL_1_4 = os.environ.get("OSC2TX_XML_SCHEMA_1_4")
 
 

@@ -1,1 +1,0 @@
-"""Elements, schema, names, and the profiles of tools that read documents."""

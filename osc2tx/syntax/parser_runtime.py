@@ -1,0 +1,172 @@
+"""What the generated parser runs on: as much of the ANTLR runtime as an LL(1) parser needs.
+
+`make parser` makes `_antlr` import this module in place of `antlr4`, whose names it therefore has.
+It does without listeners, token objects and prediction: contexts hold token indexes in place of
+tokens. antlr4 itself is loaded only for a message that lists the tokens that would have fitted.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+__all__ = [
+    "DFA",
+    "ATNDeserializer",
+    "NoViableAltException",
+    "Parser",
+    "ParserATNSimulator",
+    "ParserRuleContext",
+    "PredictionContextCache",
+    "RecognitionException",
+    "Token",
+    "TokenStream",
+]
+
+
+class Token:
+    """The one type of token that the grammar does not name."""
+
+    EOF = -1
+
+
+class RecognitionException(Exception):
+    """The current token does not fit."""
+
+
+class NoViableAltException(RecognitionException):
+    """No alternative of a rule begins with the current token."""
+
+
+class TokenStream:
+    """A cursor over the types of tokens; the parser only ever looks one token ahead."""
+
+    def __init__(self, types: list[int]) -> None:
+        """Start at the first token."""
+        self.types = types
+        self.index = 0
+
+    def LA(self, distance: int) -> int:
+        """Return the type of the current token; `distance` is always 1."""
+        return self.types[self.index]
+
+
+class ParserRuleContext:
+    """A node of the parser's tree.
+
+    Attributes:
+        parentCtx: The node above it, as long as its rule is read.
+        invokingState: State of the parser in which its rule was called.
+        children: Contexts and token indexes.
+        start: Index of its first token.
+        stop: Index of its last token.
+        exception: What did not fit in it.
+    """
+
+    __slots__ = ("children", "exception", "invokingState", "parentCtx", "start", "stop")
+
+    def __init__(self, parent: ParserRuleContext | None, invoking_state: int) -> None:
+        """Begin the node; `Parser.enterRule` says where."""
+        self.parentCtx = parent
+        self.invokingState = invoking_state
+        self.exception: RecognitionException | None = None
+
+
+class Parser:
+    """The methods that the rules of the generated parser call."""
+
+    _errHandler: Any
+
+    def __init__(self, stream: TokenStream, output: object = None) -> None:
+        """Read a stream from its first token."""
+        self._input = stream
+        self._ctx: Any = None
+        self.state = -1
+
+    def checkVersion(self, version: str) -> None:
+        """Nothing to do: the runtime is not that of antlr4."""
+
+    def enterRule(self, context: Any, state: int, rule: int) -> None:
+        """Put a context below the current one, and go on in it."""
+        self.state = state
+        context.start = self._input.index
+        context.children = []
+        parent = self._ctx
+        if parent is not None:
+            parent.children.append(context)
+        self._ctx = context
+
+    def enterOuterAlt(self, context: Any, alternative: int) -> None:
+        """Nothing to do: contexts do not know their alternatives."""
+
+    def exitRule(self) -> None:
+        """Go on in the context above the current one."""
+        context = self._ctx
+        context.stop = self._input.index - 1
+        self.state = context.invokingState
+        self._ctx = context.parentCtx
+        context.parentCtx = None  # a tree without cycles goes as soon as nobody needs it
+
+    def match(self, expected: int) -> None:
+        """Read a token of a type."""
+        stream = self._input
+        index = stream.index
+        if stream.types[index] != expected:
+            raise RecognitionException
+        self._ctx.children.append(index)
+        if expected != Token.EOF:
+            stream.index = index + 1
+
+    def consume(self) -> None:
+        """Read the current token, whose type was looked at before."""
+        stream = self._input
+        index = stream.index
+        self._ctx.children.append(index)
+        stream.index = index + 1
+
+
+class Network:
+    """The transition network of the grammar; nothing but messages needs it."""
+
+    decisionToState = ()  # prediction would begin there
+
+    def __init__(self, serialized: list[int]) -> None:
+        """Take it as the generated parser has it."""
+        self._serialized = serialized
+
+    @cached_property
+    def _read(self) -> Any:
+        from antlr4.atn.ATNDeserializer import ATNDeserializer as Reader
+
+        return Reader().deserialize(self._serialized)
+
+    def types_in(self, state: int, context: ParserRuleContext) -> frozenset[int]:
+        """Return the types of tokens that fit a state, in a context whose rule is being read."""
+        return frozenset(self._read.nextTokens(self._read.states[state], context))
+
+    def state_that_calls(self, rule: int) -> int:
+        """Return the number of a state that the parser may be in when it calls a rule."""
+        return next(
+            int(state.stateNumber)
+            for state in self._read.states
+            if state is not None
+            and any(getattr(each, "ruleIndex", None) == rule for each in state.transitions)
+        )
+
+
+class ATNDeserializer:
+    """Gives the generated parser its network unread."""
+
+    def deserialize(self, serialized: list[int]) -> Network:
+        """Return the network."""
+        return Network(serialized)
+
+
+class _Prediction:
+    """Stands for the parts of antlr4 that choose between alternatives with a longer lookahead."""
+
+    def __init__(self, *parts: object) -> None:
+        """Do nothing: no rule of an LL(1) grammar asks for a prediction."""
+
+
+DFA = ParserATNSimulator = PredictionContextCache = _Prediction

@@ -1,0 +1,155 @@
+"""What in a document a version of OpenSCENARIO XML does not allow, and what it discourages.
+
+The schemas cannot say all that they mean: an empty `choice` is valid up to 1.2. Held against the
+table is what they say; references and names are the affair of who reads the story.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator
+
+from osc2tx.options import XML_VERSIONS, XmlVersion
+from osc2tx.xosc.element import Element, Place
+from osc2tx.xosc.schema import (
+    ROOT_TYPE,
+    Part,
+    all_literals,
+    element_type,
+    literals,
+    required_attributes,
+    required_children,
+    type_below,
+)
+from osc2tx_shared.classes import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """Something in a document.
+
+    Attributes:
+        reason: What no document of the version has, or a sentence on what is discouraged.
+        place: Where its element begins; `None`: it was not read from a file.
+        is_warning: The document is valid all the same.
+    """
+
+    reason: str
+    place: Place | None
+    is_warning: bool = False
+
+
+def version_of(root: Element) -> XmlVersion:
+    """Return the version that a document says it has; the newest known one if that is beyond it.
+
+    One that says none is taken for the first.
+    """
+    header = next((child for child in root.children if child.tag == "FileHeader"), None)
+    major, minor = (_whole(header, name) for name in ("revMajor", "revMinor"))
+    if major > 1:
+        return XML_VERSIONS[-1]
+    return XML_VERSIONS[min(max(minor, 0), len(XML_VERSIONS) - 1)]
+
+
+def _whole(header: Element | None, name: str) -> int:
+    text = "" if header is None else header.get(name) or ""
+    return int(text) if text.strip().isdecimal() else 0
+
+
+def problems(root: Element, version: XmlVersion) -> Iterator[Problem]:
+    """Yield what is wrong with a document, in its order."""
+    part = element_type(ROOT_TYPE).children.get(root.tag)
+    if part is None:
+        yield Problem(f"<{root.tag}> below the document", root.place)
+        return
+    yield from _of_element(root, part.type, version)
+
+
+def _of_element(node: Element, type_name: str, version: XmlVersion) -> Iterator[Problem]:
+    yield from _of_attributes(node, type_name, version)
+    yield from _of_children(node, type_name, version)
+    for child in node.children:
+        if child.tag in element_type(type_name).children:
+            yield from _of_element(child, type_below(type_name, child.tag), version)
+
+
+def _of_children(node: Element, type_name: str, version: XmlVersion) -> Iterator[Problem]:
+    type_ = element_type(type_name)
+    counts = Counter(child.tag for child in node.children)
+    seen = set()
+    for child in node.children:
+        part = type_.children.get(child.tag)
+        if part is None or not part.is_in(version):
+            yield Problem(f"<{child.tag}> below <{node.tag}>", child.place)
+        elif child.tag in seen:
+            continue
+        elif counts[child.tag] > 1 and not part.many:
+            yield Problem(f"second <{child.tag}> below <{node.tag}>", child.place)
+        elif is_deprecated(part, version):
+            yield Problem(f"<{child.tag}> is deprecated", child.place, is_warning=True)
+        seen.add(child.tag)
+    for name in required_children(type_name, version):
+        if name not in counts:
+            yield Problem(f"<{node.tag}> without <{name}>", node.place)
+    chosen = sorted(seen & set(type_.choice_in(version)))
+    if len(chosen) > 1:
+        yield Problem(f"<{node.tag}> with both <{chosen[0]}> and <{chosen[1]}>", node.place)
+    elif not chosen and version in type_.needed:
+        listed = " or ".join(f"<{name}>" for name in type_.choice)
+        yield Problem(f"<{node.tag}> without {listed}", node.place)
+
+
+def is_deprecated(part: Part, version: XmlVersion) -> bool:
+    """Whether a version discourages a part."""
+    return bool(part.deprecated) and part.deprecated <= version
+
+
+def _of_attributes(node: Element, type_name: str, version: XmlVersion) -> Iterator[Problem]:
+    known = element_type(type_name).attributes
+    given = {name: text for name, text in node.attributes if not _is_of_xml(name)}
+    for name, text in given.items():
+        part = known.get(name)
+        if part is None or not part.is_in(version):
+            yield Problem(f"{name} of <{node.tag}>", node.place)
+            continue
+        if is_deprecated(part, version):
+            yield Problem(f"{name} of <{node.tag}> is deprecated", node.place, is_warning=True)
+        yield from _of_text(node, name, text, part.type, version)
+    for name in required_attributes(type_name, version):
+        if name not in given:
+            yield Problem(f"<{node.tag}> without {name}", node.place)
+
+
+def _is_of_xml(name: str) -> bool:
+    """Whether an attribute belongs to XML itself, as the place of a schema does."""
+    return name == "xmlns" or ":" in name
+
+
+_FORMS = {
+    "Double": re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|-?INF|NaN"),
+    "Int": re.compile(r"[-+]?\d+"),
+    "UnsignedInt": re.compile(r"\+?\d+"),
+    "UnsignedShort": re.compile(r"\+?\d+"),
+    "Boolean": re.compile("true|false|0|1"),
+    "DateTime": re.compile(
+        r"-?\d{4,}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?(Z|[-+]\d\d:\d\d)?", re.ASCII
+    ),
+}
+
+
+def _of_text(
+    node: Element, name: str, text: str, type_name: str, version: XmlVersion
+) -> Iterator[Problem]:
+    if text.startswith("$"):
+        return
+    form = _FORMS.get(type_name)
+    known = literals(type_name, version)
+    wrong_form = form is not None and not form.fullmatch(text.strip())
+    if wrong_form or (known is not None and text not in known):
+        yield Problem(f"{name}={text!r} of <{node.tag}>", node.place)
+    elif known is not None:
+        since = all_literals(type_name)[text][2]
+        if since and since <= version:
+            reason = f"{name}={text!r} of <{node.tag}> is deprecated"
+            yield Problem(reason, node.place, is_warning=True)

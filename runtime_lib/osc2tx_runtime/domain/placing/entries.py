@@ -1,0 +1,215 @@
+"""Actors that enter later: who they are, what their first action requests, and how they get there.
+
+What an actor does before its first action is free (DSL 7.6.2.4.2). If that action begins later and
+states where or how fast the actor starts, the actor is on its way in until then: the node `Enter`
+stands for it in the tree. ADR 10 has the reasons.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.domain.actors import MovableObject
+from osc2tx_runtime.domain.modifiers import Modifier, MovementModifier, PhysicalMovement, Position
+from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
+from osc2tx_runtime.language.actions.action import Action
+from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Behaviour, Leaf, Status
+from osc2tx_runtime.language.tree.invocation import started_at_once
+from osc2tx_runtime.language.tree.parallel import Parallel
+from osc2tx_runtime.world.commands import SpeedChange
+from osc2tx_runtime.world.geometry.attitude import LEVEL, Tilt
+from osc2tx_runtime.world.protocol import LONGITUDINAL
+from osc2tx_shared.classes import dataclass
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.actions.base_action import BaseAction
+    from osc2tx_runtime.opendrive import LanePosition, Pose
+
+__all__ = ["Enter", "Entries", "WayIn", "entering_actors", "start_demands", "with_entries"]
+
+
+@dataclass(frozen=True, slots=True)
+class WayIn:
+    """How an actor moves from the start of the run to that of its first action.
+
+    It has a steady speed, and changes it once at the end.
+
+    Attributes:
+        start: Where it starts.
+        goal: Where it is when its first action begins.
+        arrives: Step at which that is.
+        speed: At the start (m/s).
+        target: At the goal (m/s).
+        changes: Step at which the change of speed begins.
+        changed: Step at which it is over.
+        heading: At the start (rad), off the lanes or against the lane.
+        tilt: Pitch and roll.
+    """
+
+    start: LanePosition | Pose
+    goal: LanePosition | Pose
+    arrives: int
+    speed: float
+    target: float
+    changes: int
+    changed: int
+    heading: float | None = None
+    tilt: Tilt = LEVEL
+
+    def covered(self, step: int, dt: float) -> float:
+        """Return the distance (m) from the start at a step."""
+        before, after = min(step, self.changes), max(0, step - self.changed)
+        changing = step - before - after
+        whole = self.changed - self.changes
+        share = changing / whole if whole else 0.0
+        mean = self.speed + 0.5 * share * (self.target - self.speed)
+        return (self.speed * before + mean * changing + self.target * after) * dt
+
+
+class Entries:
+    """The ways in of a run, and which actors have begun their first action.
+
+    Args:
+        ways: By actor.
+    """
+
+    def __init__(self, ways: dict[str, WayIn] | None = None) -> None:
+        self.ways = ways or {}
+        self._begun: set[str] = set()
+
+    def begins(self, action: BaseAction) -> None:
+        """Take note of an action that begins."""
+        if action.actor_id is not None and action.actor_id not in self._begun:
+            self._begun.add(action.actor_id)
+            action.context.request_pass()
+
+    def has_begun(self, actor: str) -> bool:
+        """Return whether an actor has begun its first action."""
+        return actor in self._begun
+
+
+class Enter(Leaf):
+    """Brings an actor to where its first action begins; it ends then.
+
+    The actor has no owner meanwhile: whoever claims it takes over.
+
+    Args:
+        actor: Who.
+        source: Place of the first action in the scenario.
+    """
+
+    service = True
+    open_ended = True
+    synthetic = True
+
+    def __init__(self, actor: MovableObject, source: str) -> None:
+        super().__init__(f"{actor.id} enters")
+        self.actor = actor
+        self.source = source
+        self.action_name = f"{actor.id} enter"
+        self._changes = False
+
+    @property
+    def actor_id(self) -> str:
+        """Who enters."""
+        return self.actor.id
+
+    def initialise(self) -> None:
+        """Begin."""
+        self._changes = False
+        self.context.trace.action("start", self)
+
+    def update(self) -> Status:
+        """Change the speed when it is time; end with the first action of the actor."""
+        context = self.context
+        entries = context.entries
+        if isinstance(entries, Entries) and entries.has_begun(self.actor.id):
+            return SUCCESS
+        way = self._way()
+        if way is not None and not self._changes and way.changes <= context.step < way.changed:
+            self._changes = True
+            duration = (way.changed - way.changes) * context.dt
+            change = SpeedChange(way.target, "constant", duration=duration)
+            context.leave(self.actor.id, LONGITUDINAL, "enter", change)
+        return RUNNING
+
+    def terminate(self, new_status: Status) -> None:
+        """Leave the actor to its actions."""
+        context = self.context
+        if self._way() is not None:
+            context.leave(self.actor.id, LONGITUDINAL, "enter", None)
+            if self.actor.id not in context.settings.destination:
+                context.world.set_route(self.actor.id, None)
+        context.trace.action("end", self, None if new_status is SUCCESS else "stopped")
+
+    def _way(self) -> WayIn | None:
+        entries = self.context.entries
+        return entries.ways.get(self.actor.id) if isinstance(entries, Entries) else None
+
+
+def with_entries(tree: Behaviour, placed: Sequence[str], race: bool) -> Behaviour:
+    """Return a tree with a node beside it for each actor that enters.
+
+    Args:
+        tree: The tree of the scenario that runs.
+        placed: Ids of the actors whose start the scenario states.
+        race: All members of a `one_of` start.
+    """
+    found = [Enter(actor, source) for actor, source in _entering(tree, placed, race)]
+    if not found:
+        return tree
+    whole = Parallel(f"{tree.name}, with actors that enter", tree, *found)
+    whole.synthetic, whole.source = True, getattr(tree, "source", "")
+    return whole
+
+
+def entering_actors(tree: Behaviour) -> tuple[str, ...]:
+    """Return the ids of the actors that enter."""
+    return tuple(node.actor.id for node in tree.iterate() if isinstance(node, Enter))
+
+
+def _entering(
+    tree: Behaviour, placed: Sequence[str], race: bool
+) -> Iterator[tuple[MovableObject, str]]:
+    """Yield the actors that enter, with the first line that states how, in the order of the tree.
+
+    They do nothing when the run starts.
+    """
+    present = set(placed)
+    sources: dict[str, tuple[MovableObject, str]] = {}
+    for node, at_once in started_at_once(tree, race):
+        if not isinstance(node, Action) or not isinstance(node.actor, MovableObject):
+            continue
+        if at_once:
+            present.add(node.actor.id)
+        elif start_demands(node):
+            sources.setdefault(node.actor.id, (node.actor, node.source))
+    yield from (entry for actor, entry in sources.items() if actor not in present)
+
+
+def start_demands(action: BaseAction) -> tuple[Modifier, ...]:
+    """Return what an action states of its start; empty if it may begin from anywhere.
+
+    What holds throughout holds at the start as well. By itself it lets an actor approach it, so
+    only `at: start`, and a position that is kept, are reasons to be somewhere.
+    """
+    modifiers = action.modifiers if isinstance(action, Action) else ()
+    physical = one_of_kind(modifiers, PhysicalMovement)
+    if physical is not None and physical.option == "prefer_non_physical":
+        return ()  # it jumps
+    found = [m for m in modifiers if m.facts.placement and _holds_at_start(m)]
+    stated = {type(m) for m in found if m.is_start}
+    if not any(m.is_start or isinstance(m, Position) for m in found):
+        return ()
+    return tuple(m for m in found if m.is_start or type(m) not in stated)
+
+
+def _holds_at_start(modifier: Modifier) -> bool:
+    """Return whether a modifier holds at the start of its action, and not only later."""
+    at = getattr(modifier, "at", "all")
+    if at == "start" or not isinstance(modifier, MovementModifier):
+        return modifier.is_start or not isinstance(modifier, MovementModifier)
+    shaped = (getattr(modifier, name, None) for name in ("shape", "rate_peak"))
+    profile = getattr(modifier, "rate_profile", "none")
+    return at == "all" and profile == "none" and not any(each is not None for each in shaped)

@@ -1,0 +1,194 @@
+"""Rehearsals: a run is played in the embedded world to find out how actors enter that come later.
+
+When the first action of an actor begins, and where its references are by then, only a run can tell.
+Rehearsals are repeated with the ways in that the last one gave, until nothing changes any more:
+the run itself is then the same as the last rehearsal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from math import hypot, inf
+from typing import TYPE_CHECKING, Any
+
+from osc2tx_runtime.domain.actors import MovableObject
+from osc2tx_runtime.domain.modifiers import Along, AlongTrajectory, Modifier, OnPath, Position
+from osc2tx_runtime.domain.placing.entries import Entries, WayIn, start_demands
+from osc2tx_runtime.domain.placing.placer import Placer
+from osc2tx_runtime.domain.placing.ways_in import Arrival, way_in
+from osc2tx_runtime.errors import PlacementError
+from osc2tx_runtime.opendrive import LanePosition, MapError, Pose, RoadMap
+from osc2tx_runtime.world.measuring.collision import Box, box_of, overlapping
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.domain.placing.initial_state import InitialState
+    from osc2tx_runtime.language.actions.base_action import BaseAction
+    from osc2tx_runtime.language.context import ExecutionContext
+    from osc2tx_runtime.world.state import ActorState
+
+__all__ = ["AllEnteredError", "Rehearsal", "ways_in"]
+
+_MOST = 8  # rehearsals
+_NEAR = 1e-3  # m, m/s
+_FITS = 1.0  # m by which an actor may miss its place if nothing else has changed
+
+
+class AllEnteredError(Exception):
+    """Ends a rehearsal: there is nothing more to find out."""
+
+
+class Rehearsal(Entries):
+    """Watches a rehearsal: which actors begin when, and where they have to be then.
+
+    It is an observer of the run as well, which it ends when all have begun.
+
+    Args:
+        ways: The ways in that are tried.
+        waiting: Ids of the actors that enter.
+
+    Attributes:
+        arrivals: Where the actors have to be, in the order in which they begin.
+        missed: Distance (m) that an actor lacked.
+        errors: Why there is no such place.
+        boxes: The room that all actors take at each step.
+    """
+
+    def __init__(self, ways: dict[str, WayIn], waiting: Sequence[str]) -> None:
+        super().__init__(ways)
+        self._waiting = set(waiting)
+        self.arrivals: dict[str, Arrival] = {}
+        self.missed: dict[str, float] = {}
+        self.errors: dict[str, PlacementError] = {}
+        self.boxes: list[dict[str, Box]] = []
+
+    def begin(self, context: ExecutionContext) -> None:
+        """See the actors where they start."""
+        self._context = context
+        self._note_boxes()
+
+    def observe(self, step: int) -> None:
+        """See what the way to a step has brought about.
+
+        Raises:
+            AllEnteredError: There is nothing more to see.
+        """
+        if not self._waiting:
+            raise AllEnteredError
+        self._note_boxes()
+
+    def sampled(self, kind: str, values: Mapping[str, Any]) -> None:
+        """Take no values."""
+
+    def _note_boxes(self) -> None:
+        world = self._context.world
+        self.boxes.append({actor: box_of(world.state(actor)) for actor in world.actors()})
+
+    def begins(self, action: BaseAction) -> None:
+        """Find out where an actor has to be whose first action begins, and put it there."""
+        actor = getattr(action, "actor", None)
+        if isinstance(actor, MovableObject) and actor.id in self._waiting:
+            self._waiting.discard(actor.id)
+            demands = start_demands(action)
+            if demands:
+                try:
+                    self._arrive(actor, demands, action.source)
+                except MapError as error:
+                    text = f"{actor.id}: {error.message}"
+                    self.errors[actor.id] = PlacementError(text, action.source)
+                except PlacementError as error:
+                    error.source = error.source or action.source
+                    self.errors[actor.id] = error
+        super().begins(action)
+
+    def _arrive(self, actor: MovableObject, demands: Sequence[Modifier], source: str) -> None:
+        world = self._context.world
+        here = world.state(actor.id)
+        fixed = any(isinstance(m, Position | Along | AlongTrajectory | OnPath) for m in demands)
+        initial = self._placed(actor, demands, None if fixed else here)
+        speed = self._kept_speed(demands) if initial.speed is None else initial.speed
+        self.arrivals[actor.id] = Arrival(
+            *(actor.id, self._context.step, initial.at, speed, initial.heading, initial.tilt),
+            *(fixed, actor.shape, world.limits(actor.id), actor.lane_bound, source),
+        )
+        self.missed[actor.id] = _missed(world.map, here, initial.at) if fixed else 0.0
+        world.assign(actor.id, at=initial.at, speed=speed, heading=initial.heading)
+
+    def _placed(
+        self, actor: MovableObject, demands: Sequence[Modifier], here: ActorState | None
+    ) -> InitialState:
+        """Return the place that is requested, among the others as they are now."""
+        world, state = self._context.world, self._context.world.state(actor.id)
+
+        def is_free(place: LanePosition) -> bool:
+            pose = world.map.pose(place)
+            box = box_of(state._replace(x=pose.x, y=pose.y, z=pose.z, h=pose.h))
+            others = (world.state(other) for other in world.actors() if other != actor.id)
+            return not any(overlapping(box, box_of(other)) for other in others)
+
+        draws = self._context.random_for(f"{actor.id} start")
+        return Placer(world).initial_state(actor, demands, here, is_free=is_free, draws=draws)
+
+    def _kept_speed(self, demands: Sequence[Modifier]) -> float:
+        """Return the speed (m/s) of an actor whose place is kept relative to another one."""
+        for each in demands:
+            if isinstance(each, Position) and each.reference is not None and each.at == "all":
+                return self._context.world.state(each.reference.id).v
+        return 0.0
+
+
+def _missed(road_map: RoadMap, here: ActorState, there: LanePosition | Pose) -> float:
+    """Return the distance (m) to where an actor has to be; infinite beside it."""
+    if isinstance(there, LanePosition) and here.lane_position is not None:
+        left = road_map.route_distance(here.lane_position, there)
+        aside = abs(here.lane_position.offset - there.offset) > _NEAR
+        return inf if left is None or aside else left
+    pose = road_map.pose(there) if isinstance(there, LanePosition) else there
+    return hypot(pose.x - here.x, pose.y - here.y)
+
+
+def ways_in(
+    play: Callable[[Rehearsal], None], actors: Sequence[str], road_map: RoadMap, dt: float
+) -> dict[str, WayIn]:
+    """Return the ways in of the actors that enter, and take part.
+
+    Args:
+        play: Plays a rehearsal.
+        actors: Ids of the actors that enter.
+        road_map: The map.
+        dt: Length of a step (s).
+
+    Raises:
+        PlacementError: An actor has no way in.
+    """
+    ways: dict[str, WayIn] = {}
+    before: dict[str, Arrival] = {}
+    short: dict[str, float] = {}  # by how much (m) the closed form of a way in is too short
+    for attempt in range(_MOST):
+        rehearsal = Rehearsal(ways, actors)
+        play(rehearsal)
+        found, errors = rehearsal.arrivals, rehearsal.errors
+        if errors and attempt:  # at first the others that enter are just anywhere
+            raise next(iter(errors.values()))
+        if not errors and _alike(found, before, road_map):
+            missed = rehearsal.missed
+            if all(abs(distance) < _NEAR for distance in missed.values()):
+                return ways
+            for actor, distance in missed.items():
+                short[actor] = short.get(actor, 0.0) + (distance if abs(distance) < _FITS else 0.0)
+        for actor, arrival in found.items():
+            for boxes in rehearsal.boxes[: arrival.step + 1]:
+                boxes.pop(actor, None)  # until then its way in decides where it is
+        ways = {
+            actor: way_in(arrival, road_map, rehearsal.boxes, dt, short.get(actor, 0.0))
+            for actor, arrival in found.items()
+        }
+        before = found
+    names = ", ".join(before)
+    raise PlacementError(f"where {names} has to be at first depends on the way to there")
+
+
+def _alike(found: dict[str, Arrival], before: dict[str, Arrival], road_map: RoadMap) -> bool:
+    """Return whether two rehearsals let the same actors arrive at the same time and place."""
+    return found.keys() == before.keys() and all(
+        arrival.is_like(before[actor], road_map) for actor, arrival in found.items()
+    )

@@ -1,0 +1,366 @@
+"""Actors whose first action begins later enter: they are there by then, as that action states."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.unit.cli.shell import Shell
+
+HEAD = """import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario top:
+    road: map with:
+        keep(it.map_file == "{map}.xodr")
+{cast}
+    event go
+    event done
+"""
+CAST = {"lead": "vehicle", "npc": "vehicle", "third": "vehicle", "ped": "person"}
+LEAD = """lead.drive({how}) with:
+                position({at}, at: start)
+                lane({lane})
+                speed({speed})"""
+
+
+class Run:
+    """A run, with its trace."""
+
+    def __init__(self, shell: Shell, body: str, *options: str, map_file: str = "highway") -> None:
+        cast = "\n".join(f"    {who}: {kind}" for who, kind in CAST.items() if f"{who}." in body)
+        path = shell.write("top.osc", HEAD.format(map=map_file, cast=cast) + body)
+        self.ended = shell("run", "--trace", "trace.jsonl", *options, path)
+        self.lines: list[dict[str, Any]] = []
+        if self.ended.code in (0, 5) and Path("trace.jsonl").exists():
+            text = Path("trace.jsonl").read_text(encoding="utf-8")
+            self.lines = [json.loads(line) for line in text.splitlines()]
+
+    def states(self, actor: str) -> list[dict[str, Any]]:
+        return [x for x in self.lines if x["kind"] == "state" and x["actor"] == actor]
+
+    def at(self, actor: str, time: float) -> dict[str, Any]:
+        return next(x for x in self.states(actor) if abs(x["t"] - time) < 1e-6)
+
+    def entering(self) -> dict[str, tuple[float, float]]:
+        """Return from when to when actors are on their way in."""
+        times: dict[str, list[float]] = {}
+        for line in self.lines:
+            if line["kind"] == "action" and line["name"].endswith(" enter"):
+                times.setdefault(line["actor"], []).append(line["t"])
+        return {actor: (begin, end) for actor, (begin, end) in times.items()}
+
+    def moves_steadily(self, actor: str, most: float = 8.0) -> bool:
+        """Return whether an actor never jumps: each step fits its speeds."""
+        states = self.states(actor)
+        for one, two in itertools.pairwise(states):
+            way = math.dist((one["x"], one["y"]), (two["x"], two["y"]))
+            mean = 0.5 * abs(one["v"] + two["v"]) * 0.05
+            if abs(way - mean) > 0.02 or abs(two["v"] - one["v"]) > most * 0.05 + 1e-6:
+                return False
+        return True
+
+    def collides(self) -> bool:
+        return any(line["kind"] == "collision" for line in self.lines)
+
+
+@pytest.fixture
+def shell(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Shell:
+    monkeypatch.chdir(tmp_path)
+    return Shell(capsys, tmp_path)
+
+
+FIRST = LEAD.format(how="duration: 5s", at="50m", lane="2", speed="15mps")
+SECOND = """
+        parallel(duration: 2s):
+            lead.drive() with:
+                speed(15mps)
+            npc.drive() with:
+                position({position}, at: start)
+                lane({lane})
+                speed({speed})
+        emit done
+"""
+
+
+@pytest.mark.parametrize(
+    ("position", "lane", "speed", "s", "v", "begins"),
+    [
+        # Steady: it starts as far back as it drives in 5 s.
+        ("30m, ahead_of: lead", 1, 15, 155.0, 15.0, 80.0),
+        ("30m, ahead_of: lead", 1, 20, 155.0, 20.0, 55.0),
+        ("20m, behind: lead", 3, 10, 105.0, 10.0, 55.0),
+        # In the lane of the lead, from behind it: the lead is never in the way.
+        ("20m, behind: lead", 2, 15, 105.0, 15.0, 30.0),
+        ("400m", 1, 10, 400.0, 10.0, 350.0),
+        # It stands where it has to be.
+        ("300m", 1, 0, 300.0, 0.0, 300.0),
+    ],
+)
+def test_second_phase(
+    shell: Shell, position: str, lane: int, speed: int, s: float, v: float, begins: float
+) -> None:
+    text = SECOND.format(position=position, lane=lane, speed=f"{speed}mps")
+    run = Run(shell, f"    do serial:\n        {FIRST.replace('    ' * 4, '    ' * 3)}{text}")
+    assert run.ended.code == 0, run.ended.err
+    assert "OSC8" not in run.ended.err
+    assert run.at("npc", 0.0)["s"] == pytest.approx(begins)
+    assert run.at("npc", 5.0)["s"] == pytest.approx(s)
+    assert run.at("npc", 5.0)["v"] == pytest.approx(v)
+    assert run.entering() == {"npc": (0.0, 5.0)}
+    assert run.moves_steadily("npc")
+    assert not run.collides()
+
+
+def test_a_short_road_is_waited_on(shell: Shell) -> None:
+    """40 m from the start at 15 m/s, half of the acceleration of a car: 60 m steady are too far."""
+    run = Run(
+        shell,
+        """    do serial:
+        wait elapsed(10s)
+        npc.drive(duration: 2s) with:
+            position(80m, at: start)
+            lane(1)
+            speed(15mps)
+""",
+    )
+    assert run.ended.code == 0, run.ended.err
+    states = run.states("npc")
+    assert states[0]["v"] == 0.0
+    here = run.at("npc", 10.0)
+    assert (here["s"], here["v"]) == (pytest.approx(80.0), pytest.approx(15.0))
+    assert run.moves_steadily("npc", most=2.5)
+
+
+def test_no_way_in_is_refused(shell: Shell) -> None:
+    run = Run(
+        shell,
+        """    do serial:
+        wait elapsed(10s)
+        npc.drive(duration: 2s) with:
+            position(12m, at: start)
+            lane(1)
+            speed(30mps)
+""",
+    )
+    assert run.ended.code == 5
+    assert "top.osc:13:" in run.ended.err
+    assert "npc has no way in to where its first action begins at 10.00 s" in run.ended.err
+    assert "300.0 m of road are needed, and there are 12.0 m" in run.ended.err
+
+
+def test_at_an_event(shell: Shell) -> None:
+    """The lead passes 120 m at 7/1.5 s; nobody knows that before the run."""
+    run = Run(
+        shell,
+        """    do parallel(duration: 8s):
+        lead.drive() with:
+            position(50m, at: start)
+            lane(2)
+            speed(15mps)
+        serial:
+            wait rise(lead.time > 0s) or elapsed(4s)
+            npc.drive() with:
+                position(20m, behind: lead, at: start)
+                lane(3)
+                speed(20mps)
+""".replace("rise(lead.time > 0s) or elapsed(4s)", "elapsed(4.4s)"),
+    )
+    assert run.ended.code == 0, run.ended.err
+    assert run.at("npc", 4.4)["s"] == pytest.approx(50.0 + 4.4 * 15.0 - 20.0)
+    assert run.at("npc", 4.4)["v"] == pytest.approx(20.0)
+    assert run.at("npc", 0.0)["s"] == pytest.approx(96.0 - 88.0)
+
+
+def test_a_condition_that_depends_on_the_run(shell: Shell) -> None:
+    run = Run(
+        shell,
+        """    do parallel(duration: 9s):
+        lead.drive() with:
+            position(50m, at: start)
+            lane(2)
+            speed(15mps)
+        third.drive() with:
+            position(100m, at: start)
+            lane(2)
+            speed(5mps)
+        serial:
+            wait lead.object_distance(reference: third, direction: longitudinal) < 10m
+            emit go
+        serial:
+            wait @go
+            npc.drive() with:
+                position(30m, behind: lead, at: start)
+                lane(1)
+                speed(8mps)
+""",
+    )
+    assert run.ended.code == 0, run.ended.err
+    ((begin, end),) = run.entering().values()
+    assert begin == 0.0
+    assert 0.0 < end < 5.0
+    assert run.at("npc", end)["s"] == pytest.approx(run.at("lead", end)["s"] - 30.0)
+    assert run.moves_steadily("npc")
+
+
+@pytest.mark.parametrize("policy", ["race", "first", "seeded"])
+def test_inside_one_of(shell: Shell, policy: str) -> None:
+    run = Run(
+        shell,
+        """    do serial:
+        lead.drive(duration: 3s) with:
+            position(50m, at: start)
+            lane(2)
+            speed(15mps)
+        one_of:
+            npc.drive(duration: 2s) with:
+                position(30m, ahead_of: lead, at: start)
+                lane(1)
+                speed(15mps)
+            lead.drive(duration: 2s)
+""",
+        "--one-of",
+        policy,
+    )
+    assert run.ended.code == 0, run.ended.err
+    starts = [x["t"] for x in run.lines if x["kind"] == "action" and x["name"] == "npc drive"]
+    if starts:
+        assert run.at("npc", 3.0)["s"] == pytest.approx(125.0)
+        assert run.moves_steadily("npc")
+
+
+def test_relative_to_one_that_enters_too(shell: Shell) -> None:
+    run = Run(
+        shell,
+        """    do serial:
+        lead.drive(duration: 4s) with:
+            position(100m, at: start)
+            lane(2)
+            speed(15mps)
+        parallel(duration: 2s):
+            third.drive() with:
+                position(20m, behind: npc, at: start)
+                lane(1)
+                speed(12mps)
+            npc.drive() with:
+                position(10m, ahead_of: lead, at: start)
+                lane(1)
+                speed(12mps)
+""",
+    )
+    assert run.ended.code == 0, run.ended.err
+    assert run.at("npc", 4.0)["s"] == pytest.approx(170.0)
+    assert run.at("third", 4.0)["s"] == pytest.approx(150.0)
+    assert run.at("third", 0.0)["s"] == pytest.approx(102.0)
+    assert not run.collides()
+
+
+def test_who_is_in_the_way_is_avoided(shell: Shell) -> None:
+    """The lead stands where a steady way in would begin; the actor waits ahead of it."""
+    run = Run(
+        shell,
+        """    do parallel(duration: 7s):
+        lead.drive() with:
+            position(60m, at: start)
+            lane(1)
+            speed(0mps)
+        serial:
+            wait elapsed(5s)
+            npc.drive() with:
+                position(110m, at: start)
+                lane(1)
+                speed(15mps)
+""",
+    )
+    assert run.ended.code == 0, run.ended.err
+    assert run.at("npc", 0.0)["s"] > 62.0
+    assert run.at("npc", 5.0)["s"] == pytest.approx(110.0)
+    assert run.at("npc", 5.0)["v"] == pytest.approx(15.0)
+    assert not run.collides()
+
+
+def test_a_place_that_is_taken_is_refused(shell: Shell) -> None:
+    run = Run(
+        shell,
+        """    do parallel(duration: 7s):
+        lead.drive() with:
+            position(60m, at: start)
+            lane(1)
+            speed(0mps)
+        serial:
+            wait elapsed(5s)
+            npc.drive() with:
+                position(61m, at: start)
+                lane(1)
+                speed(5mps)
+""",
+    )
+    assert run.ended.code == 5
+    assert "is 61 m from the start" in run.ended.err
+
+
+def test_a_walker_sets_out(shell: Shell) -> None:
+    run = Run(
+        shell,
+        """    crossing_begin: position_3d with:
+        keep(it.x == 100m)
+        keep(it.y == -20m)
+        keep(it.z == 0m)
+    do serial:
+        lead.drive(duration: 4s) with:
+            position(50m, at: start)
+            lane(2)
+            speed(10mps)
+        ped.walk(duration: 2s) with:
+            position(at_point: crossing_begin, project_on_route: false, at: start)
+            yaw(90deg, at: start)
+            speed(1.4mps, at: start)
+""",
+    )
+    assert run.ended.code == 0, run.ended.err
+    here = run.at("ped", 4.0)
+    assert (here["x"], here["y"]) == (pytest.approx(100.0), pytest.approx(-20.0))
+    assert here["v"] == pytest.approx(1.4)
+    assert run.at("ped", 0.0)["v"] == 0.0
+    assert -21.5 < run.at("ped", 0.0)["y"] < -20.0
+
+
+def test_a_scenario_that_places_its_actor_second(shell: Shell) -> None:
+    path = shell.write(
+        "top.osc",
+        """import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario vehicle.joins:
+    other: vehicle
+    do actor.drive(duration: 2s) with:
+        position(25m, ahead_of: other, at: start)
+        lane(1)
+        speed(15mps)
+
+scenario top:
+    road: map with:
+        keep(it.map_file == "highway.xodr")
+    lead, npc: vehicle
+    do serial:
+        lead.drive(duration: 4s) with:
+            position(50m, at: start)
+            lane(2)
+            speed(15mps)
+        npc.joins(other: lead)
+""",
+    )
+    ended = shell("run", "--scenario", "top", "--trace", "trace.jsonl", path)
+    assert ended.code == 0, ended.err
+    lines = [json.loads(x) for x in Path("trace.jsonl").read_text("utf-8").splitlines()]
+    (there,) = (x for x in lines if x["kind"] == "state" and (x["actor"], x["t"]) == ("npc", 4.0))
+    assert there["s"] == pytest.approx(135.0)
