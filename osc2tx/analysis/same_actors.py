@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from osc2tx.analysis.constraints.collect import Constraint
+from osc2tx.analysis.constraints.constraint import Constraint
 from osc2tx.analysis.constraints.propagation import TypeConstraints
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from osc2tx import ir
 from osc2tx.analysis import ConstraintAnalysis
-from osc2tx.analysis.constraints.collect import Constraint
+from osc2tx.analysis.constraints.constraint import Constraint
 from osc2tx.analysis.constraints.domains import Domain
 from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx.analysis.constraints.parameter_lookup import Place

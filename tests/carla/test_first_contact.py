@@ -293,3 +293,14 @@ def test_weather_and_lights_are_as_before(name: str) -> None:
         weather, lights = server.ask("stand_in_surroundings")
     assert weather == pytest.approx(before[0], abs=1e-3)
     assert [frozen for _, frozen in lights] == [frozen for _, frozen in before[1]]
+
+
+# --- large levels ----------------------------------------------------------------------------
+
+
+def test_actors_that_a_large_level_does_not_stream() -> None:
+    """Without a camera or a `hero` near them they would stand still, and nobody would know why."""
+    with StandInProcess([OWN_MAPS], "highway", "--fault", "large-level") as server:
+        said = message_of(in_carla(RunSettings(), server.port))
+        assert "ego is dormant in CARLA" in said and "--carla-view ego" in said
+        assert run(in_carla(RunSettings(), server.port, carla_view="ego")).status == "success"

@@ -147,6 +147,15 @@ def test_traffic_lights_are_stopped_once_and_switched(stand_in: StandInProcess) 
     assert red in states and green in states
 
 
+def test_cycles_begin_with_the_run(stand_in: StandInProcess) -> None:
+    """Whatever the lights showed before; another client that makes the steps has them its way."""
+    calls = calls_of(stand_in, "C17_traffic_signals")
+    names = [name for name, _ in calls]
+    assert names.count("reset_all_traffic_lights") == 1
+    settings = next(arguments[0] for name, arguments in calls if name == "set_episode_settings")
+    assert settings[3]  # substeps
+
+
 def test_people_walk(stand_in: StandInProcess) -> None:
     walks = commands(calls_of(stand_in, "pedestrian_crossing", "driven"), 4)
     assert walks

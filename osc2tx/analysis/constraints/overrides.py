@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from osc2tx.analysis.constraints.collect import Constraint, Entry, Removal
+from osc2tx.analysis.constraints.constraint import Constraint, Entry, Removal
 from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx_shared.classes import dataclass
 

@@ -20,7 +20,8 @@ from dataclasses import field
 from enum import Enum
 from functools import partial
 
-from osc2tx.analysis.constraints.collect import Collector, Constraint, Entry, Shared
+from osc2tx.analysis.constraints.collect import Collector, Shared
+from osc2tx.analysis.constraints.constraint import Constraint, Entry
 from osc2tx.analysis.constraints.domains import Choice, Domain, Interval, Value, close, is_void
 from osc2tx.analysis.constraints.operation_list import Key, domain_of_type
 from osc2tx.analysis.constraints.overrides import EffectiveConstraints, apply_overrides

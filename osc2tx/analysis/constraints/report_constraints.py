@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from osc2tx.analysis.constraints.collect import Constraint
 from osc2tx.analysis.constraints.constants import (
     ConstantEvaluator,
     ImpossibleConversionError,
     WithoutValueError,
 )
+from osc2tx.analysis.constraints.constraint import Constraint
 from osc2tx.analysis.constraints.domains import Interval
 from osc2tx.analysis.constraints.forward import exact_result
 from osc2tx.analysis.constraints.operation_list import Operation

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from osc2tx.analysis.constraints.collect import Constraint
+from osc2tx.analysis.constraints.constraint import Constraint
 from osc2tx.analysis.constraints.domains import Choice, Domain, Interval, Number
 from osc2tx.analysis.constraints.operation_list import OperationListBuilder
 from osc2tx.analysis.constraints.propagation import ParameterDomain

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TypeAlias
 
 from osc2tx import ir
-from osc2tx.analysis.constraints.collect import Constraint
+from osc2tx.analysis.constraints.constraint import Constraint
 from osc2tx.analysis.constraints.operation_list import Key, kind_of
 from osc2tx.analysis.tree_walk import nodes_below
 from osc2tx.lowering.constraints.parameter_domains import all_values, as_type

@@ -12,7 +12,7 @@ from dataclasses import field
 
 from osc2tx import ir
 from osc2tx.analysis import TypeConstraints, analyse_global, single_value
-from osc2tx.analysis.constraints.collect import Constraint
+from osc2tx.analysis.constraints.constraint import Constraint
 from osc2tx.analysis.constraints.domains import TRUE, Choice, Domain, join
 from osc2tx.analysis.constraints.operation_list import SIZE, Key, domain_of_type
 from osc2tx.analysis.constraints.solver import values_on

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from osc2tx import ir
-from osc2tx.analysis.constraints.collect import Constraint
+from osc2tx.analysis.constraints.constraint import Constraint
 from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx.analysis.tree_walk import nodes_below
 from osc2tx.lowering.context import LoweringContext

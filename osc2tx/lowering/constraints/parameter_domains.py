@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from osc2tx import ir
 from osc2tx.analysis import single_value
-from osc2tx.analysis.constraints.collect import Constraint
+from osc2tx.analysis.constraints.constraint import Constraint
 from osc2tx.analysis.constraints.domains import Choice, Domain, Interval, Number, Value, close
 from osc2tx.analysis.constraints.operation_list import Key, domain_of_type
 from osc2tx.analysis.constraints.value_text import unit_of

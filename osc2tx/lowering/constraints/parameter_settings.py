@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from osc2tx import ir
-from osc2tx.analysis.constraints.collect import Constraint
+from osc2tx.analysis.constraints.constraint import Constraint
 from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast

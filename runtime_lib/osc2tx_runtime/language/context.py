@@ -25,8 +25,7 @@ from osc2tx_runtime.language.slots import Effect, Effects, Owner, Slots
 from osc2tx_runtime.language.trace import TraceWriter
 from osc2tx_runtime.world.checks.commands import command_problem
 from osc2tx_runtime.world.commands import Command
-from osc2tx_runtime.world.plant.plant import EXACT
-from osc2tx_runtime.world.protocol import LATERAL, LONGITUDINAL, World
+from osc2tx_runtime.world.protocol import EXACT, LATERAL, LONGITUDINAL, World
 
 __all__ = ["MAX_PASSES", "ExecutionContext"]
 
@@ -196,7 +195,7 @@ class ExecutionContext:
     @cached_property
     def is_measured(self) -> bool:
         """Whether a simulator moves some of the actors, so that their states are noisy."""
-        return any(self.world.control(actor) != EXACT for actor in self.cast())
+        return any(self.world.control(actor) not in EXACT for actor in self.cast())
 
     def random_for(self, key: str) -> random.Random:
         """Return a generator of its own for `key`: same seed and key, same draws."""

@@ -125,7 +125,7 @@ OPTIONS: tuple[Option, ...] = (
     Option(
         "control",
         "MODE[,ACTOR=MODE]",
-        "control mode of the actors: exact, driven, external, autopilot",
+        "control mode of the actors: exact, exact-physics, driven, external, autopilot",
         parse_control,
         _merged,
     ),

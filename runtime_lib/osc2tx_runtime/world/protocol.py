@@ -54,9 +54,11 @@ LOW_BEAM_SUN_ELEVATION = 0.2617993877991494
 FOG_LIGHT_RANGE = 100.0
 """Visual range (m) below which they are so, too (UK Highway Code, rule 226)."""
 
-ControlMode = Literal["exact", "driven", "external", "autopilot"]
-"""How an actor moves: exactly as commanded; by a controller that follows the commands; by another
-driver, external or of the simulator."""
+ControlMode = Literal["exact", "exact-physics", "driven", "external", "autopilot"]
+"""How an actor moves: exactly as commanded, without or with rigid-body physics in the simulator; by
+a controller that follows the commands; by another driver, external or of the simulator."""
+EXACT: frozenset[ControlMode] = frozenset({"exact", "exact-physics"})
+"""The modes in which an actor has the commanded state, and nothing is measured."""
 EXTERNAL: frozenset[ControlMode] = frozenset({"external", "autopilot"})
 """The modes with another driver."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from .simulation import Simulation
@@ -57,7 +58,7 @@ class ActorCalls:
         self._actor(actor).physics = enabled
 
     def set_actor_enable_gravity(self, actor: int, enabled: bool) -> None:
-        self._actor(actor)
+        self._actor(actor).gravity = enabled
 
     def set_actor_collisions(self, actor: int, enabled: bool) -> None:
         self._actor(actor)
@@ -67,6 +68,14 @@ class ActorCalls:
 
     def disable_actor_constant_velocity(self, actor: int) -> None:
         self._actor(actor).constant = None
+
+    def set_walker_state(self, actor: int, pose: list[Any], speed: float) -> None:
+        """Put a walker with its feet at a place, and have it walk where it looks."""
+        walker = self._actor(actor)
+        (x, y, z), (pitch, yaw, roll) = pose
+        walker.location, walker.rotation = [x, y, z + walker.extent[2]], [pitch, yaw, roll]
+        ahead = [math.cos(walker.yaw), math.sin(walker.yaw), 0.0]
+        walker.walk = [ahead, speed, False]
 
     def apply_control_to_walker(self, actor: int, control: list[Any]) -> None:
         self._actor(actor).walk = list(control)

@@ -47,6 +47,7 @@ class Actor:
         walk: Direction, speed (m/s), jump.
         constant: Velocity in its own axes that it is kept at (m/s); None without.
         steered: Angle of the front wheels (rad), positive to the right.
+        dormant: A large level has put it to sleep.
         stream: Of a sensor; 0 for those without.
     """
 
@@ -64,6 +65,8 @@ class Actor:
     walk: list[Any] = field(default_factory=lambda: [[1.0, 0.0, 0.0], 0.0, False])
     constant: list[float] | None = None
     physics: bool = True
+    gravity: bool = True
+    dormant: bool = False
     lights: int = 0
     friction: float = TYRE_FRICTION
     steered: float = 0.0

@@ -33,6 +33,7 @@ class BatchCalls:
             4: actors.apply_control_to_walker,
             5: vehicles.apply_physics_control,
             6: actors.set_actor_transform,
+            7: actors.set_walker_state,
             8: actors.set_actor_target_velocity,
             9: actors.set_actor_target_angular_velocity,
             14: actors.set_actor_simulate_physics,

@@ -20,6 +20,7 @@ from .blueprints import TYRE_FRICTION, Blueprint
 SUBSTEP = 0.01  # s, as in CARLA's default settings
 GRAVITY = 9.81
 DRAG = 0.0008  # 1/m
+DAMPING = 0.01  # 1/s: of the speed of each body, the engine's default
 BRAKING = 8.0  # m/s^2 of a full brake
 STEERING_RATE = 8.0  # 1/s: how fast the wheels follow the wanted angle
 RIGHTING = 60.0  # degrees/s
@@ -42,12 +43,29 @@ def move(actor: Actor, dt: float) -> None:
     before = tuple(actor.velocity)
     if not actor.physics:  # only the physics of the engine knows a velocity
         actor.velocity, actor.turning = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
+    elif actor.kind == "vehicle" and not actor.gravity:
+        _float(actor, dt)
     elif actor.kind == "vehicle":
         _drive(actor, dt)
         _fall_on_wheels(actor, dt)
     elif actor.kind == "walker":
         _walk(actor, dt)
     actor.acceleration = [(new - old) / dt for new, old in zip(actor.velocity, before, strict=True)]
+
+
+def _float(actor: Actor, dt: float) -> None:
+    """Go on as a body that nothing holds: without load its tyres transmit nothing."""
+    actor.velocity = [v * (1.0 - DAMPING * dt) for v in actor.velocity]
+    actor.location = [at + v * dt for at, v in zip(actor.location, actor.velocity, strict=True)]
+    about_x, about_y, about_z = actor.turning
+    yaw = actor.yaw + 0.5 * math.radians(about_z) * dt
+    ahead, aside = math.cos(yaw), math.sin(yaw)
+    pitch, turn, roll = actor.rotation
+    actor.rotation = [
+        pitch + (about_x * aside - about_y * ahead) * dt,
+        turn + about_z * dt,
+        roll - (about_x * ahead + about_y * aside) * dt,
+    ]
 
 
 def _walk(actor: Actor, dt: float) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -10,6 +11,8 @@ from . import dynamics
 from .blueprints import BLUEPRINTS, VEHICLES
 from .simulation import Simulation
 
+LIFE_SPAN = 20  # steps that a walker that was hit is still there
+STREAMED = 100.0  # m around what a large level shows
 Calls = dict[str, Callable[..., Any]]
 
 
@@ -133,6 +136,44 @@ def sticky_camera(simulation: Simulation, calls: Calls) -> None:
     calls["tick_cue"] = drifting
 
 
+def mortal_walkers(simulation: Simulation, calls: Calls) -> None:
+    """A walker that a vehicle has hit is removed after its life span."""
+    tell, tick = simulation._tell_contact, calls["tick_cue"]
+    spans: dict[int, int] = {}
+
+    def note(me: Any, other: Any) -> None:
+        if me.kind == "walker":
+            spans.setdefault(me.id, LIFE_SPAN)
+        tell(me, other)
+
+    def age() -> int:
+        for walker in list(spans):
+            spans[walker] -= 1
+            if spans[walker] == 0 and walker in simulation.actors:
+                simulation.destroy(walker)
+        return int(tick())
+
+    simulation._tell_contact = note  # type: ignore[method-assign]
+    calls["tick_cue"] = age
+
+
+def large_level(simulation: Simulation, calls: Calls) -> None:
+    """Actors far from the camera and from actors named `hero` are put to sleep."""
+    tick = calls["tick_cue"]
+
+    def asleep() -> int:
+        actors = list(simulation.actors.values())
+        shown = [each for each in actors if "hero" in each.attribute("role_name")]
+        shown.append(simulation.spectator)
+        for each in actors:
+            places = (one.location[:2] for one in shown)
+            near = any(math.dist(each.location[:2], place) < STREAMED for place in places)
+            each.dormant = each.kind == "vehicle" and not near
+        return int(tick())
+
+    calls["tick_cue"] = asleep
+
+
 FAULTS: Mapping[str, Callable[[Simulation, Calls], None]] = {
     each.__name__.replace("_", "-"): each
     for each in (
@@ -148,5 +189,7 @@ FAULTS: Mapping[str, Callable[[Simulation, Calls], None]] = {
         late_walkers,
         nameless_lights,
         sticky_camera,
+        mortal_walkers,
+        large_level,
     )
 }

@@ -145,7 +145,7 @@ class Simulation:
                 slippery = (float(each.attribute("friction")) for each in inside)
                 actor.friction = min(slippery, default=TYRE_FRICTION)
             move(actor, dt)
-            if actor.physics and actor.kind in ("vehicle", "walker"):
+            if actor.physics and actor.gravity and actor.kind in ("vehicle", "walker"):
                 self._put_on_ground(actor)
             if actor.light is not None:
                 cycle(actor.light, dt)

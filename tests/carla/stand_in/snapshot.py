@@ -14,6 +14,9 @@ EPISODE_STREAM = 1
 WORLD_OBSERVER, COLLISION = 17, 0
 """Places in the client library's registry of sensors."""
 
+ACTIVE, DORMANT = 1, 2
+"""States of an actor."""
+
 STATE_BYTES = 54  # of one kind of actor
 SPEED_LIMIT, GREEN_LIGHT = 90.0, 2
 
@@ -34,8 +37,9 @@ def world_state(
 
 def actor_state(actor: Actor) -> bytes:
     """Return the state of an actor in 119 bytes."""
+    state = DORMANT if actor.dormant else ACTIVE
     motion = (*actor.velocity, *actor.turning, *actor.acceleration)
-    head = struct.pack("<IB6f9f", actor.id, 1, *actor.location, *actor.rotation, *motion)
+    head = struct.pack("<IB6f9f", actor.id, state, *actor.location, *actor.rotation, *motion)
     return head + _of_kind(actor).ljust(STATE_BYTES, b"\0")
 
 

@@ -12,8 +12,7 @@ from osc2tx_runtime.domain.monitoring.tolerances import QUANTITIES
 from osc2tx_runtime.errors import NOT_MET, PARTLY_MET, ScenarioError
 from osc2tx_runtime.opendrive import MapError
 from osc2tx_runtime.world.measuring.projected_motion import projected
-from osc2tx_runtime.world.plant.plant import EXACT
-from osc2tx_runtime.world.protocol import EXTERNAL
+from osc2tx_runtime.world.protocol import EXACT, EXTERNAL
 from osc2tx_shared.classes import dataclass
 
 if TYPE_CHECKING:
@@ -237,7 +236,7 @@ class Phase:
 
     def _tolerance(self, condition: Condition) -> float:
         quantity = QUANTITIES[condition.quantity]
-        return quantity.exact if self._control == EXACT else quantity.measured
+        return quantity.exact if self._control in EXACT else quantity.measured
 
     def _check(self, condition: Condition, tolerance: float, time: float) -> bool:
         """Return whether a condition holds, and note it if it does not."""
@@ -291,7 +290,7 @@ class Phase:
         if self._option == "must_be_physical":
             return "failure"
         if self._option == "prefer_non_physical":
-            return "failure" if self._control == EXACT else "warning"
+            return "failure" if self._control in EXACT else "warning"
         return "warning" if condition.is_target or condition.at == "all" else "failure"
 
 

@@ -62,12 +62,15 @@ class Attendance:
             if ticks:
                 time.sleep(0.02)  # faster than real time does not help a stack that attaches
 
-    def begin(self, client: ClientProcess, actors: Sequence[str]) -> None:
-        """Take the camera, and the time of the first step."""
+    def take_camera(self, client: ClientProcess, actors: Sequence[str]) -> None:
+        """Take the camera of the server's window, if it is to follow an actor."""
         if self.viewed is not None:
             if self.viewed not in actors:
                 raise SettingsError(f"--carla-view {self.viewed}: the scenario has no such actor")
             self._camera = client.ask("spectator")
+
+    def start(self) -> None:
+        """Note the time of the first step."""
         self._due = time.monotonic()
 
     def pause(self, dt: float) -> None:

@@ -10,16 +10,16 @@ from osc2tx_runtime.opendrive import Pose
 from osc2tx_runtime.world.actor_dimensions import MODELS, Shape
 from osc2tx_runtime.world.measuring.measurement import Measurement
 from osc2tx_runtime.world.plant.scene import Setpoint
-from osc2tx_runtime.world.protocol import ActorSpec, ControlMode
+from osc2tx_runtime.world.protocol import EXACT, ActorSpec, ControlMode
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_shared.classes import dataclass
 
 from .blueprints import SLOW_STARTER
-from .frames import measurement_from, transform_of, vector_of
+from .frames import measurement_from, transform_of, turning_of, vector_of
 from .gains import CAR, GAINS
 from .tracking import SpeedControl, Steering, walking
 
-__all__ = ["ABOVE", "CastMember", "Command", "member_of"]
+__all__ = ["ABOVE", "DISPLACED", "CastMember", "Command", "member_of"]
 
 Command = Sequence[Any]
 """Name, number of the actor in CARLA, values; see `client.commands`."""
@@ -27,8 +27,12 @@ Command = Sequence[Any]
 ABOVE = 0.3
 """Metres above the ground at which those begin that physics moves: they fall on their feet."""
 
+DISPLACED = 0.05
+"""Metres from its commanded place at which something else has moved an exact actor."""
+
 SIZE_NOTED = 0.1  # m between the sizes of scenario and simulator that are worth a line
 STILL = 0.05  # m/s
+NO_WAY = 1e-3  # m: less than that does not have a walker set a foot before the other
 LEAST_SIZE = 0.3  # m of a vehicle or walker
 KPH = 3.6  # km/h in a m/s
 
@@ -46,6 +50,7 @@ class CastMember:
         up: Metres from the ground to that origin.
         size: Length, width and height (m) in CARLA.
         foreign: Another client spawned it.
+        removed: It is not in CARLA any more.
         now: The latest measurement; None while it is exactly as commanded.
     """
 
@@ -59,14 +64,22 @@ class CastMember:
     steering: Steering
     speed: SpeedControl
     foreign: bool = False
+    removed: bool = False
     now: Measurement | None = None
     _physics: bool = True
+    _gravity: bool = True
     _placed: Sequence[float] | None = None
+    _found: Sequence[float] = ()
 
     @property
     def is_vehicle(self) -> bool:
         """Whether it has wheels, pedals and lights."""
         return self.blueprint.startswith("vehicle.")
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether it may be elsewhere than it is commanded."""
+        return self.control not in EXACT
 
     @property
     def other_size(self) -> bool:
@@ -92,14 +105,15 @@ class CastMember:
         return self.now
 
     def deviation(self, state: Sequence[float]) -> float:
-        """Metres between where it was put and where it is."""
+        """Return the metres between where it was put and where it is, and note the latter."""
+        self._found = state[:6]
         return 0.0 if self._placed is None else math.dist(self._placed[:3], state[:3])
 
     # --- commands of a step -------------------------------------------------------------------
 
     def first(self, setpoint: Setpoint) -> list[Command]:
         """Return what puts it where it starts, standing."""
-        if setpoint.towed or self.control == "exact":
+        if setpoint.towed or self.control in EXACT:
             return self._exact(setpoint)
         x, y, z, *turn = self.transform(setpoint.state)
         commands: list[Command] = [("place", self.actor, x, y, z + ABOVE, *turn)]
@@ -112,14 +126,18 @@ class CastMember:
     def kick(self, setpoint: Setpoint) -> list[Command]:
         """Return what gives it its speed at once."""
         state = setpoint.state
-        if setpoint.towed or self.control == "exact" or self.foreign:
+        if setpoint.towed or self.control in EXACT or self.foreign:
             return []
         return [self._velocity(state)]
 
     def commands(self, setpoint: Setpoint, dt: float) -> list[Command]:
         """Return what brings its setpoint about."""
+        if self.removed:
+            return []
         if setpoint.towed or self.control == "exact":
             return self._exact(setpoint)
+        if self.control == "exact-physics":
+            return self._carried(setpoint, dt)
         commands = self._with_physics(True)
         if setpoint.jumps:
             commands.append(("place", self.actor, *self.transform(setpoint.state)))
@@ -147,6 +165,43 @@ class CastMember:
             self._placed = place
             commands.append(("place", self.actor, *place))
         return commands
+
+    def _carried(self, setpoint: Setpoint, dt: float) -> list[Command]:
+        """Return what has a body with physics reach its pose at the end of the step.
+
+        Its velocities do: others see them, and what it touches feels them. Only a body that jumps,
+        or that something else has moved, is placed.
+        """
+        goal, start, before = self.transform(setpoint.state), self._found, self._placed
+        commands = self._with_physics(True)
+        self.now, self._placed = None, goal
+        if setpoint.jumps or before is None:
+            vx, vy, vz = vector_of(setpoint.state.v, setpoint.state.h)
+            start = [goal[0] - vx * dt, goal[1] - vy * dt, goal[2] - vz * dt, *goal[3:]]
+            place = True
+        else:
+            place = math.dist(start[:3], before[:3]) > DISPLACED
+            start = before if place else start
+        if not self.is_vehicle:
+            return [*commands, self._led(start, goal, dt)]
+        if self._gravity:
+            self._gravity = False
+            commands.append(("gravity", self.actor, False))
+        if place:
+            commands.append(("place", self.actor, *start))
+        velocity = [(to - at) / dt for at, to in zip(start[:3], goal[:3], strict=True)]
+        commands.append(("velocity", self.actor, *velocity))
+        commands.append(("turning", self.actor, *turning_of(start, goal, dt)))
+        return commands
+
+    def _led(self, start: Sequence[float], goal: Sequence[float], dt: float) -> Command:
+        """Return what has a walker walk from one pose to another; CARLA adds half its height."""
+        (x, y, z), (pitch, yaw, roll) = start[:3], goal[3:]
+        way = math.dist(start[:2], goal[:2])
+        speed = way / dt if way > NO_WAY else 0.0
+        if speed:  # it walks where it looks
+            yaw = math.degrees(math.atan2(goal[1] - y, goal[0] - x))
+        return ("lead", self.actor, x, y, z - self.up, pitch, yaw, roll, speed)
 
     def _driven(self, setpoint: Setpoint, now: Measurement, dt: float) -> Command:
         if not self.is_vehicle:

@@ -13,7 +13,7 @@ from osc2tx_runtime.opendrive import Pose
 from osc2tx_runtime.opendrive.geometry import wrap
 from osc2tx_runtime.world.measuring.measurement import Measurement
 
-__all__ = ["measurement_from", "pose_from", "transform_of", "vector_of"]
+__all__ = ["measurement_from", "pose_from", "transform_of", "turning_of", "vector_of"]
 
 
 def transform_of(pose: Pose, ahead: float = 0.0, up: float = 0.0) -> list[float]:
@@ -40,6 +40,24 @@ def pose_from(transform: Sequence[float], ahead: float = 0.0, up: float = 0.0) -
 def vector_of(speed: float, heading: float) -> list[float]:
     """Return the velocity (m/s) in CARLA's axes of an actor that moves along its heading."""
     return [speed * math.cos(heading), -speed * math.sin(heading), 0.0]
+
+
+def turning_of(start: Sequence[float], goal: Sequence[float], dt: float) -> list[float]:
+    """Return the angular velocity (degrees/s, axes of CARLA's world) between two transforms.
+
+    Args:
+        start: x, y, z, pitch, yaw, roll in CARLA.
+        goal: So, too, `dt` seconds later.
+        dt: s.
+    """
+    pitch, yaw, roll = (
+        math.remainder(after - before, 360.0) / dt
+        for before, after in zip(start[3:6], goal[3:6], strict=True)
+    )
+    heading = -math.radians(start[4] + 0.5 * yaw * dt)
+    ahead, aside = math.cos(heading), math.sin(heading)
+    # `v = w x r` holds by components: nose up and right side down are negative about y and x.
+    return [-(roll * ahead + pitch * aside), roll * aside - pitch * ahead, yaw]
 
 
 def measurement_from(state: Sequence[float], ahead: float = 0.0, up: float = 0.0) -> Measurement:

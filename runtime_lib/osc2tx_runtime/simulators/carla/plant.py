@@ -9,12 +9,12 @@ from typing import Any
 from osc2tx_runtime.errors import SettingsError, SimulatorError
 from osc2tx_runtime.world.actor_dimensions import Shape
 from osc2tx_runtime.world.measuring.measurement import Measurement
-from osc2tx_runtime.world.plant.scene import Scene
-from osc2tx_runtime.world.protocol import FEATURES, ActorSpec, ControlMode, Feature
+from osc2tx_runtime.world.plant.scene import Scene, Setpoint
+from osc2tx_runtime.world.protocol import EXTERNAL, FEATURES, ActorSpec, ControlMode, Feature
 from osc2tx_shared.text import say
 
 from .attendance import Attendance
-from .cast import CastMember, Command
+from .cast import DISPLACED, CastMember, Command
 from .client_process import ClientProcess
 from .sensors import SensorStacks
 from .spawning import Spawning
@@ -26,7 +26,6 @@ SETTLING = 2.0  # s that vehicles have at most to come to rest on their wheels
 AT_REST = 0.05  # m/s upwards
 STILL_STEPS = 2  # at rest one after the other: a body at the top of a bounce is still for one
 SAME_DT = 1e-5  # s: frames travel in single precision
-MOVED = 0.05  # m: an exact actor that is farther away was moved by another client
 DRIVABLE = ("vehicle", "person")
 
 
@@ -69,6 +68,9 @@ class CarlaPlant:
         self._members: dict[str, CastMember] = {}
         self._surroundings = CarlaSurroundings(client)
         self._start = 0.0  # s of the episode at step 0
+        self._displaced: set[str] = set()
+        self._struck: set[str] = set()  # those that took part in a contact
+        self._default = self._default_control(sensors)
 
     # --- capabilities -------------------------------------------------------------------------
 
@@ -78,11 +80,17 @@ class CarlaPlant:
         drives = spec is None or (spec.movable and spec.kind in DRIVABLE)
         wanted = self._wanted.get(actor)
         if wanted is None:
-            wanted = "external" if self._spawning.awaited(actor) else self._wanted.get("", "exact")
+            wanted = "external" if self._spawning.awaited(actor) else self._default
             return wanted if drives else "exact"
         if not drives and wanted != "exact":
             raise SettingsError(f"--control {actor}={wanted}: {actor} is nothing that drives")
         return wanted
+
+    def _default_control(self, sensors: SensorStacks) -> ControlMode:
+        """With physics where somebody else looks at the velocities of the actors, or hits them."""
+        others = any(each in EXTERNAL for each in self._wanted.values()) or self._spawning.waits
+        default: ControlMode = "exact-physics" if others or sensors.see_velocities else "exact"
+        return self._wanted.get("", default)
 
     def capabilities(self) -> frozenset[Feature]:
         """All there are; `capabilities` says how."""
@@ -108,27 +116,28 @@ class CarlaPlant:
         for actor, setpoint in setpoints.items():
             member = foreign.get(actor) or self._spawning.spawn(setpoint, self.control(actor))
             self._members[actor] = member
-            if member.control != "exact" and member.other_size:
+            if member.is_measured and member.other_size:
                 length, width, height = (round(each, 3) for each in member.size)
                 scene.note("simulator_size", actor=actor, length=length, width=width, height=height)
         self._sensors.attach(self._client, self._members)
         self._report(scene)
         members = self._members.items()
         first = [each for actor, member in members for each in member.first(setpoints[actor])]
-        looked = self._at_rest(self._client.ask("step", first))
+        self._attendance.take_camera(self._client, list(self._members))
+        looked = self._at_rest(self._client.ask("step", [*first, *self._view(setpoints)]))
         self._attendance.wait_for_control(
             self._client,
             [each.actor for each in self._members.values() if each.control == "external"],
             ticks=self._ticks,
         )
-        self._attendance.begin(self._client, list(self._members))
+        self._attendance.start()
         self._begin_autopilot()
         for member in self._members.values():
-            if member.control != "exact":
+            if member.is_measured:
                 self._client.ask("watch_collisions", member.actor)
         kicks = [each for actor, member in members for each in member.kick(setpoints[actor])]
         self._client.ask("apply", kicks)
-        self._surroundings.begin()
+        self._surroundings.begin(ticks=self._ticks)
         self._start = looked["time"]
         return {
             actor: found if self._members[actor].foreign else found._replace(velocity=(v, 0.0, 0.0))
@@ -146,7 +155,7 @@ class CarlaPlant:
 
     def _at_rest(self, looked: Mapping[str, Any]) -> Mapping[str, Any]:
         """Wait until those with wheels or legs stand on the ground."""
-        falling = {m.actor for m in self._members.values() if m.control != "exact"}
+        falling = {m.actor for m in self._members.values() if m.is_measured}
         still = 0
         for _ in range(math.ceil(SETTLING / self._dt) if self._ticks else 1):
             states = dict(looked["actors"])
@@ -172,9 +181,7 @@ class CarlaPlant:
             for each in member.commands(setpoints[actor], self._dt)
         ]
         batch += self._surroundings.commands(scene, self._members)
-        viewed = self._attendance.viewed
-        if viewed is not None:
-            batch += self._attendance.view(self._members[viewed].pose(setpoints[viewed].state))
+        batch += self._view(setpoints)
         self._attendance.pause(self._dt)
         looked = self._client.ask("step", batch)
         if looked["skipped"]:
@@ -193,22 +200,57 @@ class CarlaPlant:
         self._note_collisions(scene, looked)
         return self._measured(looked, scene)
 
+    def _view(self, setpoints: Mapping[str, Setpoint]) -> list[Command]:
+        viewed = self._attendance.viewed
+        if viewed is None:
+            return []
+        return self._attendance.view(self._members[viewed].pose(setpoints[viewed].state))
+
     def _measured(self, looked: Mapping[str, Any], scene: Scene) -> Mapping[str, Measurement]:
-        states = dict(looked["actors"])
+        states, dormant = dict(looked["actors"]), looked["dormant"]
         found = {}
         for actor, setpoint in scene.setpoints.items():
             member = self._members[actor]
             state = states.get(member.actor)
+            if member.actor in dormant:
+                raise SimulatorError(
+                    f"{actor} is dormant in CARLA: this level is large, and what is far from its"
+                    ' camera and from actors named "hero" stands still'
+                    f" (--carla-view {actor} takes the camera along)"
+                )
             if state is None:
-                raise SimulatorError(f"{actor} is not in CARLA any more: another client removed it")
-            if member.control == "exact" or setpoint.towed:
-                self._check_place(actor, member, state)
+                self._removed(actor, scene)
+                if member.now is not None:
+                    found[actor] = member.now._replace(velocity=(0.0, 0.0, 0.0))
+            elif setpoint.towed or not member.is_measured:
+                self._check_place(actor, member, state, scene)
             else:
                 found[actor] = member.measured(state)
         return found
 
-    def _check_place(self, actor: str, member: CastMember, state: list[float]) -> None:
-        if member.deviation(state) > MOVED:
+    def _removed(self, actor: str, scene: Scene) -> None:
+        """A walker that was hit is removed by CARLA after a while; nothing else ever is.
+
+        Raises:
+            SimulatorError: It was no such walker.
+        """
+        if actor not in self._struck or self._members[actor].is_vehicle:
+            raise SimulatorError(f"{actor} is not in CARLA any more: another client removed it")
+        if not self._members[actor].removed:
+            self._members[actor].removed = True
+            scene.note("simulator_removed", actor=actor)
+
+    def _check_place(
+        self, actor: str, member: CastMember, state: list[float], scene: Scene
+    ) -> None:
+        off = member.deviation(state)
+        if off <= DISPLACED:
+            self._displaced.discard(actor)
+        elif member.control == "exact-physics":  # something has pushed it: it is put back
+            if actor not in self._displaced:
+                scene.note("simulator_displaced", actor=actor, distance=round(off, 3))
+            self._displaced.add(actor)
+        else:
             raise SimulatorError(
                 f"{actor} is not where it was put in CARLA: another client moves it"
                 f" (--control {actor}=external leaves it to it)"
@@ -218,6 +260,7 @@ class CarlaPlant:
         """Contacts reported by the simulator; the trace's own test decides."""
         names = {member.actor: actor for actor, member in self._members.items()}
         for time, number, other, blueprint in looked["collisions"]:
+            self._struck.update(names[each] for each in (number, other) if each in names)
             scene.note(
                 "simulator_collision",
                 at=round(time - self._start, 3),

@@ -110,6 +110,12 @@ class SensorStacks:
     def __init__(self, files: Mapping[str, Path]) -> None:
         self._stacks = {actor: read_stack(path) for actor, path in files.items()}
 
+    @property
+    def see_velocities(self) -> bool:
+        """Whether a sensor measures how fast others are."""
+        sensors = (each for stack in self._stacks.values() for each in stack)
+        return any(each.type == "sensor.other.radar" for each in sensors)
+
     def attach(self, client: ClientProcess, members: Mapping[str, CastMember]) -> None:
         """Spawn the sensors with their names, then have them published.
 

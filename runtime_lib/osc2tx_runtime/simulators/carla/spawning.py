@@ -8,7 +8,7 @@ from typing import Any
 from osc2tx_runtime.errors import SimulatorError
 from osc2tx_runtime.opendrive import Pose
 from osc2tx_runtime.world.plant.scene import Setpoint
-from osc2tx_runtime.world.protocol import ControlMode
+from osc2tx_runtime.world.protocol import EXACT, ControlMode
 
 from .blueprints import attributes_of, blueprint_for
 from .cast import ABOVE, CastMember, member_of
@@ -36,6 +36,11 @@ class Spawning:
         self._library = client.ask("blueprints")
         self._count = 0
         self.problems: list[str] = []
+
+    @property
+    def waits(self) -> bool:
+        """Whether somebody else spawns any actor."""
+        return bool(self._waiting)
 
     def awaited(self, actor: str) -> bool:
         """Whether another client spawns an actor."""
@@ -78,7 +83,7 @@ class Spawning:
         if problem is not None:
             self.problems.append(problem)
         self._count += 1
-        exact = control == "exact" or setpoint.towed
+        exact = control in EXACT or setpoint.towed
         up = OUT_OF_THE_WAY + 5.0 * self._count if exact else ABOVE
         if blueprint.startswith("walker."):
             up += 1.0

@@ -131,9 +131,11 @@ class CarlaSurroundings:
         self._signals: frozenset[str] = frozenset()
         self._shown: dict[str, str] = {}
 
-    def begin(self) -> None:
-        """Find the traffic lights."""
+    def begin(self, *, ticks: bool) -> None:
+        """Find the traffic lights; their cycles begin with the run if it makes the steps."""
         self._signals = frozenset(self._client.ask("traffic_lights"))
+        if self._signals and ticks:
+            self._client.ask("reset_lights")
 
     def commands(self, scene: Scene, members: Mapping[str, CastMember]) -> Iterator[Command]:
         """Bring the surroundings of the next step about; yields what goes with its batch."""

@@ -153,4 +153,6 @@ def make(request: WorldRequest) -> EmbeddedWorld:
     return EmbeddedWorld(road_map, request.dt, plant=plant)
 
 
-WORLD = WorldType("carla", make, ("exact", "driven", "external", "autopilot"), OPTIONS, check)
+WORLD = WorldType(
+    "carla", make, ("exact", "exact-physics", "driven", "external", "autopilot"), OPTIONS, check
+)

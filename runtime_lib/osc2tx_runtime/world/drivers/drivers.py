@@ -12,7 +12,6 @@ from osc2tx_runtime.world.checks.values import problem_of
 from osc2tx_runtime.world.geometry.attitude import tilt_on
 from osc2tx_runtime.world.grip.friction import GRAVITY, adhesion_of
 from osc2tx_runtime.world.measuring.measurement import Measurement
-from osc2tx_runtime.world.plant.plant import EXACT
 from osc2tx_runtime.world.plant.scene import Scene, Setpoint
 from osc2tx_runtime.world.protocol import FEATURES, ActorSpec, ControlMode, Feature
 from osc2tx_runtime.world.surroundings.stop_lines_ahead import StopLines
@@ -40,7 +39,7 @@ class DriversPlant:
 
     def control(self, actor: str) -> ControlMode:
         """`external` for those that have a driver."""
-        return "external" if actor in self._drivers else EXACT
+        return "external" if actor in self._drivers else "exact"
 
     def capabilities(self) -> frozenset[Feature]:
         """All there are."""

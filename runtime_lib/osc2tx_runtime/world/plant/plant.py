@@ -4,9 +4,9 @@ The world turns commands into the states of its actors at the end of a step. A p
 about, and measures what has become of them: CARLA, another simulator, a vehicle model. `Identity`
 carries them out as they are.
 
-An actor has one control mode. `exact`: it has the commanded state. `driven`: a controller follows
-the commanded states, and the actor is measured. `external` and `autopilot`: it has another driver,
-and is only measured.
+An actor has one control mode. `exact`: it has the commanded state. `exact-physics`: the same, as a
+rigid body that its velocities bring there. `driven`: a controller follows the commanded states, and
+the actor is measured. `external` and `autopilot`: it has another driver, and is only measured.
 """
 
 from __future__ import annotations
@@ -20,9 +20,7 @@ from osc2tx_runtime.world.protocol import FEATURES, ActorSpec, ControlMode, Feat
 
 from .scene import Scene
 
-__all__ = ["EXACT", "Identity", "Measurement", "Plant"]
-
-EXACT: ControlMode = "exact"
+__all__ = ["Identity", "Measurement", "Plant"]
 
 
 class Plant(Protocol):
@@ -74,7 +72,7 @@ class Identity:
 
     def control(self, actor: str) -> ControlMode:
         """Always `exact`."""
-        return EXACT
+        return "exact"
 
     def capabilities(self) -> frozenset[Feature]:
         """All there are."""

@@ -115,7 +115,10 @@ def exact(probe: Probe) -> Finding:
     found = f"within {1e3 * off:.2f} mm; others see {max(speeds):.1f} m/s"
     watched = [each for each in probe.request.world.control.values() if each != "exact"]
     if max(speeds) < 0.5 * MOVED / probe.request.world.dt and watched:
-        return differs(found, "a radar, and whoever looks at velocities, sees exact actors stand")
+        return differs(
+            found,
+            "a radar, and whoever looks at velocities, sees exact actors stand: exact-physics",
+        )
     return ok(found)
 
 

@@ -8,7 +8,8 @@ from typing import Any
 
 import carla
 
-from .session import Session, transform
+from .commands import transform
+from .session import Session
 
 POLL = 0.1  # s between two looks for a foreign actor
 ROLLING = 0.1  # m/s of a controlled vehicle

@@ -10,6 +10,12 @@ import carla
 command = carla.command
 
 
+def transform(pose: Sequence[float]) -> Any:
+    """Return x, y, z, pitch, yaw, roll as the library has it."""
+    x, y, z, pitch, yaw, roll = pose
+    return carla.Transform(carla.Location(x, y, z), carla.Rotation(pitch, yaw, roll))
+
+
 def _control(actor: int, *values: Any) -> Any:
     """Throttle, steer, brake, hand brake, reverse."""
     return command.ApplyVehicleControl(actor, carla.VehicleControl(*values))
@@ -22,10 +28,13 @@ def _walk(actor: int, x: float, y: float, speed: float) -> Any:
 
 
 def _place(actor: int, *pose: float) -> Any:
-    x, y, z, pitch, yaw, roll = pose
-    return command.ApplyTransform(
-        actor, carla.Transform(carla.Location(x, y, z), carla.Rotation(pitch, yaw, roll))
-    )
+    return command.ApplyTransform(actor, transform(pose))
+
+
+def _lead(actor: int, *values: float) -> Any:
+    """Pose of a walker on the ground, and the speed (m/s) at which it walks ahead from there."""
+    *pose, speed = values
+    return command.ApplyWalkerState(actor, transform(pose), speed)
 
 
 def _lights(actor: int, flags: int) -> Any:
@@ -36,6 +45,11 @@ COMMANDS: Mapping[str, Callable[..., Any]] = {
     "control": _control,
     "walk": _walk,
     "place": _place,
+    "lead": _lead,
+    "gravity": command.SetEnableGravity,
+    "turning": lambda actor, x, y, z: command.ApplyTargetAngularVelocity(
+        actor, carla.Vector3D(x, y, z)
+    ),
     "velocity": lambda actor, x, y, z: command.ApplyTargetVelocity(actor, carla.Vector3D(x, y, z)),
     "physics": command.SetSimulatePhysics,
     "autopilot": command.SetAutopilot,

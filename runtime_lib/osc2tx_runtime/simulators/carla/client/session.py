@@ -141,6 +141,7 @@ class Session:
         self.undo.append(lambda: self.world.apply_settings(before))
         settings = self.world.get_settings()
         settings.synchronous_mode, settings.fixed_delta_seconds = True, dt
+        settings.substepping = True
         settings.max_substeps = min(MOST_SUBSTEPS, max(1, math.ceil(dt / SUBSTEP - 1e-9)))
         settings.max_substep_delta_time = max(SUBSTEP, dt / settings.max_substeps)
         self.ticks = True
@@ -203,7 +204,12 @@ class Session:
             "actors": list(actors.items()),
             "lights": light_states(self.lights),
             "collisions": self.collisions.take(),
+            "dormant": self._dormant(),
         }
+
+    def _dormant(self) -> Sequence[int]:
+        """Return the watched actors that a large level has put to sleep, far from what it shows."""
+        return [each.id for each in self.world.get_actors(self.watched) if each.is_dormant]
 
     # --- end ----------------------------------------------------------------------------------
 
@@ -231,12 +237,6 @@ def listens(host: str, port: int) -> bool:
             return True
     except OSError:
         return False
-
-
-def transform(pose: Sequence[float]) -> Any:
-    """Return x, y, z, pitch, yaw, roll as the library has it."""
-    x, y, z, pitch, yaw, roll = pose
-    return carla.Transform(carla.Location(x, y, z), carla.Rotation(pitch, yaw, roll))
 
 
 def written(pose: Any) -> list[float]:

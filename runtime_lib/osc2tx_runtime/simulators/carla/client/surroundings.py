@@ -51,6 +51,10 @@ class Surroundings:
         self._session.lights = {each.get_opendrive_id(): each for each in lights}
         return [name for name in self._session.lights if name]
 
+    def reset_lights(self) -> None:
+        """Have the cycles of all lights begin anew, so that a run does not depend on its time."""
+        self._session.world.reset_all_traffic_lights()
+
     def set_light(self, name: str, state: str) -> None:
         """Have a traffic light show a state; batches have no command for that."""
         self._session.lights[name].set_state(carla.TrafficLightState.names[state])
