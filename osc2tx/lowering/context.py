@@ -55,8 +55,8 @@ class LoweringContext:
         own_names: Names of the members of the scenario.
         event_fields: Names of the events that fields such as `x` in `@e as x` stand for.
         invoked: The scenarios and composed actions that it invokes, in order of use.
-        drawn: Parameters that stand for ranges in its tree, and structs that constraints of
-            invocations describe, in order of use.
+        drawn: Parameters that stand for ranges in its tree, structs that constraints of
+            invocations describe, and variables of modifiers, in order of use.
         place: Where the names in an expression are looked up, in constraints.
         it: What `it` is there.
         types: Types of declared objects that are not the library's, in order of use.
@@ -69,8 +69,10 @@ class LoweringContext:
         object_events: Events of its objects that it waits for, by path, in order of use.
         object_variables: Sampled variables of its objects that it reads, by path: the field, and
             the object.
-        locals: Values of parameters, where they are not parameters of a method.
-        actor: The meaning of `actor` in a modifier; elsewhere it is the field of the scenario.
+        attached: Events and variables of the modifier or extended action that is looked at, and
+            their names in the scenario.
+        locals: What parameters stand for, where they are not those of a method.
+        actor: What `actor` is in a modifier; elsewhere it is the field of the scenario.
         expanding: Methods of modifiers that the expression is the body of, the outermost first.
         purity: Methods, and whether their results do not depend on the world.
         mentioned: The fields that some expression of the program reads, and in which files.
@@ -90,7 +92,7 @@ class LoweringContext:
     own_names: frozenset[str] = frozenset()
     event_fields: dict[int, str] = field(default_factory=dict)
     invoked: list[ScenarioSymbol | ActionSymbol] = field(default_factory=list)
-    drawn: list[ir.Parameter | ir.Struct | ir.Actor] = field(default_factory=list)
+    drawn: list[ir.Parameter | ir.Struct | ir.Actor | ir.Variable] = field(default_factory=list)
     types: list[ActorSymbol | StructSymbol] = field(default_factory=list)
     combined: dict[str, ir.UserType] = field(default_factory=dict)
     actions: list[ActionSymbol] = field(default_factory=list)
@@ -104,6 +106,7 @@ class LoweringContext:
     object_variables: dict[str, tuple[FieldSymbol, ir.Expression]] = field(default_factory=dict)
     expanding: tuple[str, ...] = ()
     purity: dict[MethodSymbol, bool] = field(default_factory=dict)
+    attached: Mapping[Symbol, str] = field(default_factory=dict)
     locals: Mapping[str, ir.Expression] = field(default_factory=dict)
     actor: ir.Expression | None = None
     mentioned: Mapping[FieldSymbol, frozenset[str]] = field(default_factory=dict)

@@ -89,7 +89,8 @@ def _report(ctx: LoweringContext, owner: sym.TypeSymbol, statement: ast.Statemen
             f"`{item.kind}` in an action is not supported yet",
             help="sample it in the scenario, `cover(name, expression: object.member)`",
         )
-    if isinstance(statement, ast.DoDirective | ast.OnDirective):
+    is_attached = owner.origin != "user" and isinstance(statement, ast.OnDirective)
+    if isinstance(statement, ast.DoDirective | ast.OnDirective) and not is_attached:
         word = "do" if isinstance(statement, ast.DoDirective) else "on"
         ctx.unsupported(
             "OSC506",

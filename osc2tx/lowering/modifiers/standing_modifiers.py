@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from osc2tx import ir
 from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx.lowering.behavior.composed_behaviors import actor_type_of, is_composed
+from osc2tx.lowering.behavior.reactions import Attached
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, Receiver
 from osc2tx.lowering.modifiers.modifiers import is_override
@@ -34,6 +35,7 @@ class Standing:
         it: The meaning of `it` in its body.
         within: The object of whose type it is a member.
         receiver: The same as a value.
+        composition: What it stands in the `with` of.
     """
 
     node: ast.ModifierApplication
@@ -42,18 +44,24 @@ class Standing:
     it: Key | None = None
     within: Key = ()
     receiver: Receiver | None = None
+    composition: ast.Composition | None = None
 
 
 class StandingModifiers:
     """The standing modifiers of one scenario, each lowered once."""
 
     def __init__(self, ctx: LoweringContext, constraints: ConstraintLowering) -> None:
-        """Take the checked program, and the constraints of the scenario."""
+        """Take the checked program, and what the constraints of the scenario say.
+
+        `attached` collects what stands beside all that the scenario does.
+        """
         self._ctx = ctx
         self._constraints = constraints
         self._around: list[ast.Composition] = []
         self._lowered: dict[tuple[ast.Node, Key], tuple[Applied, ...]] = {}
         self._used: set[ast.Node] = set()
+        self.attached = Attached(is_whole=True)
+        self._attached: dict[ast.Composition, Attached] = {}
 
     @contextmanager
     def inside(self, node: ast.Composition) -> Iterator[None]:
@@ -66,6 +74,10 @@ class StandingModifiers:
                 if applied.call.at == "start" or standing.node not in self._used:
                     self._refuse(standing.node, applied.call)
                     break
+
+    def attached_to(self, node: ast.Composition) -> Attached:
+        """Return what the modifiers of a composition attach to it."""
+        return self._attached.setdefault(node, Attached())
 
     def of(
         self, actor: ir.Expression | None, action: sym.BehaviorSymbol | None = None
@@ -122,7 +134,7 @@ class StandingModifiers:
         what = node.label.text if node.label is not None else node.operator.value
         for member in node.with_members:
             if isinstance(member, ast.ModifierApplication):
-                yield Standing(member, what, None, it=(node,))
+                yield Standing(member, what, None, it=(node,), composition=node)
 
     def _of_type(self, actor: ir.FieldRef) -> Iterator[Standing]:
         """Yield the members of the type of an actor."""
@@ -166,6 +178,11 @@ class StandingModifiers:
                 *(ctx, self._constraints, standing.what, standing.actor, None),
                 it=standing.it,
                 within=standing.within,
+                attached=(
+                    self.attached
+                    if standing.composition is None
+                    else self.attached_to(standing.composition)
+                ),
             )
             self._lowered[key] = lowering.applied(standing.node)
         return self._lowered[key]

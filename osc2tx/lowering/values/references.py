@@ -29,6 +29,9 @@ def lower_name(
             return ir.EnumValue(span=node.span, type=enum_type, member=name, value=value)
         case sym.FieldSymbol(node=None, name="actor") if ctx.actor is not None:
             return replace(ctx.actor, span=node.span)
+        case sym.FieldSymbol() as field if field in ctx.attached:
+            name = ctx.attached[field]
+            return ir.FieldRef(span=node.span, type=type_, name=name, is_variable=True)
         case sym.FieldSymbol() as field if (meant := alias_of(ctx, field)) is not None:
             return ctx.lower(meant)
         case sym.FieldSymbol() if (given := _given(ctx, node)) is not None:
