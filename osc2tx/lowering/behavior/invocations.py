@@ -234,7 +234,7 @@ class InvocationLowering:
         what: str,
         attached: Attached,
     ) -> None:
-        """Report modifiers of what is no action; those that move nothing may stand."""
+        """Report modifiers of other members than actions; those that move nothing may stay."""
         lowering = self._modifier_lowering(node, actor, behavior, attached)
         for member in node.with_members:
             if not isinstance(member, ast.ModifierApplication) or is_override(self._ctx, member):

@@ -365,7 +365,7 @@ class ConstraintLowering:
         return bool(roots & (self.ctx.handed_in if is_relation else self.ctx.computed))
 
     def _checks_itself(self, invoked: ast.Invocation) -> bool:
-        """Whether an invoked behavior sees to its own constraints: all but actions of the user."""
+        """Whether an invoked behavior checks its own constraints: all but actions of the user."""
         callee = self.ctx.model.binding_of(invoked).callee
         is_action = isinstance(callee, sym.ActionSymbol) and callee.origin == "user"
         return not is_action or is_composed(callee)
