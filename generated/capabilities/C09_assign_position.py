@@ -1,7 +1,7 @@
 """Scenario `assign_position`.
 
-C09 Assign position: a car is teleported: to a point of the world, of a road and of a route, and
-beside another car.
+C09 Assign position: a car is teleported: to a point of the world, of a road and of a
+route, and beside another car.
 
 Made by osc2tx from capabilities/C09_assign_position.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam.
