@@ -168,6 +168,7 @@ class LoweringContext:
             methods=dict(self.methods),
             object_events=dict(self.object_events),
             object_variables=dict(self.object_variables),
+            constants={},
         )
 
     def draw(

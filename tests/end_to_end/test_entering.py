@@ -304,7 +304,7 @@ def test_a_place_that_is_taken_is_refused(shell: Shell) -> None:
 """,
     )
     assert run.ended.code == 5
-    assert "is 61 m from the start" in run.ended.err
+    assert "npc overlaps lead by 3.60 m 61 m from the start" in run.ended.err
 
 
 def test_a_walker_sets_out(shell: Shell) -> None:

@@ -9,6 +9,7 @@ from typing import TypeAlias
 from osc2tx.analysis.library_facts import is_library_actor
 from osc2tx.analysis.tree_walk import NodesByKind, do_directives, nodes_below
 from osc2tx.diagnostics import DiagnosticSink, Label
+from osc2tx.diagnostics.suggestions import nearest
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import is_subtype, supertypes
@@ -213,6 +214,15 @@ def _ancestor(symbol: sym.TypeSymbol) -> sym.TypeSymbol:
 
 
 def _report_emits(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> None:
+    """Report an emitted event without use, if the one with a similar name is meant.
+
+    Others mark an instant in the trace.
+    """
+    in_vain = {
+        symbol.name
+        for symbol in usage.awaited - usage.emitted
+        if isinstance(symbol, sym.EventSymbol) and symbol.origin == "user"
+    }
     for emit in usage.emits:
         symbol = model.symbol_of(emit.event)
         if not isinstance(symbol, sym.EventSymbol) or symbol.origin != "user":
@@ -221,10 +231,14 @@ def _report_emits(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> N
             continue  # whoever invokes it may wait for its events
         if symbol in usage.awaited or set(_redeclared(usage, symbol)) & usage.awaited:
             continue
+        meant = nearest(symbol.name, in_vain)
+        if meant is None:
+            continue
         sink.report(
             "OSC431",
             emit.event.span,
-            f"nothing waits for event `{symbol.name}`",
+            f"nothing waits for event `{symbol.name}`, and nothing emits `{meant}`",
+            help=f"did you mean `{meant}`?",
             labels=[] if symbol.is_implicit else [Label(symbol.span, "declared here")],
         )
 

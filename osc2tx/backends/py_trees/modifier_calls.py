@@ -101,8 +101,9 @@ def never_called(module: ir.Module) -> set[str]:
     """
     functions = ModifierCalls(module.modifiers, NameTable())
     nodes = [node for each in module.scenarios for node in ir.walk_behaviors(each.body)]
+    every = (*module.bases, *module.scenarios)
     lists = [node.modifiers for node in nodes if isinstance(node, ir.Invoke)]
-    lists += [placement.modifiers for each in module.scenarios for placement in each.placements]
+    lists += [placement.modifiers for each in every for placement in each.placements]
     applied, called = set[str](), set[str]()
     for calls in lists:
         functions.note(calls, applied, called)

@@ -22,6 +22,7 @@ SCENARIO_ATTRIBUTES = frozenset(
         "arguments",
         "behavior",
         "cast",
+        "completed",
         "cover",
         "create_tree",
         "declare",
@@ -31,9 +32,11 @@ SCENARIO_ATTRIBUTES = frozenset(
         "external",
         "failed",
         "first_come",
+        "fix_to",
         "global_object",
         "global_parameter",
         "has_drawn_values",
+        "is_abstract",
         "is_main",
         "invoke",
         "invoked",
@@ -42,6 +45,7 @@ SCENARIO_ATTRIBUTES = frozenset(
         "map_file",
         "map_objects",
         "name",
+        "narrow_to",
         "one_of",
         "override",
         "parameter",
@@ -57,6 +61,7 @@ SCENARIO_ATTRIBUTES = frozenset(
         "required_global",
         "sample",
         "settings",
+        "short_name",
         "source",
         "started",
     }
@@ -119,6 +124,12 @@ class NameTable:
         self._taken.add(candidate)
         self._names[key] = PyName(candidate)
         return self._names[key]
+
+    def copy(self) -> NameTable:
+        """Return a table with the same names, which may be given more."""
+        table = NameTable(self._taken)
+        table._names = dict(self._names)
+        return table
 
     def __getitem__(self, key: str) -> PyName:
         """Return the name reserved for `key`."""

@@ -139,7 +139,7 @@ class _Declarations:
         unwritten = never_called(module)
         parts = {key_of(each): each for each in declarations(module)}
         self.parts = {key: part for key, part in parts.items() if key not in unwritten}
-        self._methods = TypeMethods(module.types, module.scenarios)
+        self._methods = TypeMethods(module.types, (*module.bases, *module.scenarios))
 
     def is_same(self, key: str, other: _Declarations) -> bool:
         """Whether another module has the same class, or the same function."""
@@ -155,9 +155,10 @@ class _Declarations:
     def _own(self, part: Declared) -> Declared:
         """Return a declaration as far as its own class holds it, whoever uses it how."""
         match part:
-            case ir.Scenario():
+            case ir.AbstractScenario():
                 methods = tuple(each for each in part.methods if each.name not in self._methods)
-                return replace(part, is_imported=False, is_invoked=False, methods=methods)
+                part = replace(part, is_imported=False, methods=methods)
+                return replace(part, is_invoked=False) if isinstance(part, ir.Scenario) else part
             case ir.UserType():
                 methods = tuple(method for _, method in self._methods.of(part.name))
                 return replace(part, fields=part.all_fields, unused=(), methods=methods)
@@ -168,7 +169,7 @@ class _Declarations:
 def _mention(part: Declared) -> set[str]:
     """Return the names that are in every reference to a declaration."""
     match part:
-        case ir.Scenario() | ir.UserModifier():
+        case ir.AbstractScenario() | ir.UserModifier():
             return {part.key}
         case ir.UserType() | ir.UserEnum():
             return {part.name}

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from dataclasses import asdict, field
 
+from osc2tx import ir
 from osc2tx.diagnostics import Span
 from osc2tx_shared.classes import dataclass
 from osc2tx_shared.text import in_json
@@ -42,6 +43,26 @@ class ScenarioMap:
     def place_of(self, span: Span) -> Place | None:
         """Return where a piece of the source begins; `None` for a piece of another one."""
         return (span.line, span.column) if span.source.name == self.source else None
+
+    def add_nodes(self, body: ir.Behavior) -> None:
+        """Note the places of the nodes of a tree; what ends a member is a node around it."""
+        pending = [body]
+        while pending:
+            node = pending.pop()
+            until = (
+                ()
+                if isinstance(node, ir.Wait | ir.Emit | ir.Finish | ir.Call | ir.On)
+                else node.until
+            )
+            spans = (*(each.span for each in until[:1]), node.span)
+            self.nodes += map(self.place_of, spans)
+            match node:
+                case ir.Serial() | ir.Parallel() | ir.OneOf():
+                    pending += reversed(node.members)
+                case ir.On():
+                    pending += reversed(node.reactions)
+                case _:
+                    pass
 
     def content(self) -> dict[str, object]:
         """Return what is written down."""

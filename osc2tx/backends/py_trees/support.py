@@ -30,7 +30,7 @@ def check_support(module: ir.Module, sink: DiagnosticSink) -> None:
     """Report every part of a module that the runtime does not know, and a name it cannot have."""
     check_name(module, sink)
     own = {each.name: each for each in module.types}
-    for scenario in module.scenarios:
+    for scenario in (*module.bases, *module.scenarios):
         _SupportCheck(scenario.declarations, own, sink).run(scenario)
 
 
@@ -66,7 +66,7 @@ class _SupportCheck:
         self.domains = domains_of(declarations)
         self.calls = CallCheck(catalogue(), self.objects, sink, self.expressions, declarations)
 
-    def run(self, scenario: ir.Scenario) -> None:
+    def run(self, scenario: ir.AbstractScenario) -> None:
         for declaration in scenario.declarations:
             self.declaration(declaration)
         for method in scenario.methods:
@@ -78,8 +78,9 @@ class _SupportCheck:
         for placement in scenario.placements:
             for modifier in placement.modifiers:
                 self.calls.placing(modifier)
-        for node in ir.walk_behaviors(scenario.body):
-            self.behavior(node)
+        if isinstance(scenario, ir.Scenario):
+            for node in ir.walk_behaviors(scenario.body):
+                self.behavior(node)
 
     def declaration(self, declaration: ir.Declaration) -> None:
         match declaration:

@@ -25,7 +25,7 @@ class TypeMethods:
     """
 
     def __init__(
-        self, types: Iterable[ir.UserType] = (), scenarios: Iterable[ir.Scenario] = ()
+        self, types: Iterable[ir.UserType] = (), scenarios: Iterable[ir.AbstractScenario] = ()
     ) -> None:
         types = tuple(types)
         own = {each.name for each in types}

@@ -208,13 +208,33 @@ class UserModifierView:
 
 @dataclass(frozen=True, slots=True)
 class ScenarioView:
-    """A scenario class; `copied` says why it is a copy, if it is one."""
+    """A scenario class.
+
+    Attributes:
+        class_name: Its name.
+        base: The class that it inherits from.
+        is_derived: That is one of another scenario, not of the runtime.
+        docstring: Lines of its docstring.
+        attributes: Its name, its source and its policies.
+        ahead: What it declares before its base does.
+        declarations: What it declares.
+        functions: Its methods that compute a value.
+        places_besides: It places what its base does, and more.
+        placements: What it places.
+        methods: Its behavior, and the phases of it.
+        end_comments: Those below its last member.
+        copied: Why it is a copy, if it is one.
+    """
 
     class_name: PyName
+    base: PyName
+    is_derived: bool
     docstring: tuple[PyDocLine, ...]
     attributes: tuple[StatementView, ...]
+    ahead: tuple[StatementView, ...]
     declarations: tuple[StatementView, ...]
     functions: tuple[FunctionView, ...]
+    places_besides: bool
     placements: tuple[StatementView, ...]
     methods: tuple[MethodView, ...]
     end_comments: tuple[PyComment, ...] = ()

@@ -35,8 +35,8 @@ class CoverageOwner:
     prefix: str
 
     def items(self) -> Iterator[Item]:
-        """Yield its items."""
-        for each in self.lineage:
+        """Yield its items, those of bases first."""
+        for each in reversed(self.lineage):
             yield from items_of(each)
 
     def field(self, name: str) -> sym.FieldSymbol | None:

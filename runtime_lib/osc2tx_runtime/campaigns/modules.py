@@ -134,6 +134,7 @@ def scenarios_of(module: ModuleType) -> dict[str, type[Scenario]]:
         for value in vars(module).values()
         if isinstance(value, type)
         and issubclass(value, Scenario)
+        and not value.is_abstract()
         and value.__module__ == module.__name__
     }
 

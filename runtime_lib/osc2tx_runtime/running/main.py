@@ -135,7 +135,7 @@ def choose_scenario(scenarios: Sequence[type[Scenario]], wanted: str | None) -> 
     for name in ("top", "main"):
         if name in by_name:
             return by_name[name]
-    mains = [scenario for scenario in scenarios if scenario.is_main]
+    mains = [scenario for scenario in scenarios if vars(scenario).get("is_main")]
     if len(mains) == 1:
         return mains[0]
     if len(by_name) != 1:
