@@ -6,6 +6,7 @@ from osc2tx import ir
 from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx.analysis.constraints.parameter_lookup import name_of
 from osc2tx.diagnostics import Span
+from osc2tx.lowering.behavior.composed_behaviors import is_composed
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
 from osc2tx.lowering.constraints.list_constraints import lower_list
 from osc2tx.lowering.constraints.parameter_domains import all_values
@@ -104,6 +105,8 @@ class FieldLowering:
 
         Nothing invokes it, so all that it has are values; each is one of the scenario, `hop.n`.
         """
+        if is_composed(behavior):
+            self._ctx.invoked.append(behavior)  # it is a part of this one, not one to run
         for each in parameters_of(behavior):
             key = (field, each)
             if is_plain(each.type) and (
