@@ -23,6 +23,11 @@ PRIMITIVES = {
 BOOL = PRIMITIVES["bool"]
 SCENARIO = ir.ValueType(ir.Kind.STRUCT, "scenario")
 
+# Sorts of values that a setting of a run can give.
+PLAIN = frozenset(
+    {ir.Kind.BOOL, ir.Kind.INTEGER, ir.Kind.FLOAT, ir.Kind.STRING, ir.Kind.QUANTITY, ir.Kind.ENUM}
+)
+
 
 def lower_type(type_: types.Type) -> ir.ValueType:
     """Return the IR's view of a type."""
@@ -72,7 +77,7 @@ def authored_unit(
     Args:
         model: Knows the units.
         type_: Type of the parameter.
-        written: What the source says of it.
+        written: The text in the source.
 
     Returns:
         `None` if it has no unit: it is no physical type, or one of the user without a literal.

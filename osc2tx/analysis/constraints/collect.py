@@ -66,7 +66,7 @@ class Collector:
     def _of_ancestor(
         self, ancestor: sym.TypeSymbol
     ) -> tuple[list[Entry], Mapping[Key, sym.TypeSymbol]]:
-        """Return what a type states itself, and the objects in that."""
+        """Return the constraints of a type itself, and of the objects in it."""
         if ancestor not in self._shared:
             it = None if isinstance(ancestor, sym.ModifierSymbol) else ()
             place = Place(model=self._model, owner=ancestor, prefix=(), it=it)
@@ -179,9 +179,7 @@ class Collector:
             # Another actor, of which its own declaration says all.
             yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
             return
-        is_ours = isinstance(type_, sym.StructSymbol | sym.ActorSymbol) and any(
-            not t.is_as_library for t in supertypes(type_)
-        )
+        is_ours = type_ is not None and any(not t.is_as_library for t in supertypes(type_))
         for element in self._model.elements.get(field, ()) if len(key) == 1 else ():
             yield from self._of_element(place, element, depth)
         if type_ is not None and is_ours and depth < DEEPEST_MEMBER:
@@ -198,7 +196,7 @@ class Collector:
         yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
 
     def _of_element(self, place: Place, element: sym.FieldSymbol, depth: int) -> Iterator[Entry]:
-        """Yield what the type of an element of a list demands of it."""
+        """Yield the constraints of the type of an element on a list."""
         type_, key = symbol_of(element.type), (element,)
         if isinstance(type_, sym.StructSymbol | sym.ActorSymbol):
             self.objects[key] = type_
@@ -246,7 +244,7 @@ class Collector:
     def _of_instance(
         self, place: Place, node: Instance, arguments: tuple[ast.Argument, ...]
     ) -> Iterator[Entry]:
-        """Yield what the callee demands of its parameters, and what the arguments say."""
+        """Yield the callee's constraints on its parameters, and the values of the arguments."""
         binding = self._model.bindings.get(node)
         if binding is None or not isinstance(binding.callee, sym.BehaviorSymbol):
             return
@@ -262,6 +260,10 @@ class Collector:
                 place, owner=callee, prefix=prefix, it=it, it_type=None, handed_in=handed_in
             )
             yield from self._of_type(inner, callee, depth=1)
+        elif added := [each for t in supertypes(callee) for each in t.added]:
+            inner = replace(place, owner=callee, prefix=prefix, it=prefix, it_type=None)
+            for statement in added:
+                yield from self._of_statement(inner, callee, statement, depth=1)
         elif not _can_be_constrained(node):
             return
         for parameter, value in binding.arguments:

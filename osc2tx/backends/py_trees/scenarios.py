@@ -57,12 +57,12 @@ class ScenarioWriter:
         members: What its class has, and how it is called.
         one_of: Policy of `one_of` in this module.
         first_come: Durations and `until` end with whichever comes first.
-        is_main: It runs if nobody says which of the module is to.
+        is_main: It is the default scenario of the module.
         classes: Names of the module's scenario classes, by key of the scenario.
         types: All types that the module knows.
-        type_methods: The methods of types that stand in their classes.
+        type_methods: The methods of types that are in their classes.
         functions: The modifiers of the user's own that the module has as functions.
-        uses: What the module has to import.
+        uses: Collects the imports of the module.
         actions: The actions of the user's own.
     """
 
@@ -191,7 +191,7 @@ class ScenarioWriter:
         return tuple(statements)
 
     def _coverage(self) -> tuple[StatementView, ...]:
-        """Write what is sampled for coverage, below the values."""
+        """Write the values sampled for coverage, below the values."""
         writer = CoverageWriter(self._calls)
         return tuple(
             StatementView(

@@ -84,9 +84,9 @@ class ObjectLowering:
         )
 
     def types_of(self, field: sym.FieldSymbol) -> tuple[TypeSymbol, ...]:
-        """Return the types of an object: the declared one, or special ones that it is by itself.
+        """Return the types of an object: the declared one, or special ones that its values select.
 
-        What an object is must be known when compiling, as far as that changes anything.
+        The type must be known at compile time, as far as that changes anything.
         """
         assert isinstance(field.type, types.ActorType | types.StructType)
         found = self._special((field,), field.type.symbol, field.span)
@@ -131,7 +131,7 @@ class ObjectLowering:
         return ctx.sink.has_errors or any(is_open)
 
     def values(self, field: sym.FieldSymbol) -> tuple[ir.FieldValue, ...]:
-        """Return what is known about an object; what constraints leave open can be set."""
+        """Return the facts about an object; values that constraints leave open can be set."""
         found = self._said((field,))
         object_ = self._reference(field)
         if isinstance(field.type, types.ActorType | types.StructType):
@@ -223,6 +223,10 @@ class ObjectLowering:
                         path = tuple(name_of((part,)) for part in inner[len(_outside(inner)) :])
                         found[inner] = ir.FieldValue(path=path, value=value, span=value.span)
 
+    def _is_described(self, key: Key) -> bool:
+        """Whether a constraint speaks of a list, its size or its elements."""
+        return any(each[: len(key)] == key for each in self._constraints.found.by_key)
+
     def _has_class_default(self, key: Key, member: sym.FieldSymbol) -> bool:
         return self._is_in_force(key) and class_default(self._ctx, member) is not None
 
@@ -242,6 +246,9 @@ class ObjectLowering:
         if is_plain(member.type):
             domain = all_values(member.type, member.span)
             return self._ctx.draw(name_of(key), domain, lower_type(member.type), member.span)
+        if isinstance(member.type, types.ListType) and not self._is_described(key):
+            type_ = lower_type(member.type)  # of any size: none is the least
+            return ir.ListValue(span=member.span, type=type_, elements=())
         self._ctx.unsupported(
             "OSC501",
             key[0].span,

@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from osc2tx import ir
 from osc2tx.lowering.context import LoweringContext, Receiver
-from osc2tx.lowering.value_types import lower_type
+from osc2tx.lowering.value_types import PLAIN, lower_type
 from osc2tx.lowering.values.expressions import lower_expression
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
@@ -22,12 +22,7 @@ from osc2tx.syntax import ast
 
 TypeSymbol: TypeAlias = sym.ActorSymbol | sym.StructSymbol
 
-# Sorts of values that a setting of a run can give.
-PLAIN = frozenset(
-    {ir.Kind.BOOL, ir.Kind.INTEGER, ir.Kind.FLOAT, ir.Kind.STRING, ir.Kind.QUANTITY, ir.Kind.ENUM}
-)
-
-# What an expression may not read to be a default of a class.
+# Reads that exclude an expression as the default of a class.
 _OF_OBJECTS = (ir.FieldRef, ir.ParameterRef, ir.ScenarioSelf)
 
 
@@ -39,7 +34,7 @@ def mentioned_fields(model: SemanticModel) -> Mapping[sym.FieldSymbol, frozenset
     found: dict[sym.FieldSymbol, set[str]] = {}
     for node, symbol in model.references.items():
         if isinstance(symbol, sym.FieldSymbol) and isinstance(
-            node, ast.NameExpression | ast.MemberAccess
+            node, ast.NameExpression | ast.MemberAccess | ast.Name
         ):
             found.setdefault(symbol, set()).add(node.span.source.name)
     owners = (each for each in model.symbols if isinstance(each, sym.TypeSymbol))
@@ -77,9 +72,9 @@ def unused_fields(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[sym.Fiel
 
 
 def is_optional(ctx: LoweringContext, field: sym.FieldSymbol) -> bool:
-    """Whether nothing in its own file gives a field a value or speaks of it.
+    """Whether nothing in its own file gives a field a value or reads it.
 
-    That does not depend on who imports the file.
+    That does not depend on the files that import the file.
     """
     home = field.span.source.name
     return not _has_value(field) and home not in ctx.mentioned.get(field, ())

@@ -9,7 +9,7 @@ from osc2tx.lowering.behavior.composed_behaviors import is_composed
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.declarations.global_names import field_name, global_name
 from osc2tx.lowering.declarations.map_fields import is_given_by_map
-from osc2tx.lowering.value_types import SCENARIO, lower_type
+from osc2tx.lowering.value_types import PLAIN, SCENARIO, lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.scope import supertypes
@@ -55,7 +55,7 @@ def lower_name(
 
 
 def alias_of(ctx: LoweringContext, field: sym.FieldSymbol) -> ast.Expression | None:
-    """Return what a field is only another name for, and is not declared itself.
+    """Return the target of a field that is only another name, and is not declared itself.
 
     That is another actor (`other: vehicle = npc`) unless an invocation hands in one, or a quantity
     that a dialect names by a text.
@@ -99,6 +99,14 @@ def lower_member(
     if key is not None and not isinstance(key[0], sym.FieldSymbol):
         return lower_key(ctx, key, node.span)
     lowered = ctx.lower(base)
+    if isinstance(field.owner, sym.BehaviorSymbol) and type_.kind not in PLAIN:
+        ctx.unsupported(
+            "OSC501",
+            node.span,
+            f"`{node.span.text}` has no value: nothing invokes `{base.span.text}`",
+            help="read plain values of it only, or declare the object in the scenario",
+        )
+        return None
     return None if lowered is None else member_of(ctx, lowered, field, node.span)
 
 
@@ -109,7 +117,7 @@ def _of_label(
     field: sym.FieldSymbol,
     type_: ir.ValueType,
 ) -> ir.Expression | None:
-    """Return a parameter of a labelled member: what it is given, or what it chose."""
+    """Return a parameter of a labelled member: the given value, or its choice."""
     given = ctx.given.get((label.node, field))
     if given is not None:
         return replace(given, span=node.span)
@@ -137,6 +145,8 @@ def member_of(
         return ir.FieldRef(span=span, type=type_, name=name, is_variable=True)
     if isinstance(base, ir.ScenarioSelf):
         return ir.FieldRef(span=span, type=type_, name=field.name)
+    if isinstance(base, ir.FieldRef) and isinstance(field.owner, sym.BehaviorSymbol):
+        return ir.FieldRef(span=span, type=type_, name=f"{base.name}.{field.name}")
     return ir.Attribute(
         span=span,
         type=type_,
@@ -161,7 +171,7 @@ def path_of(object_: ir.Expression) -> str | None:
 
 
 def lower_key(ctx: LoweringContext, key: Key, span: Span) -> ir.Expression | None:
-    """Return what a path of the analysis stands for; an empty one is the scenario itself."""
+    """Return the meaning of a path of the analysis; an empty one is the scenario itself."""
     if not key:
         return ir.ScenarioSelf(span=span, type=SCENARIO)
     first, *rest = key
