@@ -26,6 +26,9 @@ else:
         fcntl.flock(file, fcntl.LOCK_EX if wait else fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
+_NO_LINK = getattr(os, "O_NOFOLLOW", 0)  # anybody can put one among temporary files
+
+
 @contextmanager
 def only_build(out_dir: Path, waiting: Callable[[str], None]) -> Iterator[None]:
     """Hold the lock of an output folder; the system lets it go with the process.
@@ -41,7 +44,8 @@ def only_build(out_dir: Path, waiting: Callable[[str], None]) -> Iterator[None]:
     name = digest(os.path.realpath(out_dir).encode("utf-8", "surrogateescape"))
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-        file = open(folder / name, "a+", encoding="ascii")  # noqa: SIM115
+        descriptor = os.open(folder / name, os.O_RDWR | os.O_CREAT | _NO_LINK, 0o600)
+        file = os.fdopen(descriptor, "r+", encoding="ascii")
     except OSError:  # nothing can be written anywhere: the build will say so
         yield
         return
@@ -52,7 +56,8 @@ def only_build(out_dir: Path, waiting: Callable[[str], None]) -> Iterator[None]:
             file.seek(0)
             waiting(file.read(20).strip() or "?")
             _take(file, wait=True)
-        file.truncate(0)
+        file.seek(0)
+        file.truncate()
         file.write(f"{os.getpid()}\n")
         file.flush()
         yield

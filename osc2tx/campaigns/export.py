@@ -11,7 +11,7 @@ from typing import Any
 
 from osc2tx.campaigns.store import Store
 from osc2tx_runtime.errors import InputError
-from osc2tx_runtime.running.output_files import may_replace, write_output
+from osc2tx_runtime.running.output_files import problem_of, write_output
 
 from .store import CampaignError
 
@@ -47,8 +47,9 @@ def write_text(what: str, file: Path, text: str) -> None:
     Raises:
         CampaignError: It cannot be written, or is another one.
     """
-    if not may_replace(what, file):
-        raise CampaignError(f"{file}: there is a file, and it is no {what}; name another one")
+    problem = problem_of(what, file)
+    if problem is not None:
+        raise CampaignError(problem)
     try:
         write_output(what, file, text)
     except InputError as error:

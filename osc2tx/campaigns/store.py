@@ -28,6 +28,7 @@ from osc2tx.campaigns.records import (
 )
 from osc2tx_runtime.campaigns import RowResult
 from osc2tx_runtime.errors import told
+from osc2tx_shared.links import target_outside
 
 __all__ = ["CampaignError", "Store"]
 
@@ -122,6 +123,11 @@ class Store:
             raise CampaignError(f"{path}: there is no such store")
         try:
             if is_new:
+                if (target := target_outside(path)) is not None:
+                    raise CampaignError(
+                        f"{path}: a link leads to {target}, out of the current folder; name that"
+                        " file"
+                    )
                 path.parent.mkdir(parents=True, exist_ok=True)
             self._base = _Database(path)
         except (OSError, ValueError, sqlite3.Error) as error:

@@ -25,12 +25,13 @@ from osc2tx.cli.reporting import Exit, Reporter, count_of, found, report_options
 from osc2tx.compilation.driver import Compilation
 from osc2tx.compilation.dump import dump_product
 from osc2tx.compilation.inputs import InputError
-from osc2tx.config import ConfigError, ConfigFiles, GivenOptions
+from osc2tx.config import Config, ConfigError, ConfigFiles, GivenOptions
 from osc2tx.diagnostics.report import FileFault
 from osc2tx.options import PRODUCT_NAMES, ProductName
-from osc2tx.support.paths import is_committed
+from osc2tx.support.paths import is_committed, real_path
 from osc2tx_shared.cache import cache_folder
 from osc2tx_shared.classes import dataclass, replace
+from osc2tx_shared.links import target_outside
 from osc2tx_shared.text import complain, put, visible
 
 if TYPE_CHECKING:
@@ -136,14 +137,36 @@ def build(
 
 def _places(paths: tuple[str, ...], out_dir: Path | None) -> tuple[tuple[str, ...], Path]:
     """Return sources and output folder, from the settings of this folder where none are given."""
-    if paths and out_dir is not None:
-        return paths, out_dir
     here = Path.cwd()
-    project = ConfigFiles().for_folder(here)
+    project = ConfigFiles().for_folder(here) if not paths or out_dir is None else Config()
     sources = paths or stated_sources(project, "build")
-    if out_dir is None and project.out is None:
+    return sources, _stated_out_dir(project, here) if out_dir is None else _written_out_dir(out_dir)
+
+
+def _written_out_dir(out_dir: Path) -> Path:
+    target = target_outside(out_dir)
+    if target is not None:
+        raise click.UsageError(
+            f"`-o {out_dir}`: a link leads to {target}, out of the current folder; name that folder"
+        )
+    return out_dir
+
+
+def _stated_out_dir(project: Config, here: Path) -> Path:
+    """Return the output folder of the settings, seen from a folder.
+
+    Raises:
+        click.UsageError: There is none, or it is not in the project, which may be a stranger's.
+    """
+    if project.out is None or project.folder is None:
         raise click.UsageError("say where the modules go, as in `-o generated`, or set `out`")
-    return sources, out_dir or seen_from(project.out or here, here)
+    out_dir = seen_from(project.out, here)
+    if not real_path(project.out).is_relative_to(real_path(project.folder)):
+        raise click.UsageError(
+            f"{project.path}: `out` leads to {real_path(project.out)}, out of the project; to write"
+            " there, name that folder with `-o`"
+        )
+    return out_dir
 
 
 def _run(task: _Task, options: BuildOptions) -> tuple[BuildResult, Exit, str]:

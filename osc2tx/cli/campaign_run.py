@@ -33,6 +33,7 @@ from osc2tx.cli.run import (
 from osc2tx.compilation.inputs import InputError, find_inputs
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import CAMPAIGN_SETTINGS, ConfigError, ConfigFiles, GivenOptions
+from osc2tx.support.paths import file_stem
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.campaigns import Condition, Modules, Plan
 from osc2tx_runtime.errors import SettingsError
@@ -197,7 +198,9 @@ def run(
         wanted = wanted_rows(plan, sampler, samples, levels, search, search_batch)
         at_once = batch or wanted.at_once
         runs_rows = engine_by_name(engine, at_once, processors(), workers, timeout)
-        return _run(plan, texts, wanted, place or Path(f"{name}.campaign"), runs_rows, reporter)
+        return _run(
+            plan, texts, wanted, place or Path(f"{file_stem(name)}.campaign"), runs_rows, reporter
+        )
     except CampaignError as error:
         raise click.UsageError(str(error)) from None
     except ScenarioError as error:

@@ -20,6 +20,7 @@ from osc2tx.compilation.driver import Compilation
 from osc2tx.config import GivenOptions
 from osc2tx.diagnostics.report import FileFault
 from osc2tx.support.paths import real_path
+from osc2tx_shared.links import target_outside
 from osc2tx_shared.text import complain, put
 
 
@@ -98,6 +99,10 @@ def _differs(path: Path, text: str) -> bool:
 
 
 def _write(path: Path, text: str) -> Exit:
+    target = target_outside(path)
+    if target is not None:
+        complain(f"{path}: a link leads to {target}, out of the current folder; name that file")
+        return Exit.UNREADABLE
     try:
         replace_file(real_path(path), text.encode())
     except OSError as error:

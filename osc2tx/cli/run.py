@@ -214,7 +214,7 @@ def merge_texts(config: Config, path: Path, given: Texts) -> dict[str, tuple[str
     """
     stated = config.run_settings(path)
     try:
-        read_options(stated)
+        read_options(stated, is_trusted=False)
     except SettingsError as error:
         tables = " or ".join(f"[{name}.run]" for name, _ in config.tables_for(path))
         where = f"{config.path}: in {tables}"

@@ -18,6 +18,7 @@ from osc2tx.cli.options import (
 from osc2tx.cli.reporting import Exit, quiet_option, wants_color
 from osc2tx.compilation.inputs import find_inputs
 from osc2tx.config import GivenOptions
+from osc2tx_runtime.running.output_files import problem_of
 from osc2tx_shared.text import complain
 
 FEWEST_FILES = 8  # for a second process, which loads everything anew
@@ -75,6 +76,9 @@ def test(
         complain(f"no scenario is affected by changes since {affected}")
         return Exit.OK
     found = find_inputs(sources)
+    problem = None if junit is None else problem_of("junit", junit)
+    if problem is not None:
+        raise click.UsageError(f"--junit {problem}")
     options = {
         "-k": keyword,
         "--osc-shard": shard,

@@ -107,7 +107,6 @@ CAMPAIGN_SETTINGS = (
     Setting("fail-if", "A row also fails if this condition holds.", is_list=True),
     Setting("timeout", "Wall-clock seconds that a row may take.", is_single=True),
     Setting("workers", "How many processes run rows.", is_single=True),
-    Setting("engine", "Where rows are run.", is_single=True),
     Setting("digests", "Make each trace, and store its digest.", is_flag=True),
 )
 TABLES = ("scenarios", "files")  # of tables, one for each scenario file or pattern of files

@@ -48,6 +48,12 @@ def is_portable(name: str) -> bool:
     return ends_well and not _FORBIDDEN.search(name) and not _DEVICE.fullmatch(name)
 
 
+def file_stem(text: str) -> str:
+    """Return a text as the first part of the name of a file, on every system and in its folder."""
+    stem = re.sub(r"[^\w-]+", "_", text).strip("_") or "_"
+    return stem if is_portable(stem) else f"{stem}_"
+
+
 def real_path(path: Path) -> Path:
     """Return the absolute path without links; a link to itself stays, where pathlib fails."""
     return Path(os.path.realpath(path))

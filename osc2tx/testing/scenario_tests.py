@@ -214,15 +214,15 @@ class ScenarioItem(pytest.Item):
             return "error", problems.splitlines()[0], problems
         fail_on = tuple(self.config.getoption("osc_fail_on"))
         given = {"fail-on": fail_on, "trace": self._trace()}
-        config = sources.configs.for_source(self.path)
         shown = _seen_from_here(self.path)
         try:
+            config = sources.configs.for_source(self.path)
             settings = settings_from(merge_texts(config, self.path, given), self.path)
             with sources.scenarios(self.path) as scenarios:
                 scenario = scenarios[self.name]
                 result = run_scenario(scenario, settings, keep_trace=False)
-        except SettingsError as error:
-            return "error", error.message, error.message
+        except (ConfigError, SettingsError) as error:
+            return "error", str(error), str(error)
         except ScenarioError as error:
             return "error", str(error), error.report(self.path.name, shown)
         told = "\n".join(lines_of(self.name, result, scenario.source, shown))
@@ -232,16 +232,16 @@ class ScenarioItem(pytest.Item):
 
     def _trace(self) -> tuple[str, ...]:
         """Return where the trace goes: as its source lies, one for each scenario."""
+        from osc2tx.support.paths import file_stem
+
         folder = self.config.getoption("osc_traces")
         if not folder:
             return ()
         result = _sources(self.config).result(self.path)
         place = Path(folder, result.job.name).with_suffix("")
-        name = (
-            f"{place.name}.jsonl" if place.name == self.name else f"{place.name}.{self.name}.jsonl"
-        )
+        inner = "" if place.name == self.name else f".{file_stem(self.name)}"
         place.parent.mkdir(parents=True, exist_ok=True)
-        return (str(place.with_name(name)),)
+        return (str(place.with_name(f"{place.name}{inner}.jsonl")),)
 
 
 class UnexpectedVerdict(Exception):

@@ -168,48 +168,56 @@ OPTIONS: tuple[Option, ...] = (
         lambda t: parse_seconds(t, "--max-time 60"),
         default=300.0,
     ),
-    Option("trace", "FILE", "write the trace (JSON Lines)", Path),
-    Option("report", "FILE", "write the report (HTML)", Path),
+    Option("trace", "FILE", "write the trace (JSON Lines)", Path, is_trusted=True),
+    Option("report", "FILE", "write the report (HTML)", Path, is_trusted=True),
     Option(
         "allow-external",
         "MODULE.FUNCTION",
         "let the scenario call this Python function",
         str.strip,
         tuple,
+        is_trusted=True,
     ),
 )
 
 
-def read_options(texts: Mapping[str, str | Sequence[str] | None]) -> RunSettings:
-    """Build settings from the texts of a command line.
+def read_options(
+    texts: Mapping[str, str | Sequence[str] | None], *, is_trusted: bool = True
+) -> RunSettings:
+    """Build settings from the texts of a command line or of a settings file.
 
     Args:
         texts: Option name (`map-path` or `map_path`) to what was written: one text, a sequence
             for repeatable options, None or nothing at all for the default. Flags: `true`.
+        is_trusted: Whether the user wrote them, as on a command line.
 
     Raises:
-        SettingsError: If a text does not have the form of its option, or no option of the chosen
-            world has this name.
+        SettingsError: If a text does not have the form of its option, no option of the chosen
+            world has this name, or only the command line may give it.
     """
     given = {
         name.replace("_", "-"): [text] if isinstance(text, str) else list(text)
         for name, text in texts.items()
         if text is not None and text != () and text != []
     }
-    values = _take(OPTIONS, given)
+    values = _take(OPTIONS, given, is_trusted)
     if given:
         world = find_world(values.get("world", "embedded"))
         with OwnCode(f"an option of the world {world.name} cannot be read:", error=SettingsError):
-            values["world_options"] = _take(world.options, given)
+            values["world_options"] = _take(world.options, given, is_trusted)
     if given:
         raise SettingsError(f"unknown option --{min(given)}")
     return RunSettings(**values)
 
 
-def _take(options: Iterable[Option], given: dict[str, list[str]]) -> dict[str, Any]:
+def _take(
+    options: Iterable[Option], given: dict[str, list[str]], is_trusted: bool
+) -> dict[str, Any]:
     """Read what was given of some options, and take it away."""
-    return {
-        option.field: option.read(given.pop(option.name))
-        for option in options
-        if option.name in given
-    }
+    found = {}
+    for option in options:
+        if option.name in given:
+            if option.is_trusted and not is_trusted:
+                raise SettingsError(f"`{option.name}` is for the command line alone")
+            found[option.field] = option.read(given.pop(option.name))
+    return found

@@ -8,15 +8,19 @@ from pathlib import Path
 
 from osc2tx_runtime.errors import InputError, SettingsError
 from osc2tx_runtime.language.settings import RunSettings
+from osc2tx_shared.links import target_outside
 
-__all__ = ["check_outputs", "may_replace", "write_output"]
+__all__ = ["check_outputs", "problem_of", "write_output"]
 
 BEGINS = {
     "trace": (b'{"kind":"header"',),
     "report": (b"<!DOCTYPE html>",),
     "table": (b"number,seed,", b'{"number": '),
     "summary": (b'{\n "format": ',),
-    "junit": (b'<?xml version="1.0" encoding="UTF-8"?>\n<testsuites',),
+    "junit": tuple(  # of campaigns, and of pytest
+        b'<?xml version="1.0" encoding="%b<testsuites' % rest
+        for rest in (b'UTF-8"?>\n', b'utf-8"?>')
+    ),
 }
 """Begins of the files that are written; a file to overwrite must have the same begin."""
 
@@ -34,14 +38,30 @@ def check_outputs(settings: RunSettings) -> None:
         raise SettingsError(f"--trace or --report: no file can have this name: {error}") from None
     if len(set(given.values())) < len(given):
         raise SettingsError(f"--trace and --report are both {settings.trace}: give them two files")
-    for name, path in given.items():
-        if not may_replace(name, path):
-            raise SettingsError(
-                f"--{name} {places[name]}: there is a file, and it is no {name}; name another one"
-            )
+    for name in given:
+        problem = problem_of(name, places[name] or Path())
+        if problem is not None:
+            raise SettingsError(f"--{name} {problem}")
 
 
-def may_replace(name: str, path: Path) -> bool:
+def problem_of(name: str, path: Path) -> str | None:
+    """Return why a file must not be written, if so.
+
+    It replaces only a file that was written by this name, and does not follow a link out of the
+    current folder.
+    """
+    try:
+        target = target_outside(path)
+    except ValueError:  # writing it will report the error
+        return None
+    if target is not None:
+        return f"{path}: a link leads to {target}, out of the current folder; name that file"
+    if not _may_replace(name, path):
+        return f"{path}: there is a file, and it is no {name}; name another one"
+    return None
+
+
+def _may_replace(name: str, path: Path) -> bool:
     """Return whether a file is missing, or was written by this name."""
     begins = BEGINS[name]
     try:

@@ -11,7 +11,7 @@ from osc2tx_runtime.errors import InputError
 from osc2tx_runtime.opendrive import MapError, RoadMap, read_map
 from osc2tx_runtime.report.index_page import RunRow, render_index
 from osc2tx_runtime.report.page import Trace, render_runs
-from osc2tx_runtime.running.output_files import may_replace, write_output
+from osc2tx_runtime.running.output_files import problem_of, write_output
 
 __all__ = ["folder_report", "trace_report"]
 
@@ -110,8 +110,9 @@ def _read_trace(path: Path, name: str) -> Trace:
 
 
 def _write(page: Path, text: str) -> None:
-    if not may_replace("report", page):
-        raise InputError(f"{page}: there is a file, and it is no report; name another one")
+    problem = problem_of("report", page)
+    if problem is not None:
+        raise InputError(problem)
     write_output("report", page, text)
 
 

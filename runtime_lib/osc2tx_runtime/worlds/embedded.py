@@ -72,6 +72,13 @@ EMBEDDED = WorldType(
     make,
     controls=("exact", "external"),
     options=(
-        Option("ego", "ACTOR=MODULE:CLASS", "Python class that drives an actor", parse_ego, dict),
+        Option(
+            "ego",
+            "ACTOR=MODULE:CLASS",
+            "Python class that drives an actor",
+            parse_ego,
+            dict,
+            is_trusted=True,
+        ),
     ),
 )

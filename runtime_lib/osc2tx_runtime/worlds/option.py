@@ -27,6 +27,8 @@ class Option:
         gather: Puts the values together of an option that may be given several times: `tuple`,
             `dict` of (key, value) pairs; None: the last one counts.
         default: For the help page; None where there is nothing to say.
+        is_trusted: Whether only the command line may give it: it names Python code, or a file to
+            write. Settings files come with repositories of other people.
     """
 
     name: str
@@ -35,6 +37,7 @@ class Option:
     parse: Callable[[str], Any]
     gather: Callable[[Iterable[Any]], Any] | None = None
     default: object = None
+    is_trusted: bool = False
 
     @property
     def field(self) -> str:
