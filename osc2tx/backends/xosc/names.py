@@ -19,14 +19,16 @@ class Names:
     def __init__(self, *, folds_case: bool = False) -> None:
         """Start with nothing taken; names of files must differ in more than case."""
         self._taken: set[str] = set()
+        self._numbers: dict[str, int] = {}  # the last one of a name
         self._key = str.lower if folds_case else str
 
     def new(self, wish: str) -> str:
         """Return a name that nobody has."""
-        base = plain(wish)
-        name, number = base, 1
+        base = name = plain(wish)
+        number = self._numbers.get(self._key(base), 1)
         while self._key(name) in self._taken:
             number += 1
             name = f"{base}_{number}"
+        self._numbers[self._key(base)] = number
         self._taken.add(self._key(name))
         return name

@@ -162,7 +162,7 @@ class LossReport:
         """Start with nothing."""
         self.options = options
         self._tool = PROFILES[options.profile]
-        self._entries: dict[tuple[str, Span], list[Entry]] = {}
+        self._entries: dict[Span, dict[str, list[Entry]]] = {}
 
     def exact(self, construct: str, span: Span, note: str = "") -> None:
         """Note that a construct means the same in the XML."""
@@ -210,7 +210,7 @@ class LossReport:
 
     def _add(self, entry: Entry) -> None:
         """Add an entry; what is not exact stands instead of what is."""
-        same = self._entries.setdefault((entry.construct, entry.span), [])
+        same = self._entries.setdefault(entry.span, {}).setdefault(entry.construct, [])
         if entry.grade is Grade.EXACT:
             if not same:
                 same.append(entry)
@@ -220,13 +220,13 @@ class LossReport:
 
     def construct_at(self, span: Span, kind: str) -> str:
         """Return what a construct of a kind at a place is called here."""
-        names = (name for name, place in self._entries if place == span and name.startswith(kind))
+        names = (name for name in self._entries.get(span, ()) if name.startswith(kind))
         return next(names, kind.strip())
 
     @property
     def entries(self) -> tuple[Entry, ...]:
         """All of them, in order of place."""
-        found = [entry for same in self._entries.values() for entry in same]
+        found = [e for at in self._entries.values() for same in at.values() for e in same]
         return tuple(sorted(found, key=lambda e: (e.span.source.name, e.span.start)))
 
     @property

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from osc2tx import ir
 from osc2tx.backends.xosc.entities.cast import CastMember, cast_member
+from osc2tx.backends.xosc.flattening.storyboard.member_names import Deed, deeds
 from osc2tx.backends.xosc.names import Names
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Named, UserTypes
@@ -32,6 +33,7 @@ class Scope:
         path: Labels of the invocations down to it, for keys of parameters.
         inner: Scopes of the scenarios that it invokes, by the span of the invocation.
         by_label: The same by label.
+        deeds: How often its members do the same.
         own: Those of its cast that nobody has handed in.
         is_first: It begins with the run.
     """
@@ -41,6 +43,7 @@ class Scope:
     cast: dict[str, CastMember]
     prefix: str
     path: str
+    deeds: Mapping[Deed, int]
     inner: dict[Hashable, Scope] = field(default_factory=dict)
     by_label: dict[str, Scope] = field(default_factory=dict)
     own: list[CastMember] = field(default_factory=list)
@@ -95,6 +98,7 @@ class _Opener:
         self._paths = Names()
         self._chosen = chosen
         self._shared: dict[str, CastMember] = {}  # global actors
+        self._deeds: dict[str, Mapping[Deed, int]] = {}  # by key of the scenario
 
     def open(
         self,
@@ -113,7 +117,16 @@ class _Opener:
         values = Values(scenario, {**chosen, **given}, self._types)
         for name, error in (unknown or {}).items():
             values.hide(name, error)
-        scope = Scope(scenario, values, dict(handed_in), place.prefix, place.path)
+        if scenario.key not in self._deeds:
+            self._deeds[scenario.key] = deeds(scenario)
+        scope = Scope(
+            scenario,
+            values,
+            dict(handed_in),
+            place.prefix,
+            place.path,
+            self._deeds[scenario.key],
+        )
         for declaration in scenario.declarations:
             if isinstance(declaration, ir.Actor) and declaration.name not in handed_in:
                 self._join(declaration, scope)

@@ -247,7 +247,7 @@ def environment_action(
         fractionalCloudCover=cover,
         cloudState=state,
     )
-    name = event_name(ctx.scope.scenario, source) if isinstance(source, ir.Invoke) else source.name
+    name = event_name(ctx.scope.deeds, source) if isinstance(source, ir.Invoke) else source.name
     return _environment(ctx, name, told, clock, _road(ctx, source))
 
 

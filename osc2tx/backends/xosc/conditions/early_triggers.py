@@ -7,25 +7,34 @@ step, so it is not asked for without need.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator
+from typing import Literal, TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.flattening.tree_queries import is_instant
 
-Path = tuple[tuple[ir.Behavior, int], ...]
+Path: TypeAlias = tuple[tuple[ir.Behavior, int], ...]
 """Compositions from the outside to a member, with the index of the next one in it."""
+
+Occurring: TypeAlias = tuple[Literal["event", "label"], str]
+"""What occurs: an event, or the start or end of a member, by name."""
 
 
 def early_triggers(body: ir.Behavior) -> frozenset[int]:
     """Return the ids of the triggers that begin before what they wait for."""
     places = dict(_paths(body, ()))
     nodes = ir.walk_behaviors(body)
+    sites: dict[Occurring | None, list[Path]] = defaultdict(list)
+    for node in nodes:
+        for occurring in dict.fromkeys(_occurring(node)):
+            sites[occurring].append(places[id(node)])
     found = set()
     for node in nodes:
         for trigger in triggers_of(node):
-            sites = [places[id(site)] for site in nodes if _may_occur(trigger.event, site)]
             # What no member makes comes from outside: at any time from the start on.
-            if all(_is_before(places[id(node)], site) for site in sites or [()]):
+            made = sites.get(_awaited(trigger.event)) or [()]
+            if all(_is_before(places[id(node)], site) for site in made):
                 found.add(id(trigger))
     return frozenset(found)
 
@@ -41,18 +50,25 @@ def triggers_of(node: ir.Behavior) -> tuple[ir.Trigger, ...]:
             return node.until
 
 
-def _may_occur(
-    event: ir.EventRef | ir.LabelEvent | ir.InnerEvent | None, site: ir.Behavior
-) -> bool:
-    """Whether a member makes an event occur."""
-    match event, site:
-        case ir.EventRef(name=name), ir.Emit(event=emitted):
-            return emitted.name == name
-        case ir.EventRef(name=name), ir.On(reactions=reactions):
-            return any(isinstance(r, ir.Emit) and r.event.name == name for r in reactions)
-        case (ir.LabelEvent(label=label) | ir.InnerEvent(label=label)), _:
-            return site.label == label
-    return False
+def _awaited(event: ir.EventRef | ir.LabelEvent | ir.InnerEvent | None) -> Occurring | None:
+    """Return the event, or the label, that a trigger waits for."""
+    match event:
+        case ir.EventRef(name=name):
+            return "event", name
+        case ir.LabelEvent(label=label) | ir.InnerEvent(label=label):
+            return "label", label
+    return None
+
+
+def _occurring(site: ir.Behavior) -> Iterator[Occurring]:
+    """Yield the events that a member emits, and its label."""
+    if site.label is not None:
+        yield "label", site.label
+    match site:
+        case ir.Emit(event=emitted):
+            yield "event", emitted.name
+        case ir.On(reactions=reactions):
+            yield from (("event", r.event.name) for r in reactions if isinstance(r, ir.Emit))
 
 
 def _paths(node: ir.Behavior, path: Path) -> Iterator[tuple[int, Path]]:

@@ -6,9 +6,12 @@ latched. Only a latched flow can be waited on for a time, or be joined with othe
 
 from __future__ import annotations
 
-from itertools import product
+from collections.abc import Iterable, Sequence
+from itertools import chain, product
+from math import inf, prod
 from typing import Literal, TypeAlias
 
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import StoryboardElementState
 from osc2tx_shared.classes import dataclass, replace
@@ -51,11 +54,6 @@ class Test:
     def since(self) -> tuple[str | None, float]:
         """After the end of which event it becomes true, and how many seconds."""
         return (self.event, self.delay) if self.reached is None else (RUN, self.reached)
-
-    def implies(self, other: Test) -> bool:
-        """Return whether the other one is surely true when this one is."""
-        after = self.after(other)
-        return after is not None and after >= -ROUNDING
 
     def after(self, other: Test) -> float | None:
         """Return how long (s) after the other one it becomes true at least; `None` if not known."""
@@ -124,8 +122,7 @@ class Flow:
         return all(delay > ROUNDING for delay in delays)
 
     def __and__(self, other: Flow) -> Flow:
-        pairs = product(self.groups, other.groups)
-        return Flow(tuple(_joined(left, right) for left, right in pairs))
+        return all_of((self, other))
 
     def __or__(self, other: Flow) -> Flow:
         return Flow(tuple(dict.fromkeys((*self.groups, *other.groups))))
@@ -133,15 +130,51 @@ class Flow:
 
 NEVER = Flow(())
 
+MOST_GROUPS = 64
+"""Groups of an AND of ORs: their numbers multiply."""
 
-def _joined(left: Group, right: Group) -> Group:
-    """Return the tests of both without those that follow from others."""
-    tests = tuple(dict.fromkeys((*left, *right)))
-    return tuple(
-        test
-        for test in tests
-        if not any(other.implies(test) for other in tests if other is not test)
-    )
+
+def are_few(flows: Sequence[Flow]) -> bool:
+    """Return whether the AND of flows is short enough for a trigger."""
+    return prod(len(flow.groups) for flow in flows) <= MOST_GROUPS
+
+
+def all_of(flows: Sequence[Flow]) -> Flow:
+    """Return when all flows are true.
+
+    Raises:
+        Inexpressible: Their groups are too many.
+    """
+    if not are_few(flows):
+        raise Inexpressible(
+            f"it has more than {MOST_GROUPS} combinations of alternatives",
+            remedy=Remedy(instead="an event for each `or` is exact"),
+        )
+    choices = product(*(flow.groups for flow in flows))
+    return Flow(tuple(_without_implied(chain.from_iterable(groups)) for groups in choices))
+
+
+def _without_implied(tests: Iterable[Test]) -> Group:
+    """Return different tests, in their order, without those that follow from others."""
+    kept = tuple(dict.fromkeys(tests))
+    latest: dict[str, Test] = {}  # by event, of the tests for its end
+    followed: dict[str, float] = {}  # seconds after an event at which another test becomes true
+    for test in kept:
+        event, seconds = test.since
+        if event is None:
+            continue
+        if event not in latest or seconds > latest[event].since[1] + ROUNDING:
+            latest[event] = test
+        for name, between in test.follows:
+            followed[name] = max(followed.get(name, -inf), between + seconds)
+
+    def is_implied(test: Test) -> bool:
+        event, seconds = test.since
+        if event is None:
+            return False
+        return latest[event] is not test or followed.get(event, -inf) >= seconds - ROUNDING
+
+    return tuple(test for test in kept if not is_implied(test))
 
 
 def single(test: Test) -> Flow:

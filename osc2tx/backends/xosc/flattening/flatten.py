@@ -12,7 +12,7 @@ from functools import partial
 from typing import assert_never
 
 from osc2tx import ir
-from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, chosen
+from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, all_of, are_few, chosen
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.compositions.durations import Role, end_within_duration
 from osc2tx.backends.xosc.flattening.compositions.overridden_members import unless_active
@@ -151,11 +151,18 @@ class Flattener:
             return NEVER
         if len(bounding) == 1:
             return bounding[0][1]
-        named = ((self._builder.name_of(member), end) for member, end in bounding)
-        joined, *others = (self._builder.latched(end, name) for name, end in named)
-        for other in others:
-            joined = joined & other
-        return joined
+        named = [(self._builder.name_of(member), end) for member, end in bounding]
+        are_few_ends = are_few([end for _, end in named])
+        return all_of(
+            [
+                (
+                    self._builder.latched(end, name)
+                    if are_few_ends or len(end.groups) == 1
+                    else self._builder.keep(self._ctx.names.new(f"end_of_{name}"), end)
+                )
+                for name, end in named
+            ]
+        )
 
     def _one_of(self, node: ir.OneOf, start: Flow) -> Flow:
         policy = self._ctx.module.one_of

@@ -6,7 +6,8 @@ that begins after the occurrence does not see it, as in the DSL.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Mapping, Sequence
 
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.early_triggers import early_triggers, triggers_of
@@ -33,7 +34,8 @@ class EventTable:
         self._scope = scope
         scenario = scope.scenario
         self._declared = {d.name: d for d in scenario.declarations if isinstance(d, ir.Event)}
-        self._emitted = [emit.event.name for emit in _emissions(scenario.body)]
+        self._emitted = Counter(emit.event.name for emit in _emissions(scenario.body))
+        self._reacting = _reactions(scenario.body)
         self._early = early_triggers(scenario.body)
         self._fleeting = {
             ctx.variable_name(scope.prefix + name) for name in self._fleeting_events()
@@ -58,9 +60,7 @@ class EventTable:
 
     def _fleeting_events(self) -> Iterator[str]:
         """Yield the events whose variables are taken back, for they may occur again."""
-        for name in self._emitted:
-            if self._emitted.count(name) > 1:
-                yield name
+        yield from (name for name, count in self._emitted.items() if count > 1)
         for node in ir.walk_behaviors(self._scope.scenario.body):
             if isinstance(node, ir.On) and self.may_recur(node.trigger):
                 yield from (r.event.name for r in node.reactions if isinstance(r, ir.Emit))
@@ -76,13 +76,8 @@ class EventTable:
         declared = self._declared.get(event.name)
         if declared is not None and declared.trigger is not None:
             return self.may_recur(declared.trigger, seen)
-        nodes = ir.walk_behaviors(self._scope.scenario.body)
-        reacting = (node for node in nodes if isinstance(node, ir.On))
-        return self._emitted.count(event.name) > 1 or any(
-            self.may_recur(node.trigger, seen)
-            for node in reacting
-            for each in node.reactions
-            if isinstance(each, ir.Emit) and each.event.name == event.name
+        return self.is_emitted_often(event) or any(
+            self.may_recur(node.trigger, seen) for node in self._reacting.get(event.name, ())
         )
 
     def signals(self) -> list[Event]:
@@ -104,7 +99,7 @@ class EventTable:
 
     def is_emitted_often(self, event: ir.EventRef) -> bool:
         """Whether there are several places that emit an event."""
-        return self._emitted.count(event.name) > 1
+        return self._emitted[event.name] > 1
 
     def occurrence(self, trigger: ir.Trigger) -> Flow:
         """Return the tests for an occurrence of the event of a trigger from now on."""
@@ -153,20 +148,10 @@ class EventTable:
             return self._while_it_lasts(name, at)
         return self._is_set(self.variable(name), is_early=is_early)
 
-    def _reactions_with(self, name: str) -> list[ir.On]:
-        """Return the members that react with an event."""
-        nodes = ir.walk_behaviors(self._scope.scenario.body)
-        return [
-            node
-            for node in nodes
-            if isinstance(node, ir.On)
-            and any(isinstance(r, ir.Emit) and r.event.name == name for r in node.reactions)
-        ]
-
     def _lasts(self, name: str, seen: frozenset[str] = frozenset()) -> bool:
         """Whether an event occurs at each instant at which some condition holds."""
         return name not in seen and any(
-            self._is_level(node.trigger, seen | {name}) for node in self._reactions_with(name)
+            self._is_level(node.trigger, seen | {name}) for node in self._reacting.get(name, ())
         )
 
     def _is_level(self, trigger: ir.Trigger, seen: frozenset[str]) -> bool:
@@ -184,14 +169,14 @@ class EventTable:
 
         Who begins to wait then does not wait for the next time at which such a time begins.
         """
-        reactions = self._reactions_with(name)
+        reactions = self._reacting.get(name, ())
         always = {id(node) for node in _always_there(self._scope.scenario.body)}
         emissions = sum(
             isinstance(r, ir.Emit) and r.event.name == name
             for node in reactions
             for r in node.reactions
         )
-        if emissions < self._emitted.count(name) or any(id(n) not in always for n in reactions):
+        if emissions < self._emitted[name] or any(id(n) not in always for n in reactions):
             raise Inexpressible(
                 "whether the reaction to a condition that holds is still there is only known"
                 " during the run",
@@ -264,3 +249,14 @@ def _emissions(body: ir.Behavior) -> Iterator[ir.Emit]:
             yield node
         elif isinstance(node, ir.On):
             yield from (reaction for reaction in node.reactions if isinstance(reaction, ir.Emit))
+
+
+def _reactions(body: ir.Behavior) -> Mapping[str, Sequence[ir.On]]:
+    """Return the members that react with an event, by its name."""
+    found: dict[str, list[ir.On]] = defaultdict(list)
+    for node in ir.walk_behaviors(body):
+        if isinstance(node, ir.On):
+            names = [each.event.name for each in node.reactions if isinstance(each, ir.Emit)]
+            for name in dict.fromkeys(names):
+                found[name].append(node)
+    return found

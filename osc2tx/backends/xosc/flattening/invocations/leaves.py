@@ -43,7 +43,7 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     is_measured = any(call.name == "distance" for call in node.modifiers)
     if node.until or overriding or node.duration is not None or is_measured:
         start = builder.latched(start, builder.name_of(node))
-    name = ctx.names.new(event_name(ctx.scope.scenario, node, member.name))
+    name = ctx.names.new(event_name(ctx.scope.deeds, node, member.name))
     is_start = start == RUN_START or is_first(ctx.scenario.body, node)
     leaf = Leaf(ctx, node, member, name, is_start=is_start)
     performance = Performance((), "instant")
@@ -158,7 +158,7 @@ def _invoke_global(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> 
         start = builder.latched(start, builder.name_of(node))
     if node.modifiers or (not lasts and (node.until or node.duration is not None)):
         raise Inexpressible("it takes no time, so it has no duration and no modifiers")
-    name = event_name(ctx.scope.scenario, node)
+    name = event_name(ctx.scope.deeds, node)
     goal = _act_globally(builder, name, actions, start)
     for actor, lights in followed_lights(ctx).items():
         builder.add(ctx.names.new(f"{actor}_lights_{name}"), lights, start, actor=actor)

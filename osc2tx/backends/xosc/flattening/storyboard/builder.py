@@ -289,6 +289,8 @@ class StoryboardBuilder:
 
     def claimed_by(self, labels: list[str]) -> frozenset[tuple[str, str]]:
         """Return the same for labelled members."""
+        if not labels:
+            return frozenset()
         nodes = ir.walk_behaviors(self.ctx.scope.scenario.body)
         found = (self.claimed(node) for node in nodes if node.label in labels)
         return frozenset[tuple[str, str]]().union(*found)

@@ -6,7 +6,13 @@ told apart by numbers.
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Mapping
+
 from osc2tx import ir
+
+Deed = tuple[str, str]
+"""An action and its actor, as written."""
 
 
 def member_name(scenario: ir.Scenario, node: ir.Behavior) -> str:
@@ -16,34 +22,30 @@ def member_name(scenario: ir.Scenario, node: ir.Behavior) -> str:
     return type(node).__name__.lower() if node is scenario.body else node.name
 
 
-def event_name(scenario: ir.Scenario, node: ir.Invoke, actor: str | None = None) -> str:
+def deeds(scenario: ir.Scenario) -> Mapping[Deed, int]:
+    """Return how often the members of a scenario without a label do the same."""
+    nodes = ir.walk_behaviors(scenario.body)
+    return Counter(_deed(n) for n in nodes if isinstance(n, ir.Invoke) and n.label is None)
+
+
+def event_name(done: Mapping[Deed, int], node: ir.Invoke, actor: str | None = None) -> str:
     """Return what the event of an action is called.
 
     The action alone will do where it is done once; else its arguments and modifiers follow.
 
     Args:
-        scenario: Where it stands.
+        done: The `deeds` of its scenario.
         node: The invocation.
         actor: The entity that acts, if there is one.
     """
     if node.label is not None:
         return node.label
-    alike = [each for each in ir.walk_behaviors(scenario.body) if _is_alike(each, node)]
-    details = [] if len(alike) == 1 else [*_values(node.arguments), *_modifiers(node)]
+    details = [] if done[_deed(node)] == 1 else [*_values(node.arguments), *_modifiers(node)]
     return "_".join(([] if actor is None else [actor]) + [node.action, *details])
 
 
-def _is_alike(node: ir.Behavior, other: ir.Invoke) -> bool:
-    return (
-        isinstance(node, ir.Invoke)
-        and node.label is None
-        and node.action == other.action
-        and _written(node.actor) == _written(other.actor)
-    )
-
-
-def _written(actor: ir.Expression | None) -> str:
-    return "" if actor is None else actor.span.text
+def _deed(node: ir.Invoke) -> Deed:
+    return node.action, "" if node.actor is None else node.actor.span.text
 
 
 def _values(arguments: tuple[ir.Argument, ...]) -> list[str]:
