@@ -148,7 +148,7 @@ class LogicalWriter:
             return None if unlike else found
         if not unlike and not trial.has_special and not needs_table(found.domain):
             return found
-        rows, documents = found.domain.rows(), [document]
+        rows, documents = list(found.domain.rows), [document]
         for index, row in enumerate(rows):
             rows[index], document, places = trial.at_row(row)
             if places is None or document is None:

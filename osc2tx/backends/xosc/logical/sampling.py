@@ -3,20 +3,25 @@
 All combinations would be 5^n rows. Instead there are ten for each parameter, and one: a Latin
 hypercube. In it each parameter goes from end to end at equal steps and has each value once, while
 the orders are those of Halton sequences, so that all corners of the domain are visited. It is
-deterministic. Rows that break a constraint are left out, and denser tables tried instead.
+deterministic. Rows that break a constraint are left out, and denser tables tried instead; where
+hardly any row is left, the constraints are solved for the places of the rows.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 from itertools import count, islice, product
-from math import prod
+from math import inf, prod
 from typing import NamedTuple
 
 from osc2tx import ir
 from osc2tx.backends.xosc.logical.parameters import OpenParameter, Point
+from osc2tx.backends.xosc.logical.relations import relations_of
+from osc2tx.backends.xosc.logical.solving import Interval, Solver
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
+from osc2tx.backends.xosc.values.constants import Constant
 from osc2tx.backends.xosc.values.folding import Values
 
 RUNS_EACH = 10
@@ -30,6 +35,14 @@ GOLDEN = 0.618034
 
 DENSEST = 64
 """So many times more rows are tried where constraints leave out most."""
+
+MOST_VALUES = 10_000
+"""Of a table; with more parameters it has fewer rows."""
+
+MOST_TRIED = 20_000
+"""Values that are tried, in all rows of a table together."""
+
+FEWEST_ROWS = 11
 
 
 class Row(NamedTuple):
@@ -67,6 +80,8 @@ class Domain:
 
     def narrowed(self, parameters: Sequence[OpenParameter], folded: Point) -> Domain:
         """Return the domain of some of the parameters, for values of the others."""
+        if tuple(parameters) == self.parameters and folded == self._folded:
+            return self
         return Domain(self._scenario, self._module, parameters, folded)
 
     @property
@@ -77,7 +92,8 @@ class Domain:
     @property
     def most_rows(self) -> int:
         """Rows of a table."""
-        return RUNS_EACH * len(self.parameters) + 1
+        number = len(self.parameters)
+        return min(RUNS_EACH * number + 1, max(MOST_VALUES // max(number, 1), FEWEST_ROWS))
 
     def values(self, parameter: OpenParameter, point: Point | None = None) -> Values:
         """Return the constants of the scope of a parameter, for values of others."""
@@ -113,24 +129,57 @@ class Domain:
         point = self.beside(middle).point if is_beside else middle.point
         if not self._is_constrained or self.allows(point):
             return point
-        rows = self.rows()
+        rows = self.rows
         return rows[len(rows) // 2].point if rows else None
 
     # --- rows ---
 
-    def rows(self) -> list[Row]:
-        """Return values for runs: all combinations of sets if they are few, else a sample."""
+    @cached_property
+    def rows(self) -> Sequence[Row]:
+        """Values for runs: all combinations of sets if they are few, else a sample."""
         listed = [p.choices for p in self.parameters]
         if all(listed) and prod(map(len, listed)) <= self.most_rows:
             shares = product(*([i / len(each) for i in range(len(each))] for each in listed))
             return [row for row in map(self.row, shares) if self.allows(row.point)]
-        wanted, density = self.most_rows, 1
+        wanted, density, number = self.most_rows, 1, len(self.parameters)
         while True:
-            candidates = map(self.row, _hypercube(len(self.parameters), (wanted - 1) * density + 1))
+            candidates = map(self.row, _hypercube(number, (wanted - 1) * density + 1))
             found = [row for row in candidates if not self.is_joint or self.allows(row.point)]
-            if len(found) >= wanted or density >= DENSEST:
-                return sorted(_thinned(found, wanted), key=self._order)
+            if len(found) >= wanted:
+                break
             density *= 2
+            if density > DENSEST or wanted * density * number > MOST_TRIED:
+                found = max(found, self._solved(wanted), key=len)
+                break
+        return sorted(_thinned(found, wanted), key=self._order)
+
+    def _solved(self, wanted: int) -> list[Row]:
+        """Return rows of values that keep the constraints as far as these can be solved."""
+        scopes = open_scopes(self._scenario, self._module, self._folded).all()
+        domains = {parameter.key: self._whole(parameter) for parameter in self.parameters}
+        solver = Solver(domains, relations_of(scopes, self.parameters))
+        rows = []
+        for shares in _hypercube(len(self.parameters), wanted):
+            inside = [(share * (wanted - 1) + 0.5) / wanted for share in shares]  # no ends: `<`
+            places = {p.key: share for p, share in zip(self.parameters, inside, strict=True)}
+            chosen = solver.choose(places)
+            if chosen is not None and self.allows(point := {**self._folded, **chosen}):
+                rows.append(Row(self._shares(point), point))
+        return rows
+
+    def _whole(self, parameter: OpenParameter) -> Interval | tuple[Constant, ...]:
+        """Return all that a parameter may be, whatever the others are."""
+        choices = parameter.choices
+        if parameter.is_dependent:
+            return Interval(-inf, inf, parameter.is_whole)
+        numbers = [choice for choice in choices if isinstance(choice, int)]
+        is_listed = parameter.is_whole and numbers == [*range(numbers[0], numbers[-1] + 1)]
+        if choices and not is_listed:
+            return choices
+        return Interval(*parameter.limits(self.values(parameter)), parameter.is_whole)
+
+    def _shares(self, point: Point) -> tuple[float, ...]:
+        return tuple(p.share(point[p.key], self.values(p, point)) for p in self.parameters)
 
     def row(self, shares: Sequence[float]) -> Row:
         """Return the row for places between the first and the last value of each parameter."""
