@@ -9,7 +9,7 @@ and diagnostics OSC42x (constraints, errors) and OSC43x (warnings). `analyse` ru
    `forward` and `backward` over `interval_arithmetic`. The result is the `ConstraintAnalysis` in
    `propagation`; `report_constraints` reports conflicts.
 2. Liveness. `termination` finds members that never end by themselves, `usage` the used names;
-   `liveness`, `usage`, `recursive_scenarios` and `constant_conditions` report.
+   `liveness`, `usage`, `recursive_scenarios`, `tree_sizes` and `constant_conditions` report.
 3. Levels. `levels` finds for each scenario whether it is abstract, logical or concrete, with its
    open values; `cast_checks` judges its actors, `value_text` writes values in the units of the
    source.

@@ -12,6 +12,7 @@ from osc2tx.analysis.lints.recursive_scenarios import report_recursion
 from osc2tx.analysis.lints.shared_slots import report_shared_slots
 from osc2tx.analysis.lints.termination import find_endings
 from osc2tx.analysis.lints.time_lints import report_times
+from osc2tx.analysis.lints.tree_sizes import report_tree_sizes
 from osc2tx.analysis.lints.usage import CONSTRAINTS, find_usage, report_usage
 from osc2tx.analysis.tree_walk import NodesByKind
 from osc2tx.diagnostics import DiagnosticSink
@@ -54,6 +55,7 @@ def analyse(
     report_constraints(model, constraints, usage, sink)
     endings = find_endings(model)
     report_recursion(model, sink)
+    report_tree_sizes(model, sink)
     if not first_come:
         report_durations(model, endings, sink)
     report_liveness(model, endings, frozenset(usage.invoked), sink)

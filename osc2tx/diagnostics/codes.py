@@ -222,6 +222,7 @@ CODES = _table(
     Code("OSC441", "reacts-at-every-instant", WARNING, "`on` reacts again and again.", "7.3.10"),
     Code("OSC442", "two-masters-at-once", WARNING, "Members control one thing.", "7.3.13"),
     Code("OSC443", "map-not-found", WARNING, "There is no such map.", "8.12.2.2.11"),
+    Code("OSC444", "too-many-members", ERROR, "Invocations multiply members.", "7.3.13"),
     # --- 6xx relaxations of a dialect ---
     Code("OSC601", "relaxed-use", WARNING, "A `use` statement is accepted.", "7.7.3"),
     Code("OSC602", "relaxed-do", WARNING, "Several `do` run one after the other.", "7.3.13"),
