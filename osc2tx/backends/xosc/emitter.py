@@ -20,6 +20,7 @@ from osc2tx.backends.xosc.logical.parameter_report import report_parameters
 from osc2tx.backends.xosc.names import Names
 from osc2tx.backends.xosc.report import Inexpressible, LossReport
 from osc2tx.backends.xosc.report_json import report_json
+from osc2tx.backends.xosc.scopes import require_room
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions
 from osc2tx.xosc.element import Element, Unwritable
@@ -114,6 +115,10 @@ class _Emission:
 
     def run(self, name: str, infix: str) -> XmlScenario:
         """Return the document called `name`, and what goes with it."""
+        try:
+            require_room(self._scenario, self._module)
+        except Inexpressible as error:
+            return self._refused(infix, error)
         version = self._options.version
         writer = LogicalWriter(self._scenario, self._module, version, self._write)
         found = writer.run()
@@ -137,6 +142,21 @@ class _Emission:
             report_json=report_json(ctx.report, self._scenario, self._module),
             origins=ctx.origins,
             map_places=ctx.map_places,
+        )
+
+    def _refused(self, infix: str, error: Inexpressible) -> XmlScenario:
+        """Return that there is no document."""
+        report = LossReport(self._options)
+        report.refuse("scenario invocation", self._scenario.span, error)
+        return XmlScenario(
+            name=self._scenario.name,
+            infix=infix,
+            xml=None,
+            parameters=None,
+            report=report,
+            report_json=report_json(report, self._scenario, self._module),
+            origins={},
+            map_places=(),
         )
 
     def _write(self, choosing: Choosing) -> tuple[Context, Element | None]:

@@ -15,7 +15,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.entities.cast import CastMember, cast_member
 from osc2tx.backends.xosc.flattening.storyboard.member_names import Deed, deeds
 from osc2tx.backends.xosc.names import Names
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Constant, Named, UserTypes
 from osc2tx.backends.xosc.values.folding import Values
 from osc2tx_shared.classes import dataclass, replace
@@ -58,8 +58,40 @@ class Scope:
         return [member for scope in self.all() for member in scope.own]
 
 
-MOST_DEPTH = 20
+MOST_MEMBERS = 5_000
+"""Members of a document, with those of invoked scenarios: each is written in place."""
+
+MOST_DEPTH = 100
 """Scenarios in each other; the verifier refuses those that invoke themselves."""
+
+
+def require_room(scenario: ir.Scenario, module: ir.Module) -> None:
+    """Refuse a scenario that is too large with those that it invokes, without opening them.
+
+    Raises:
+        Inexpressible: It is.
+    """
+    by_key = {each.key: each for each in module.scenarios}
+    sizes: dict[str, tuple[int, int]] = {}
+
+    def size(key: str, around: int) -> tuple[int, int]:
+        """Return the members of a scenario, and how many scenarios are in each other below it."""
+        if key not in sizes and around <= MOST_DEPTH:
+            nodes = ir.walk_behaviors(by_key[key].body)
+            inner = [size(n.key, around + 1) for n in nodes if isinstance(n, ir.InvokeScenario)]
+            members = len(nodes) + sum(members for members, _ in inner)
+            sizes[key] = members, 1 + max((depth for _, depth in inner), default=0)
+        return sizes.get(key, (0, MOST_DEPTH))
+
+    members, depth = size(scenario.key, 0)
+    if members > MOST_MEMBERS or depth > MOST_DEPTH:
+        much = f"{members} members" if members > MOST_MEMBERS else f"more than {MOST_DEPTH} levels"
+        most = f", at most {MOST_MEMBERS}" if members > MOST_MEMBERS else ""
+        raise Inexpressible(
+            f"with invoked scenarios in place, a document would have {much}{most}",
+            scenario.span,
+            Remedy(instead="a document for each of the scenarios that it invokes is exact"),
+        )
 
 
 def open_scopes(
@@ -72,7 +104,7 @@ def open_scopes(
         module: Where it stands.
         chosen: Values of open parameters, by their keys.
     """
-    return _Opener(module, chosen or {}).open(scenario, {}, {}, _Place("", "", 0))
+    return _Opener(module, chosen or {}).open(scenario, {}, {}, _Place("", ""))
 
 
 def key_of(path: str, parameter: ir.Parameter) -> str:
@@ -83,11 +115,10 @@ def key_of(path: str, parameter: ir.Parameter) -> str:
 
 
 class _Place(NamedTuple):
-    """Where a scenario is invoked: see `Scope`, and how many scenarios are around it."""
+    """Where a scenario is invoked: see `Scope`."""
 
     prefix: str
     path: str
-    depth: int
 
 
 class _Opener:
@@ -130,12 +161,11 @@ class _Opener:
         for declaration in scenario.declarations:
             if isinstance(declaration, ir.Actor) and declaration.name not in handed_in:
                 self._join(declaration, scope)
-        if place.depth < MOST_DEPTH:
-            first = _first_invocations(scenario.body)
-            for node in ir.walk_behaviors(scenario.body):
-                if isinstance(node, ir.InvokeScenario):
-                    inner = self._invoke(node, scope, place.depth)
-                    inner.is_first = scope.is_first and node.span in first
+        first = _first_invocations(scenario.body)
+        for node in ir.walk_behaviors(scenario.body):
+            if isinstance(node, ir.InvokeScenario):
+                inner = self._invoke(node, scope)
+                inner.is_first = scope.is_first and node.span in first
         return scope
 
     def _join(self, actor: ir.Actor, scope: Scope) -> None:
@@ -153,7 +183,7 @@ class _Opener:
         scope.cast[actor.name] = member
         scope.values.know(actor.name, member.sizes)
 
-    def _invoke(self, node: ir.InvokeScenario, scope: Scope, depth: int) -> Scope:
+    def _invoke(self, node: ir.InvokeScenario, scope: Scope) -> Scope:
         given: dict[str, Constant] = {}
         unknown: dict[str, Inexpressible] = {}
         handed_in: dict[str, CastMember] = {}
@@ -173,7 +203,7 @@ class _Opener:
         callee = self._by_key[node.key]
         label = node.label or callee.name.rpartition(".")[2]
         path = self._paths.new(f"{scope.path}_{label}" if scope.path else label)
-        place = _Place(f"{scope.prefix}{label}_", path, depth + 1)
+        place = _Place(f"{scope.prefix}{label}_", path)
         inner = self.open(callee, given, handed_in, place, unknown)
         scope.inner[node.span] = inner
         if node.label is not None:
