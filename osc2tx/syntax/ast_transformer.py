@@ -2,50 +2,39 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from collections.abc import Collection
+from typing import Any
 
-from osc2tx.diagnostics import Span
+from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.syntax import ast
 from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
-from osc2tx.syntax.ast_builder.base import Tree
-from osc2tx.syntax.ast_builder.declarations import DeclarationBuilder
+from osc2tx.syntax.ast_builder import behaviors, declarations, enums, members, names
+from osc2tx.syntax.ast_builder.base import Builder, Tree
 from osc2tx.syntax.ast_builder.statement_contexts import Place
-from osc2tx.syntax.ast_builder.statements import Handler
+from osc2tx.syntax.ast_builder.statements import (
+    build_block,
+    build_statement,
+    has_lost_header,
+    report_indentation,
+)
+from osc2tx.syntax.tokens import TokenTable
+
+BUILDERS = {
+    **declarations.BUILDERS,
+    **enums.BUILDERS,
+    **members.BUILDERS,
+    **behaviors.BUILDERS,
+    **names.BUILDERS,
+}
+"""What builds each kind of statement, by the class of its context."""
 
 
-class ASTTransformer(DeclarationBuilder):
+class ASTTransformer:
     """Turns the tree of the rule `sourceFile` into an `ast.File`."""
 
-    _handlers: ClassVar[dict[type, Handler]] = {
-        Grammar.ImportStatementContext: DeclarationBuilder._import,
-        Grammar.NamespaceStatementContext: DeclarationBuilder._namespace,
-        Grammar.UseStatementContext: DeclarationBuilder._use,
-        Grammar.ExportStatementContext: DeclarationBuilder._export,
-        Grammar.PhysicalTypeDeclarationContext: DeclarationBuilder._physical_type,
-        Grammar.UnitDeclarationContext: DeclarationBuilder._unit,
-        Grammar.EnumDeclarationContext: DeclarationBuilder._enum,
-        Grammar.StructDeclarationContext: DeclarationBuilder._struct,
-        Grammar.ActorDeclarationContext: DeclarationBuilder._actor,
-        Grammar.ScenarioDeclarationContext: DeclarationBuilder._scenario,
-        Grammar.ActionDeclarationContext: DeclarationBuilder._action,
-        Grammar.ModifierDeclarationContext: DeclarationBuilder._modifier,
-        Grammar.ExtensionContext: DeclarationBuilder._extension,
-        Grammar.GlobalParameterContext: DeclarationBuilder._global,
-        Grammar.EventDeclarationContext: DeclarationBuilder._event,
-        Grammar.VariableDeclarationContext: DeclarationBuilder._variable,
-        Grammar.MethodDeclarationContext: DeclarationBuilder._method,
-        Grammar.KeepConstraintContext: DeclarationBuilder._keep,
-        Grammar.RemoveDefaultContext: DeclarationBuilder._remove_default,
-        Grammar.CoverageDeclarationContext: DeclarationBuilder._coverage,
-        Grammar.OnDirectiveContext: DeclarationBuilder._on,
-        Grammar.DoDirectiveContext: DeclarationBuilder._do,
-        Grammar.CompositionContext: DeclarationBuilder._composition,
-        Grammar.WaitDirectiveContext: DeclarationBuilder._wait,
-        Grammar.EmitDirectiveContext: DeclarationBuilder._emit,
-        Grammar.CallDirectiveContext: DeclarationBuilder._call_directive,
-        Grammar.UntilDirectiveContext: DeclarationBuilder._until,
-        Grammar.NameStatementContext: DeclarationBuilder._name_statement,
-    }
+    def __init__(self, table: TokenTable, sink: DiagnosticSink, allow: Collection[str]) -> None:
+        """Build from `table`; the codes in `allow` are not reported."""
+        self._builder = Builder(table, sink, allow, BUILDERS)
 
     def transform(self, tree: Tree) -> ast.File:
         """Return the AST of a whole file; the tree is used up, so that not all of both is there."""
@@ -58,7 +47,7 @@ class ASTTransformer(DeclarationBuilder):
             if child.__class__ is Grammar.BlockContext:
                 found = self._block_without_header(child)
             elif child.__class__ is Grammar.StatementContext:
-                node = self._statement(child, Place.FILE)
+                node = build_statement(self._builder, child, Place.FILE)
                 found = () if node is None else (node,)
             else:
                 continue
@@ -70,16 +59,20 @@ class ASTTransformer(DeclarationBuilder):
                     self._report_late_import(node)
                 imports.append(node)
         return ast.File(
-            span=Span(self._source, 0, len(self._code)),
+            span=Span(self._builder.source, 0, len(self._builder.code)),
             imports=tuple(imports),
             statements=tuple(statements),
         )
 
     def _block_without_header(self, block: Tree) -> tuple[Any, ...]:
         """Build an indented start of the file, or a block under a line that was not readable."""
-        self._report_indentation(block)
-        return self._block(block, Place.NOWHERE if self._has_lost_header(block) else Place.FILE)
+        report_indentation(self._builder, block)
+        return build_block(
+            self._builder,
+            block,
+            Place.NOWHERE if has_lost_header(self._builder, block) else Place.FILE,
+        )
 
     def _report_late_import(self, node: ast.Import) -> None:
         message = "an import stands before all other statements of a file"
-        self._report("OSC108", node.span, message, "move it to the top of the file")
+        self._builder.report("OSC108", node.span, message, "move it to the top of the file")

@@ -127,6 +127,28 @@ class Element:
         """Return the text of an attribute."""
         return next((text for name, text in self.attributes if name == attribute), None)
 
+    def said(self, attribute: str) -> str:
+        """Return the text of an attribute, which has to be there.
+
+        Raises:
+            Unresolved: It is not.
+        """
+        text = self.get(attribute)
+        if text is None:
+            raise Unresolved(f"<{self.tag}> without {attribute}", self.place)
+        return text
+
+    @property
+    def inner(self) -> Element:
+        """The first thing in it: many elements are there to hold one.
+
+        Raises:
+            Unresolved: There is none.
+        """
+        for child in self.children:
+            return child
+        raise Unresolved(f"<{self.tag}> is empty", self.place)
+
     # --- what stands below it ---------------------------------------------------------------------
 
     def all(self, kind: type[E]) -> Iterator[E]:

@@ -57,6 +57,7 @@ OTHERS = {
     "semantics": {"pint"},
     "backends/py_trees": {"black", "jinja2"},
     "backends/xosc/facts": {"osc2tx_runtime"},  # sizes, courses and maps are the world's own
+    "xosc/player": {"osc2tx_runtime"},  # the reader of maps alone
     # rows are chosen here, run there
     "campaigns": {"distributed", "optuna", "osc2tx_runtime", "scipy"},
     "cli": {"click", "osc2tx_runtime", "pytest", "rich"},

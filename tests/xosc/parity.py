@@ -12,13 +12,13 @@ from osc2tx.backends.xosc import XmlScenario
 from osc2tx.backends.xosc.profiles import PROFILES
 from osc2tx.backends.xosc.report import Grade, Metres
 from osc2tx.options import CompileOptions, XmlOptions
+from osc2tx.xosc.player.conditions import BY_THE_STANDARD, Reading
+from osc2tx.xosc.player.storyboard import NOTHING, Evaluator, map_of
 from osc2tx_runtime import RunSettings
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_shared.map_files import SHIPPED
 from tests.unit.backends.xosc.documents import PLAIN, compiled, documents
-from tests.xosc.conditions import BY_THE_STANDARD, Reading
 from tests.xosc.played import KEPT, Difference, Played, compare, values_of, world
-from tests.xosc.storyboard import NOTHING, Evaluator, map_of
 
 FINE = 0.01  # s
 NEAR = 0.1  # m: how far what is graded exact may be off at steps of `FINE`

@@ -10,70 +10,23 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TypeAlias
 
-from osc2tx.analysis.constraints.operation_list import (
-    SIZE,
-    Key,
-    OperationList,
-    OperationListBuilder,
-)
+from osc2tx.analysis.constraints.constraint import Constraint, ConstraintWriter, Entry
+from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx.analysis.constraints.parameter_lookup import Place
 from osc2tx.analysis.constraints.specialisation import Special
-from osc2tx.analysis.tree_walk import children_of, do_members
-from osc2tx.diagnostics import Span
-from osc2tx.semantics import SemanticModel, types
+from osc2tx.analysis.tree_walk import do_members
+from osc2tx.semantics import SemanticModel
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.conversions import symbol_of
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.scope import supertypes
 from osc2tx.syntax import ast
-from osc2tx_shared.classes import dataclass, replace
-
-Op = ast.BinaryOperator
+from osc2tx_shared.classes import replace
 
 DEEPEST_MEMBER = 4  # levels of user-defined structs below a field
 
 Instance: TypeAlias = ast.Invocation | ast.ModifierApplication
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Constraint:
-    """One constraint as it applies to one instance.
-
-    Attributes:
-        node: The `keep`, the default value or the argument.
-        span: What to show of it.
-        origin: `"keep"`, `"default value"`, `"argument"`, or `"element"`: a list is long enough for
-            an element that a constraint speaks of.
-        is_default: Whether a later one may replace it.
-        subject: The parameter alone on its left side, if it is an equality or a range.
-        value: What the subject is set to, or the range or list that it is in.
-        operations: The whole of it.
-        place: Where the names in `value` are looked up.
-    """
-
-    node: ast.Node
-    span: Span
-    origin: str
-    is_default: bool
-    subject: Key | None
-    value: ast.Expression | None
-    operations: OperationList
-    place: Place
-
-    @property
-    def is_range(self) -> bool:
-        """Whether the value is a set of values rather than the value itself."""
-        return self.operations.root.name in ("in range", "in list")
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Removal:
-    """`remove_default(parameter)`."""
-
-    subject: Key
-
-
-Entry: TypeAlias = Constraint | Removal
 
 Shared: TypeAlias = "dict[sym.TypeSymbol, tuple[list[Entry], Mapping[Key, sym.TypeSymbol]]]"
 """What each type states itself, and the objects in that."""
@@ -95,7 +48,7 @@ class Collector:
         shared: Shared | None = None,
     ) -> None:
         self._model = model
-        self._writer = OperationListBuilder(model)
+        self._write = ConstraintWriter(model)
         self._special = special or {}
         self._shared = {} if shared is None or special else shared
         self._files = {file.span.source: number for number, file in enumerate(model.files)}
@@ -113,7 +66,7 @@ class Collector:
     def _of_ancestor(
         self, ancestor: sym.TypeSymbol
     ) -> tuple[list[Entry], Mapping[Key, sym.TypeSymbol]]:
-        """Return what a type states itself, and the objects in that."""
+        """Return the constraints of a type itself, and of the objects in it."""
         if ancestor not in self._shared:
             it = None if isinstance(ancestor, sym.ModifierSymbol) else ()
             place = Place(model=self._model, owner=ancestor, prefix=(), it=it)
@@ -197,7 +150,7 @@ class Collector:
                 field = self._model.symbol_of(condition.field)
                 if isinstance(field, sym.FieldSymbol):
                     key = (*place.prefix, field)
-                    yield self._setting(place, key, field.type, condition.value, "condition")
+                    yield self._write.setting(place, key, field.type, condition.value, "condition")
 
     def _of_statement(
         self, place: Place, ancestor: sym.TypeSymbol, statement: ast.Statement, depth: int
@@ -208,7 +161,7 @@ class Collector:
                     if isinstance(member, sym.FieldSymbol) and member.node is statement:
                         yield from self._of_field(place, member, statement, depth)
             case ast.KeepConstraint() | ast.RemoveDefault():
-                yield from self._of_rule(place, statement)
+                yield from self._write.rule(place, statement)
             case ast.ModifierApplication():
                 yield from self._of_instance(place, statement, statement.arguments)
             case ast.DoDirective() if depth == 0:
@@ -241,11 +194,11 @@ class Collector:
             for statement in special.statements:
                 yield from self._of_statement(inner, special, statement, depth + 1)
         if node.default is not None and node.default not in self._model.quantities:
-            yield self._setting(place, key, field.type, node.default, "default value")
+            yield self._write.setting(place, key, field.type, node.default, "default value")
         yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
 
     def _of_element(self, place: Place, element: sym.FieldSymbol, depth: int) -> Iterator[Entry]:
-        """Yield what the type of an element of a list demands of it."""
+        """Yield the constraints of the type of an element on a list."""
         type_, key = symbol_of(element.type), (element,)
         if isinstance(type_, sym.StructSymbol | sym.ActorSymbol):
             self.objects[key] = type_
@@ -256,77 +209,7 @@ class Collector:
     def _of_with_field(self, inside: Place, node: ast.ParameterDeclaration) -> Iterator[Entry]:
         for rule in node.constraints:
             if isinstance(rule, ast.KeepConstraint | ast.RemoveDefault):
-                yield from self._of_rule(inside, rule)
-
-    def _of_rule(
-        self, place: Place, rule: ast.KeepConstraint | ast.RemoveDefault
-    ) -> Iterator[Entry]:
-        if isinstance(rule, ast.RemoveDefault):
-            removed = place.locate(rule.parameter)
-            if removed is not None:
-                yield Removal(removed)
-            return
-        expression = rule.expression
-        subject, value = None, None
-        if isinstance(expression, ast.Binary) and expression.operator in (Op.EQUAL, Op.IN):
-            subject = place.locate(expression.left)
-            value = expression.right if subject is not None else None
-        yield Constraint(
-            node=rule,
-            span=expression.span,
-            origin="keep",
-            is_default=rule.strength is ast.KeepStrength.DEFAULT,
-            subject=subject,
-            value=value,
-            operations=self._writer.write(expression, place.locate),
-            place=place,
-        )
-        yield from self._of_elements(place, rule)
-
-    def _of_elements(self, place: Place, rule: ast.KeepConstraint) -> Iterator[Entry]:
-        """Yield how long the lists are of which a constraint names elements (§7.3.5.2.1)."""
-        for index in certain_elements(rule.expression):
-            list_ = place.locate(index.base)
-            if list_ is None or not isinstance(index.index, ast.IntegerLiteral):
-                continue
-            operations = OperationList()
-            size = self._writer.append_variable(operations, (*list_, SIZE), types.UINT, index)
-            last = self._writer.append(operations, index.index, place.locate)
-            self._writer.append_comparison(operations, ">", size, [last], index)
-            yield Constraint(
-                node=index,
-                span=index.span,
-                origin="element",
-                is_default=rule.strength is ast.KeepStrength.DEFAULT,
-                subject=None,
-                value=None,
-                operations=operations,
-                place=place,
-            )
-
-    def _setting(
-        self, place: Place, key: Key, type_: types.Type, value: ast.Expression, origin: str
-    ) -> Constraint:
-        """Return `key == value`, or `key in value` for a range given to a number."""
-        operations = OperationList()
-        left = self._writer.append_variable(operations, key, type_, value)
-        if isinstance(value, ast.RangeLiteral) and not isinstance(type_, types.RangeType):
-            lower = self._writer.append(operations, value.lower, place.locate)
-            upper = self._writer.append(operations, value.upper, place.locate)
-            self._writer.append_comparison(operations, "in range", left, [lower, upper], value)
-        else:
-            right = self._writer.append(operations, value, place.locate)
-            self._writer.append_comparison(operations, "==", left, [right], value)
-        return Constraint(
-            node=value,
-            span=value.span,
-            origin=origin,
-            is_default=origin == "default value",
-            subject=key,
-            value=value,
-            operations=operations,
-            place=place,
-        )
+                yield from self._write.rule(inside, rule)
 
     # --- invocations ---
 
@@ -354,7 +237,7 @@ class Collector:
         for member in members:
             match member:
                 case ast.KeepConstraint() | ast.RemoveDefault():
-                    yield from self._of_rule(inside, member)
+                    yield from self._write.rule(inside, member)
                 case ast.ModifierApplication():
                     yield from self._of_instance(inside, member, member.arguments)
                 case ast.UntilDirective():
@@ -363,7 +246,7 @@ class Collector:
     def _of_instance(
         self, place: Place, node: Instance, arguments: tuple[ast.Argument, ...]
     ) -> Iterator[Entry]:
-        """Yield what the callee demands of its parameters, and what the arguments say."""
+        """Yield the callee's constraints on its parameters, and the values of the arguments."""
         binding = self._model.bindings.get(node)
         if binding is None or not isinstance(binding.callee, sym.BehaviorSymbol):
             return
@@ -384,7 +267,7 @@ class Collector:
         for parameter, value in binding.arguments:
             if isinstance(parameter, sym.FieldSymbol):
                 key = (*prefix, parameter)
-                yield self._setting(place, key, parameter.type, value, "argument")
+                yield self._write.setting(place, key, parameter.type, value, "argument")
 
 
 def _objects(place: Place, prefix: Key, binding: Binding) -> Iterator[tuple[Key, Key]]:
@@ -405,23 +288,3 @@ def _can_be_constrained(node: Instance) -> bool:
     return node.label is not None or any(
         isinstance(member, ast.KeepConstraint) for member in node.with_members
     )
-
-
-def certain_elements(condition: ast.Expression) -> Iterator[ast.Index]:
-    """Yield the elements of lists that a condition reads whenever it holds."""
-    stack: list[tuple[ast.Node, bool]] = [(condition, True)]
-    while stack:
-        node, holds = stack.pop()
-        match node:
-            case ast.Binary(operator=Op.AND) if holds:
-                stack += ((node.left, True), (node.right, True))
-            case ast.Binary(operator=Op.AND | Op.OR | Op.IMPLIES):
-                stack.append((node.left, False))
-            case ast.Conditional():
-                stack.append((node.condition, False))
-            case ast.Call():
-                continue  # of a list, it may be for each element
-            case _:
-                if isinstance(node, ast.Index):
-                    yield node
-                stack += ((child, False) for child in children_of(node))

@@ -1,4 +1,4 @@
-"""Which constraints are in force (§7.3.11).
+"""The effective constraints after overriding (§7.3.11).
 
 A later equality or range with the parameter alone on its left side replaces earlier defaults of
 that parameter; `remove_default` drops all earlier defaults that mention it. Whatever else comes
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from osc2tx.analysis.constraints.collect import Constraint, Entry, Removal
+from osc2tx.analysis.constraints.constraint import Constraint, Entry, Removal
 from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx_shared.classes import dataclass
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from osc2tx import ir
-from osc2tx.analysis.constraints.collect import Constraint
+from osc2tx.analysis.constraints.constraint import Constraint
 from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
@@ -16,13 +16,13 @@ Instance: TypeAlias = ast.Invocation | ast.Composition
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """What is known of one parameter.
+    """The settings of one parameter.
 
     Attributes:
         value: Its value (`is_fixed`) or default.
-        domain: What it may be.
+        domain: Its domain.
         is_fixed: Nothing can change the value.
-        comments: Comment lines of the constraints that say so.
+        comments: Comment lines of the constraints behind it.
         constraints: The constraints that say so.
     """
 

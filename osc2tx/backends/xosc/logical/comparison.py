@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from math import isclose
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
+from osc2tx.xosc.arithmetic import Shown, evaluated
 from osc2tx.xosc.element import Element
-
-Shown: TypeAlias = Mapping[str, float]
-"""Values of the parameters of a document, by their names there."""
 
 SAID_BESIDE = frozenset({"FileHeader", "ParameterDeclarations"})
 """Parts of a document that do not say what happens."""
@@ -78,60 +75,3 @@ def _is_same(a: str, b: str, shown: Shown) -> bool:
     if value is None or expected is None:
         return False
     return isclose(value, expected, rel_tol=1e-6, abs_tol=2e-6)
-
-
-def evaluated(text: str, shown: Shown) -> float | None:
-    """Return the number that an attribute says for values of parameters; `None` if it is none."""
-    if text.startswith("${"):
-        try:
-            return _Evaluation(_TOKEN.findall(text[2:-1]), shown).sum()
-        except ZeroDivisionError:
-            return None
-    if text.startswith("$"):
-        return shown.get(text[1:])
-    try:
-        return float(text)
-    except ValueError:
-        return None
-
-
-_TOKEN = re.compile(r"\s*(\$[A-Za-z_]\w*|\d+\.?\d*|[-+*/()])")
-
-
-class _Evaluation:
-    """Computes an expression as `Symbol` writes it."""
-
-    def __init__(self, tokens: Sequence[str], shown: Shown) -> None:
-        self._tokens: Iterator[str] = iter([*tokens, ""])
-        self._shown = shown
-        self._next = next(self._tokens)
-
-    def sum(self) -> float:
-        value = self._product()
-        while self._next in ("+", "-"):
-            sign = self._take()
-            other = self._product()
-            value = value + other if sign == "+" else value - other
-        return value
-
-    def _product(self) -> float:
-        value = self._atom()
-        while self._next in ("*", "/"):
-            sign = self._take()
-            other = self._atom()
-            value = value * other if sign == "*" else value / other
-        return value
-
-    def _atom(self) -> float:
-        token = self._take()
-        if token == "-":
-            return -self._atom()
-        if token == "(":
-            value = self.sum()
-            self._take()
-            return value
-        return self._shown[token[1:]] if token.startswith("$") else float(token)
-
-    def _take(self) -> str:
-        token, self._next = self._next, next(self._tokens, "")
-        return token

@@ -8,10 +8,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Element
+from osc2tx.xosc.player.bodies import Body, Pose
+from osc2tx.xosc.player.courses import number
+from osc2tx.xosc.player.places import centre
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
-from tests.xosc.bodies import Body, Pose
-from tests.xosc.courses import Node, number
-from tests.xosc.places import centre
 
 
 class Extent(NamedTuple):
@@ -85,7 +87,7 @@ class Ruler:
 
     # --- as a condition asks ------------------------------------------------------------------
 
-    def relative(self, a: Body, b: Body, node: Node) -> float:
+    def relative(self, a: Body, b: Body, node: Element) -> float:
         """Return the distance of two entities that a condition compares; infinite without any."""
         kind, system = asked(node)
         freespace = node.get("freespace") == "true"
@@ -114,18 +116,18 @@ class Ruler:
         x, y = self._axis(a, b, kind, system)
         return dx * x + dy * y
 
-    def to_place(self, a: Body, place: LanePosition | Pose, node: Node) -> float:
+    def to_place(self, a: Body, place: LanePosition | Pose, node: Element) -> float:
         """Return the distance of an entity to a place."""
         pose = place if isinstance(place, Pose) else Pose(*self.map.pose(place)[:2], 0.0)
         mark = Body("place", "MiscObject", 0.0, 0.0, 0.0, {}, pose)
         return self.relative(a, mark, node)
 
-    def clear(self, a: Body, others: list[Body], node: Node) -> bool:
+    def clear(self, a: Body, others: list[Body], node: Element) -> bool:
         """Whether no other entity is in the lanes beside an entity."""
         ahead, behind = number(node, "distanceForward"), number(node, "distanceBackward")
         ranges = [
             (number(r, "from", -math.inf), number(r, "to", math.inf))
-            for r in node.iterfind("RelativeLaneRange")
+            for r in node.all(xml.RelativeLaneRange)
         ] or [(-math.inf, math.inf)]
         for b in others:
             along = self.signed(a, b, "longitudinal", "lane")
@@ -224,9 +226,9 @@ class Ruler:
         return (theirs.lane - mine.lane) * up
 
 
-def asked(node: Node) -> tuple[str, str]:
+def asked(node: Element) -> tuple[str, str]:
     """Return kind and coordinate system of a distance: by default euclidian, of the entity."""
-    kind, system = node.get("relativeDistanceType"), node.get("coordinateSystem", "entity")
+    kind, system = node.get("relativeDistanceType"), node.get("coordinateSystem") or "entity"
     if kind is None and node.get("coordinateSystem") is None and node.get("alongRoute") == "true":
         return "longitudinal", "road"  # as 1.0 says it
     if kind in (None, "euclidianDistance", "cartesianDistance"):

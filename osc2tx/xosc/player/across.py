@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Element
+from osc2tx.xosc.player.bodies import LATERAL, Body, Running
+from osc2tx.xosc.player.courses import Course, number, shaped
+from osc2tx.xosc.player.errors import Unplayable
+from osc2tx.xosc.player.places import beside, offset_of
+from osc2tx.xosc.player.scene import GAP_REACHED, Scene
 from osc2tx_runtime.opendrive import LanePosition
-from tests.xosc.bodies import LATERAL, Body
-from tests.xosc.courses import Course, Node, number, shaped
-from tests.xosc.places import beside, offset_of
-from tests.xosc.scene import GAP_REACHED, Running, Scene
 
 NEARING = 2.0  # 1/s
 # Peak acceleration times the square of the length, by the change. A steady change has none: the
@@ -27,26 +30,33 @@ class Offsets:
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
 
-    def begin(self, body: Body, node: Node) -> Running:
+    def begin(self, body: Body, node: Element) -> Running:
+        """Return a lateral action that begins."""
         run = Running(body, (LATERAL,), self._scene.time, 0.0)
         if node.tag == "LateralDistanceAction":
             run.length, run.gap = None, node
             run.side = self._scene.side(body, node, "lateral")
             return run
-        assert body.place is not None, f"{body.name} is on no lane"
+        if body.place is None:
+            raise Unplayable(f"{body.name} is on no lane")
         if node.tag == "LaneOffsetAction":
             run.length, run.offset = self._to_offset(body, node)
             return run
-        assert node.tag == "LaneChangeAction", node.tag
-        place = body.lane(self._scene.map)
-        goal = node.find("LaneChangeTarget")[0]
+        if not (node.tag == "LaneChangeAction"):
+            raise Unplayable(f"<{node.tag}> is not played", node.place)
+        place = body.in_lane(self._scene.map)
+        goal = node.one(xml.LaneChangeTarget).inner
         if goal.tag == "AbsoluteTargetLane":
             lane = LanePosition(place.road, int(number(goal, "value")), place.s)
         else:
-            other = self._scene.bodies[goal.get("entityRef")]
-            theirs = other.lane(self._scene.map)
+            other = self._scene.bodies[goal.said("entityRef")]
+            theirs = other.in_lane(self._scene.map)
             if theirs.road != place.road:  # at the height of the actor
                 along = self._scene.map.route_distance(theirs, place)
+                if along is None:
+                    raise Unplayable(
+                        f"there is no way from {other.name} to {body.name}", node.place
+                    )
                 theirs = self._scene.map.advance(theirs._replace(offset=0.0), along).position
             number_ = beside(self._scene.map, theirs, other.along, int(number(goal, "value"))).lane
             lane = LanePosition(place.road, number_, place.s)
@@ -55,51 +65,51 @@ class Offsets:
         start = offset_of(self._scene.map, lane, body.here)
         body.place = lane._replace(offset=start)
         end = number(node, "targetLaneOffset") * self._direction(lane)
-        dynamics = node.find("LaneChangeActionDynamics")
+        dynamics = node.one(xml.LaneChangeActionDynamics)
         time = number(dynamics, "value")
-        match dynamics.get("dynamicsDimension"):
+        match dynamics.said("dynamicsDimension"):
             case "distance":
                 time /= body.v
             case "rate":
                 time = abs(end - start) / time
         run.length = time
-        run.offset = shaped(dynamics.get("dynamicsShape"), start, end, time)
+        run.offset = shaped(dynamics.said("dynamicsShape"), start, end, time)
         return run
 
     def _direction(self, place: LanePosition) -> int:
         return self._scene.map.travel_direction(place.road, place.lane)
 
-    def _to_offset(self, body: Body, node: Node) -> tuple[float, Course]:
+    def _to_offset(self, body: Body, node: Element) -> tuple[float, Course]:
         """Return length and course of a change of the offset, whose acceleration has a peak.
 
         Offsets of the document count along t of the road, those of bodies to the left of travel.
         """
-        place = body.lane(self._scene.map)
+        place = body.in_lane(self._scene.map)
         body.place = place._replace(offset=offset_of(self._scene.map, place, body.here))
-        target = node.find("LaneOffsetTarget")[0]
+        target = node.one(xml.LaneOffsetTarget).inner
         end = number(target, "value")
         if target.tag == "RelativeTargetLaneOffset":
-            other = self._scene.bodies[target.get("entityRef")]
-            end += other.place.offset * self._direction(other.place)
+            other = self._scene.bodies[target.said("entityRef")]
+            theirs = other.in_lane(self._scene.map)
+            end += theirs.offset * self._direction(theirs)
         end *= self._direction(place)
-        dynamics = node.find("LaneOffsetActionDynamics")
-        shape, peak = dynamics.get("dynamicsShape"), number(dynamics, "maxLateralAcc", math.inf)
+        dynamics = node.one(xml.LaneOffsetActionDynamics)
+        shape, peak = dynamics.said("dynamicsShape"), number(dynamics, "maxLateralAcc", math.inf)
         change = abs(end - body.place.offset)
         factor = PEAK_FACTORS[shape]
         time = math.sqrt(factor * change / peak)
         return time, shaped(shape, body.place.offset, end, time)
 
-    def keep_aside(self, body: Body, run: Running, way: float) -> None:
+    def keep_aside(self, body: Body, run: Running, node: Element, way: float) -> None:
         """Move a body by a way (m), and towards the distance that it keeps.
 
         Without limits that is kept rigid; else it is neared the more slowly the nearer it is.
         """
-        scene, node = self._scene, run.gap
-        limits, wanted = node.find("DynamicConstraints"), number(node, "distance")
+        scene = self._scene
+        limits, wanted = node.find(xml.DynamicConstraints), number(node, "distance")
         if node.get("freespace") == "true":
-            other, system = scene.bodies[node.get("entityRef")], node.get(
-                "coordinateSystem", "entity"
-            )
+            other = scene.bodies[node.said("entityRef")]
+            system = node.get("coordinateSystem") or "entity"
             own, theirs = scene.ruler.extents(body, other, "lateral", system)
             wanted += theirs.high - own.low if run.side > 0 else own.high - theirs.low
         aside = scene.gap(body, node, "lateral") + run.side * wanted
@@ -108,5 +118,6 @@ class Offsets:
         if limits is not None:
             fastest = number(limits, "maxSpeed", math.inf)
             aside = min(max(NEARING * aside, -fastest), fastest) * scene.dt
-        assert body.place is not None, f"{body.name} is on no lane"
+        if body.place is None:
+            raise Unplayable(f"{body.name} is on no lane")
         body.move(scene.map, way, body.place.offset + aside * body.along, scene.dt)

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Sequence
+from dataclasses import field
+from typing import NamedTuple
 
-from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap, Route
-from tests.xosc.courses import Course, Node, number
-
-if TYPE_CHECKING:
-    from tests.xosc.scene import Running
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Element
+from osc2tx.xosc.player.courses import Course, number
+from osc2tx.xosc.player.errors import Unplayable
+from osc2tx_runtime.opendrive import LanePosition, RoadMap, Route
+from osc2tx_shared.classes import dataclass
 
 LONGITUDINAL, LATERAL = "longitudinal", "lateral"
 STRAIGHT = 0.75 * math.pi  # beyond: it looks against its lane
@@ -74,7 +76,8 @@ class Body:
         Raises:
             AssertionError: It was put nowhere.
         """
-        assert self.pose is not None, f"{self.name} is nowhere"
+        if self.pose is None:
+            raise Unplayable(f"{self.name} is nowhere")
         return self.pose
 
     def lane(self, road_map: RoadMap) -> LanePosition | None:
@@ -82,6 +85,17 @@ class Body:
         x, y, h = self.here
         h = h if self.along > 0 else h + math.pi
         return road_map.locate(x, y, None, h, hint=self.place)
+
+    def in_lane(self, road_map: RoadMap) -> LanePosition:
+        """Return the same lane, which there has to be.
+
+        Raises:
+            Unplayable: There is none.
+        """
+        place = self.lane(road_map)
+        if place is None:
+            raise Unplayable(f"{self.name} is on no lane")
+        return place
 
     # --- being put somewhere ------------------------------------------------------------------
 
@@ -149,38 +163,81 @@ class Body:
         self.pose, self.v = Pose(x - bar * math.cos(h), y - bar * math.sin(h), h), tow.v
 
 
-def body_of(node: Node) -> Body:
+@dataclass
+class Running:
+    """An action at work.
+
+    Attributes:
+        body: On what.
+        domains: Which of its domains it controls.
+        begun: When it began (s).
+        length: Seconds that it takes; `None`: it ends by itself or never.
+        speed: Course of the speed.
+        offset: Course of the offset.
+        way: Points of a polyline, with times where it has some.
+        is_timed: These times count.
+        points: Metres from its start to each of its points.
+        gap: The action that keeps a distance.
+        side: 1 if that is kept behind the other one or to its left, -1 on the other side.
+        relative: The action that keeps a speed relative to that of another one.
+        driven: Metres along the way so far.
+        done: It is over.
+    """
+
+    body: Body
+    domains: tuple[str, ...]
+    begun: float
+    length: float | None
+    speed: Course | None = None
+    offset: Course | None = None
+    way: Sequence[tuple[float, Pose]] = ()
+    is_timed: bool = False
+    points: list[float] = field(default_factory=list)
+    gap: Element | None = None
+    side: int = 1
+    relative: Element | None = None
+    driven: float = 0.0
+    done: bool = False
+
+
+LIMITS = (
+    "maxSpeed",
+    "maxAcceleration",
+    "maxDeceleration",
+    "maxAccelerationRate",
+    "maxDecelerationRate",
+)
+"""Attributes of `Performance`."""
+
+
+def body_of(node: Element) -> Body:
     """Return the body that a `ScenarioObject` describes."""
-    kind = next(child for child in node if child.tag in ("Vehicle", "Pedestrian", "MiscObject"))
-    centre, size = kind.find("BoundingBox/Center"), kind.find("BoundingBox/Dimensions")
+    kind = next(
+        child for child in node.children if child.tag in ("Vehicle", "Pedestrian", "MiscObject")
+    )
+    centre, size = kind.one(xml.BoundingBox).one(xml.Center), kind.one(xml.BoundingBox).one(
+        xml.Dimensions
+    )
     half, x = 0.5 * number(size, "length"), number(centre, "x")
-    performance = kind.find("Performance")
-    names = ("maxSpeed", "maxAcceleration", "maxDeceleration")
-    names += ("maxAccelerationRate", "maxDecelerationRate")
+    performance = kind.find(xml.Performance)
     limits = {
         name: math.inf if performance is None else number(performance, name, math.inf)
-        for name in names
+        for name in LIMITS
     }
-    return Body(node.get("name"), kind.tag, half + x, half - x, number(size, "width"), limits)
+    return Body(node.said("name"), kind.tag, half + x, half - x, number(size, "width"), limits)
 
 
-def couple(root: Node, bodies: dict[str, Body]) -> None:
+def couple(root: Element, bodies: dict[str, Body]) -> None:
     """Hang up the trailers that are coupled from the start on."""
-    for vehicle in root.iter("Vehicle"):
-        name = vehicle.find("Trailer/TrailerRef")
-        if name is not None:
-            tow = vehicle.getparent().get("name")
-            hang(root, bodies[tow], bodies[name.get("entityRef")])
+    for described in root.below(xml.ScenarioObject):
+        for trailer in described.below(xml.TrailerRef):
+            hang(root, bodies[described.name], bodies[trailer.entityRef])
 
 
-def hang(root: Node, tow: Body, trailer: Body) -> None:
+def hang(root: Element, tow: Body, trailer: Body) -> None:
     """Couple a trailer."""
-    described = {node.get("name"): node for node in root.iter("ScenarioObject")}
-    hitch = described[tow.name].find("Vehicle/TrailerHitch")
-    coupler = described[trailer.name].find("Vehicle/TrailerCoupler")
+    described = {node.said("name"): node for node in root.below(xml.ScenarioObject)}
+    hitch = described[tow.name].one(xml.Vehicle).one(xml.TrailerHitch)
+    coupler = described[trailer.name].one(xml.Vehicle).one(xml.TrailerCoupler)
     trailer.behind = (tow, -number(hitch, "dx"), number(coupler, "dx"))
     trailer.place = None
-
-
-__all__ = ["DRIVING", "LATERAL", "LONGITUDINAL", "Body", "Course", "Pose", "body_of"]
-__all__ += ["couple", "hang"]

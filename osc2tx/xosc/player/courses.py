@@ -1,13 +1,14 @@
 """Numbers of a document, and courses of values over time."""
 
 import math
-import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from itertools import pairwise
 
-from lxml import etree
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.arithmetic import evaluated
+from osc2tx.xosc.element import Element
+from osc2tx.xosc.player.errors import Unplayable
 
-Node = etree._Element
 Course = Callable[[float], float]  # seconds since its start -> value
 
 RULES: dict[str, Callable[[float, float], bool]] = {
@@ -20,35 +21,51 @@ RULES: dict[str, Callable[[float, float], bool]] = {
 }
 
 
-def number(node: Node, name: str, default: float = 0.0) -> float:
+def number(node: Element, name: str, default: float = 0.0) -> float:
+    """Return the number that an attribute says."""
     text = node.get(name)
     return default if text is None else float(text)
 
 
-def with_parameters(root: Node, given: Mapping[str, str]) -> Node:
+def with_parameters(root: Element, given: Mapping[str, str]) -> Element:
     """Put the values of the parameters into all attributes: `$name` and `${arithmetic}`.
 
     Args:
         root: The document.
         given: Values to take instead of those of the declarations.
     """
-    for node in root.iter("ParameterDeclaration"):
-        node.set("value", given.get(node.get("name"), node.get("value")))
-    declared = {node.get("name"): node.get("value") for node in root.iter("ParameterDeclaration")}
-    for node in root.iter():
-        for name, text in node.attrib.items():
-            if text.startswith("$"):
-                node.set(name, _value_of(text, declared))
-    return root
+    declared = {
+        node.name: given.get(node.name, node.value) for node in root.below(xml.ParameterDeclaration)
+    }
+    return _resolved(root, declared)
 
 
-def _value_of(text: str, declared: dict[str, str]) -> str:
-    if not text.startswith("${"):
+def _resolved(node: Element, declared: Mapping[str, str]) -> Element:
+    attributes = dict(node.attributes)
+    if isinstance(node, xml.ParameterDeclaration):
+        attributes["value"] = declared[node.name]
+    for name, text in attributes.items():
+        if text.startswith("$"):
+            attributes[name] = _value_of(node, text, declared)
+    children = (_resolved(child, declared) for child in node.children)
+    return node.with_attributes(attributes).with_children(*children)
+
+
+def _value_of(node: Element, text: str, declared: Mapping[str, str]) -> str:
+    if text[1:] in declared:
         return declared[text[1:]]
-    inner = text.removeprefix("${").removesuffix("}")
-    plain = re.sub(r"\$(\w+)", lambda found: f"({declared[found[1]]})", inner)
-    assert re.fullmatch(r"[-+*/(). 0-9e]+", plain), text
-    return repr(float(eval(plain)))
+    value = evaluated(text, dict(_numbers(declared)))
+    if value is None:
+        raise Unplayable(f"`{text}` has no value", node.place)
+    return repr(value)
+
+
+def _numbers(declared: Mapping[str, str]) -> Iterator[tuple[str, float]]:
+    for name, text in declared.items():
+        try:
+            yield name, float(text)
+        except ValueError:  # a name or a truth value
+            continue
 
 
 def shaped(shape: str, start: float, end: float, time: float) -> Course:

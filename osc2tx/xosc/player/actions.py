@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Element
+from osc2tx.xosc.player.across import Offsets
+from osc2tx.xosc.player.bodies import LATERAL, Body, Running, hang
+from osc2tx.xosc.player.errors import Unplayable
+from osc2tx.xosc.player.places import place_of
+from osc2tx.xosc.player.scene import STILL, Scene
+from osc2tx.xosc.player.speeds import Speeds
+from osc2tx.xosc.player.ways import Ways
 from osc2tx_runtime.opendrive import RoadMap
-from tests.xosc.across import Offsets
-from tests.xosc.bodies import LATERAL, Body, hang
-from tests.xosc.courses import Node
-from tests.xosc.places import place_of
-from tests.xosc.scene import STILL, Running, Scene
-from tests.xosc.speeds import Speeds
-from tests.xosc.ways import Ways
 
 
 class Stage:
@@ -17,7 +19,7 @@ class Stage:
 
     def __init__(
         self,
-        root: Node,
+        root: Element,
         bodies: dict[str, Body],
         road_map: RoadMap,
         dt: float,
@@ -31,33 +33,33 @@ class Stage:
 
     # --- starting ---------------------------------------------------------------------------------
 
-    def begin(self, action: Node, body: Body, time: float) -> Running | None:
+    def begin(self, action: Element, body: Body, time: float) -> Running | None:
         """Put a private action to work; those that take no time leave nothing behind."""
-        self._scene.time, inner = time, action[0]
+        self._scene.time, inner = time, action.inner
         match inner.tag:
             case "TeleportAction":
                 for run in body.actions.values():
                     run.done = run.done or bool(run.way) or run.offset is not None
                 bodies, road_map = self._scene.bodies, self._scene.map
-                body.put(road_map, *place_of(inner.find("Position")[0], bodies, road_map))
+                body.put(road_map, *place_of(inner.one(xml.Position).inner, bodies, road_map))
                 return None
             case "LongitudinalAction":
-                return self._take(self._speeds.begin(body, inner[0]))
+                return self._take(self._speeds.begin(body, inner.inner))
             case "LateralAction":
-                return self._take(self._offsets.begin(body, inner[0]))
+                return self._take(self._offsets.begin(body, inner.inner))
             case "RoutingAction":
-                run = self._ways.begin(body, inner[0])
-                return None if run is None else self._take(run)
+                following = self._ways.begin(body, inner.inner)
+                return None if following is None else self._take(following)
             case "TrailerAction":
-                self._trailer(body, inner[0])
+                self._trailer(body, inner.inner)
                 return None
             case "AppearanceAction":
                 return None
-        raise NotImplementedError(inner.tag)
+        raise Unplayable(f"<{inner.tag}> is not played", inner.place)
 
-    def _trailer(self, body: Body, node: Node) -> None:
+    def _trailer(self, body: Body, node: Element) -> None:
         if node.tag == "ConnectTrailerAction":
-            hang(self._root, body, self._scene.bodies[node.get("trailerRef")])
+            hang(self._root, body, self._scene.bodies[node.said("trailerRef")])
             return
         for each in self._scene.bodies.values():
             if each.behind is not None and each.behind[0] is body:
@@ -117,5 +119,5 @@ class Stage:
             assert run.length is not None
             run.done = time >= run.length - STILL
             body.move(scene.map, way, run.offset(time), scene.dt)
-        else:
-            self._offsets.keep_aside(body, run, way)
+        elif run.gap is not None:
+            self._offsets.keep_aside(body, run, run.gap, way)

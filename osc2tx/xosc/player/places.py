@@ -3,61 +3,65 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Element
+from osc2tx.xosc.player.bodies import Body, Pose
+from osc2tx.xosc.player.courses import number
+from osc2tx.xosc.player.errors import Unplayable
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
-from tests.xosc.bodies import Body, Pose
-from tests.xosc.courses import Node, number
 
 Place = tuple[LanePosition | Pose, float | None]  # with the heading (rad), if it says one
 
 
-def place_of(node: Node, bodies: dict[str, Body], road_map: RoadMap) -> Place:
+def place_of(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> Place:
     """Return the place of the element below `Position`."""
-    orientation = node.find("Orientation")
+    orientation = node.find(xml.Orientation)
     match node.tag:
         case "LanePosition":
-            road, lane = node.get("roadId"), int(number(node, "laneId"))
+            road, lane = node.said("roadId"), int(number(node, "laneId"))
             # the t axis of a lane is that of its road
             offset = number(node, "offset") * road_map.travel_direction(road, lane)
             where: LanePosition | Pose = LanePosition(road, lane, number(node, "s"), offset)
         case "RoadPosition":
-            road, s, t = node.get("roadId"), number(node, "s"), number(node, "t")
+            road, s, t = node.said("roadId"), number(node, "s"), number(node, "t")
             where = _flat(road_map.road_pose(road, s, t))
         case "WorldPosition":
             where = Pose(number(node, "x"), number(node, "y"), number(node, "h"))
         case "RelativeWorldPosition":
-            x, y, h = bodies[node.get("entityRef")].here
+            x, y, h = bodies[node.said("entityRef")].here
             where = Pose(x + number(node, "dx"), y + number(node, "dy"), h)
         case "RelativeObjectPosition":
-            x, y, h = bodies[node.get("entityRef")].here
+            x, y, h = bodies[node.said("entityRef")].here
             dx, dy = number(node, "dx"), number(node, "dy")
             where = Pose(
                 x + dx * math.cos(h) - dy * math.sin(h), y + dx * math.sin(h) + dy * math.cos(h), h
             )
         case "RelativeRoadPosition":
-            lane_ = _lane_of(bodies[node.get("entityRef")], road_map)
+            lane_ = bodies[node.said("entityRef")].in_lane(road_map)
             t = centre(road_map, lane_) + number(node, "dt")
             where = _flat(road_map.road_pose(lane_.road, lane_.s + number(node, "ds"), t))
         case "RelativeLanePosition":
-            where = _beside(node, bodies[node.get("entityRef")], road_map)
+            where = _beside(node, bodies[node.said("entityRef")], road_map)
         case "GeoPosition":
             latitude, longitude = (_degrees(node, name) for name in ("latitude", "longitude"))
             where = Pose(*road_map.geo_reference.project(latitude, longitude), 0.0)
         case _:
-            raise NotImplementedError(node.tag)
+            raise Unplayable(f"<{node.tag}> is not played", node.place)
     return where, _heading(orientation, where, node, bodies, road_map)
 
 
-def _degrees(node: Node, name: str) -> float:
+def _degrees(node: Element, name: str) -> float:
     degrees = node.get(f"{name}Deg")
     return number(node, name) if degrees is None else math.radians(float(degrees))
 
 
 def _heading(
-    orientation: Node | None,
+    orientation: xml.Orientation | None,
     where: LanePosition | Pose,
-    node: Node,
-    bodies: dict[str, Body],
+    node: Element,
+    bodies: Mapping[str, Body],
     road_map: RoadMap,
 ) -> float | None:
     """Return the heading that a position says.
@@ -66,11 +70,11 @@ def _heading(
     """
     if orientation is None:
         return None
-    h = number(orientation, "h")
-    if orientation.get("type") == "absolute":
+    h = orientation.h
+    if orientation.type == "absolute":
         return h
     if node.tag == "RelativeWorldPosition":
-        return h + bodies[node.get("entityRef")].here.h
+        return h + bodies[node.said("entityRef")].here.h
     if isinstance(where, Pose):
         return h + where.h
     pose = road_map.pose(where)
@@ -82,18 +86,12 @@ def _flat(pose: object) -> Pose:
     return Pose(pose.x, pose.y, pose.h)  # type: ignore[attr-defined]
 
 
-def _lane_of(body: Body, road_map: RoadMap) -> LanePosition:
-    place = body.lane(road_map)
-    assert place is not None, f"{body.name} is on no lane"
-    return place
-
-
-def _beside(node: Node, body: Body, road_map: RoadMap) -> LanePosition:
+def _beside(node: Element, body: Body, road_map: RoadMap) -> LanePosition:
     """Return a place by lanes and metres from a reference.
 
     With `dsLane` it counts along the lane of the reference, with `ds` along the road.
     """
-    from_ = _lane_of(body, road_map)._replace(offset=0.0)
+    from_ = body.in_lane(road_map)._replace(offset=0.0)
     lane = beside(road_map, from_, body.along, int(number(node, "dLane")))
     direction = road_map.travel_direction(from_.road, from_.lane) * body.along
     if node.get("ds") is not None:
@@ -130,7 +128,8 @@ def beside(road_map: RoadMap, from_: LanePosition, along: int, count: int) -> La
     if from_.lane * target <= 0:
         target += up if count > 0 else -up
     section = road_map.roads[from_.road].section_at(from_.s)
-    assert target in section.lanes, f"no lane {target} beside {from_}"
+    if target not in section.lanes:
+        raise Unplayable(f"no lane {target} beside {from_}")
     return LanePosition(from_.road, target, from_.s)
 
 

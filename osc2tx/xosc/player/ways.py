@@ -5,11 +5,14 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Element
+from osc2tx.xosc.player.bodies import LATERAL, LONGITUDINAL, Body, Pose, Running
+from osc2tx.xosc.player.courses import between, number
+from osc2tx.xosc.player.errors import Unplayable
+from osc2tx.xosc.player.places import place_of
+from osc2tx.xosc.player.scene import STILL, Scene
 from osc2tx_runtime.opendrive import LanePosition
-from tests.xosc.bodies import LATERAL, LONGITUDINAL, Body, Pose
-from tests.xosc.courses import Node, between, number
-from tests.xosc.places import place_of
-from tests.xosc.scene import STILL, Running, Scene
 
 
 class Ways:
@@ -18,29 +21,36 @@ class Ways:
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
 
-    def begin(self, body: Body, node: Node) -> Running | None:
+    def begin(self, body: Body, node: Element) -> Running | None:
+        """Return an action that begins."""
         if node.tag in ("AssignRouteAction", "AcquirePositionAction"):
-            *_, last = node.iter("Position")
-            goal, _ = place_of(last[0], self._scene.bodies, self._scene.map)
+            *_, last = node.below(xml.Position)
+            goal, _ = place_of(last.inner, self._scene.bodies, self._scene.map)
             if not isinstance(goal, LanePosition):
-                goal = self._scene.map.locate(goal.x, goal.y, heading=goal.h)
+                found = self._scene.map.locate(goal.x, goal.y, heading=goal.h)
+                if found is None:
+                    raise Unplayable("the route leads to no lane", node.place)
+                goal = found
             body.route = self._scene.map.route_to(goal)
             return None
-        assert node.tag == "FollowTrajectoryAction", node.tag
+        if not (node.tag == "FollowTrajectoryAction"):
+            raise Unplayable(f"<{node.tag}> is not played", node.place)
         way = []
-        for vertex in node.iter("Vertex"):
-            where, h = place_of(vertex.find("Position")[0], self._scene.bodies, self._scene.map)
+        for vertex in node.below(xml.Vertex):
+            where, h = place_of(vertex.one(xml.Position).inner, self._scene.bodies, self._scene.map)
             pose = where if isinstance(where, Pose) else Pose(*self._scene.map.pose(where)[:2], 0.0)
             way.append((number(vertex, "time"), pose if h is None else pose._replace(h=h)))
-        is_timed = node.find("TimeReference/Timing") is not None
+        timing = node.one(xml.TimeReference).find(xml.Timing)
+        is_timed = timing is not None
         domains = (LATERAL, LONGITUDINAL) if is_timed else (LATERAL,)
         run = Running(body, domains, self._scene.time, None, way=way, is_timed=is_timed)
         lengths = [math.dist(a[:2], b[:2]) for (_, a), (_, b) in pairwise(way)]
         run.points = [0.0]
         for length in lengths:
             run.points.append(run.points[-1] + length)
-        if is_timed:
-            assert node.find("TimeReference/Timing").get("domainAbsoluteRelative") == "relative"
+        if timing is not None:
+            if timing.domainAbsoluteRelative != "relative":
+                raise Unplayable("only times since the start of the action are played", node.place)
             run.length = way[-1][0]
         body.place = None
         if not is_timed or way[0][0] == 0.0:
@@ -68,6 +78,7 @@ class Ways:
         return self._on_way(run, driven)
 
     def follow(self, body: Body, run: Running, way: float, time: float) -> None:
+        """Move a body along its path, by metres or to a time of it."""
         if run.is_timed:
             assert run.length is not None
             x, y, _ = body.here

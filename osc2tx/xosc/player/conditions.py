@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from dataclasses import dataclass
+from collections.abc import Sequence
 from typing import Protocol
 
-from tests.xosc.bodies import Body
-from tests.xosc.courses import RULES, Node, number
-from tests.xosc.distances import Ruler, asked
-from tests.xosc.places import place_of
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Element
+from osc2tx.xosc.elements import class_of
+from osc2tx.xosc.player.bodies import Body
+from osc2tx.xosc.player.courses import RULES, number
+from osc2tx.xosc.player.distances import Ruler, asked
+from osc2tx.xosc.player.errors import Unplayable
+from osc2tx.xosc.player.places import place_of
+from osc2tx_shared.classes import dataclass
 
 KINDS = {
     "act": "Act",
@@ -45,15 +50,18 @@ BY_THE_STANDARD = Reading()
 class World(Protocol):
     """What conditions read besides the bodies."""
 
-    root: Node
-    time: float
+    root: Element
     step: int
     variables: dict[str, str]
     lights: dict[str, str]
     bodies: dict[str, Body]
     ruler: Ruler
 
-    def is_in(self, element: Node, state: str) -> bool:
+    @property
+    def time(self) -> float:
+        """Seconds since the start."""
+
+    def is_in(self, element: Element, state: str) -> bool:
         """Whether an element of the storyboard is in a state, or just in a transition."""
 
 
@@ -83,78 +91,81 @@ class Conditions:
 
     def __init__(self, world: World, dt: float, reading: Reading) -> None:
         self.world, self.dt, self.reading = world, dt, reading
-        self.looking_since: dict[Node, float] = {}  # s
-        self.latched: set[Node] = set()
-        self.last: dict[Node, bool] = {}  # at the look before
-        self.edged: dict[Node, Past] = {}
+        self.looking_since: dict[int, float] = {}  # s
+        self.latched: set[int] = set()
+        self.last: dict[int, bool] = {}  # at the look before
+        self.edged: dict[int, Past] = {}
         self.named = {
-            (kind, node.get("name")): node
+            (kind, node.said("name")): node
             for kind, tag in KINDS.items()
-            for node in world.root.iter(tag)
+            for node in world.root.below(class_of(tag))
         }
 
-    def fires(self, trigger: Node | None) -> bool:
+    def fires(self, trigger: Element | None) -> bool:
         """Whether a trigger fires; all its conditions are looked at in each step."""
-        groups = () if trigger is None else trigger.iterfind("ConditionGroup")
-        return any([self._all_hold(list(group)) for group in groups])
+        groups = () if trigger is None else trigger.all(xml.ConditionGroup)
+        return any([self._all_hold(group.children) for group in groups])
 
-    def _all_hold(self, conditions: list[Node]) -> bool:
+    def _all_hold(self, conditions: Sequence[Element]) -> bool:
         result = True
         for condition in conditions:
             if result or not self.reading.is_lazy or number(condition, "delay") > 0.0:
-                held = self._holds(condition) or condition in self.latched
+                held = self._holds(condition) or id(condition) in self.latched
                 if held and self.reading.latches:
-                    self.latched.add(condition)
+                    self.latched.add(id(condition))
                 result = result and held
         return result
 
-    def _holds(self, condition: Node) -> bool:
+    def _holds(self, condition: Element) -> bool:
         step = self.world.step
-        value = self.test(condition[0])
-        before, edge = self.last.get(condition), condition.get("conditionEdge")
-        self.last[condition] = value
+        value = self.test(condition.inner)
+        before, edge = self.last.get(id(condition)), condition.said("conditionEdge")
+        self.last[id(condition)] = value
         if edge == "none" and number(condition, "delay") == 0.0:
             return value
         if edge != "none":
             rises, falls = value and before is False, not value and before is True
             value = {"rising": rises, "falling": falls, "risingOrFalling": rises or falls}[edge]
         delay = number(condition, "delay")
-        edged = self.edged.setdefault(condition, Past())
+        edged = self.edged.setdefault(id(condition), Past())
         edged.note(step, value)
         return edged.at(step - math.ceil(delay / self.dt - 1e-6))
 
-    def test(self, node: Node) -> bool:
+    def test(self, node: Element) -> bool:
         """Whether a condition is met at the present step."""
         if node.tag == "ByEntityCondition":
-            triggering = node.find("TriggeringEntities")
+            triggering = node.one(xml.TriggeringEntities)
             found = [
-                self._of_entity(self.world.bodies[ref.get("entityRef")], node[1][0])
-                for ref in triggering
+                self._of_entity(
+                    self.world.bodies[ref.said("entityRef")], node.one(xml.EntityCondition).inner
+                )
+                for ref in triggering.all(xml.EntityRef)
             ]
             return any(found) if triggering.get("triggeringEntitiesRule") == "any" else all(found)
-        assert node.tag == "ByValueCondition", node.tag
-        node = node[0]
+        if not (node.tag == "ByValueCondition"):
+            raise Unplayable(f"<{node.tag}> is not played", node.place)
+        node = node.inner
         match node.tag:
             case "SimulationTimeCondition":
-                since = self.looking_since.setdefault(node, self.world.time)
+                since = self.looking_since.setdefault(id(node), self.world.time)
                 counts = self.reading.counts_from_looking
                 return _compare(node, self.world.time - (since if counts else 0.0))
             case "VariableCondition" | "ParameterCondition":
-                name = node.get("variableRef") or node.get("parameterRef")
-                value, rule = self.world.variables[name], node.get("rule")
+                name = node.get("variableRef") or node.said("parameterRef")
+                value, rule = self.world.variables[name], node.said("rule")
                 if rule in ("equalTo", "notEqualTo"):
-                    return (value == node.get("value")) is (rule == "equalTo")
-                return RULES[rule](float(value), float(node.get("value")))
+                    return (value == node.said("value")) is (rule == "equalTo")
+                return RULES[rule](float(value), float(node.said("value")))
             case "StoryboardElementStateCondition":
-                key = node.get("storyboardElementType"), node.get("storyboardElementRef")
-                return self.world.is_in(self.named[key], node.get("state"))
+                key = node.said("storyboardElementType"), node.said("storyboardElementRef")
+                return self.world.is_in(self.named[key], node.said("state"))
             case "TrafficSignalCondition":
-                return self.world.lights.get(node.get("name")) == node.get("state")
+                return self.world.lights.get(node.said("name")) == node.said("state")
             case "UserDefinedValueCondition":
                 return False  # nobody sets such a value
-        raise NotImplementedError(node.tag)
+        raise Unplayable(f"<{node.tag}> is not played", node.place)
 
-    def _of_entity(self, body: Body, node: Node) -> bool:
+    def _of_entity(self, body: Body, node: Element) -> bool:
         world = self.world
         match node.tag:
             case "SpeedCondition":
@@ -162,46 +173,46 @@ class Conditions:
             case "AccelerationCondition":
                 return _compare(node, _part(node, body.a, body.swing))
             case "RelativeSpeedCondition":
-                other = world.bodies[node.get("entityRef")]
+                other = world.bodies[node.said("entityRef")]
                 turned = other.here.h - body.here.h if node.get("direction") else 0.0
                 return _compare(node, body.v - other.v * math.cos(turned))
             case "RelativeDistanceCondition":
-                other = world.bodies[node.get("entityRef")]
+                other = world.bodies[node.said("entityRef")]
                 return _compare(node, world.ruler.relative(body, other, node))
             case "DistanceCondition" | "ReachPositionCondition":
-                place, _ = place_of(node.find("Position")[0], world.bodies, world.ruler.map)
+                place, _ = place_of(node.one(xml.Position).inner, world.bodies, world.ruler.map)
                 found = world.ruler.to_place(body, place, node)
                 if node.tag == "ReachPositionCondition":
                     return found <= number(node, "tolerance")
                 return _compare(node, found)
             case "RelativeClearanceCondition":
-                named = [ref.get("entityRef") for ref in node.iterfind("EntityRef")]
+                named = [ref.said("entityRef") for ref in node.all(xml.EntityRef)]
                 others = [each for each in world.bodies.values() if each is not body]
                 others = [each for each in others if not named or each.name in named]
                 return world.ruler.clear(body, others, node)
             case "TimeHeadwayCondition":
-                other = world.bodies[node.get("entityRef")]
+                other = world.bodies[node.said("entityRef")]
                 return self._time(node, world.ruler.relative(body, other, node), body.v)
             case "TimeToCollisionCondition":
-                target = node.find("TimeToCollisionConditionTarget/EntityRef")
-                other = world.bodies[target.get("entityRef")]
+                target = node.one(xml.TimeToCollisionConditionTarget).one(xml.EntityRef)
+                other = world.bodies[target.said("entityRef")]
                 speed = world.ruler.closing_speed(body, other, *asked(node))
                 return self._time(node, world.ruler.relative(body, other, node), speed)
             case "StandStillCondition":
-                raise NotImplementedError("a duration of standing still")
-        raise NotImplementedError(node.tag)
+                raise Unplayable("a duration of standing still is not played", node.place)
+        raise Unplayable(f"<{node.tag}> is not played", node.place)
 
     @staticmethod
-    def _time(node: Node, distance: float, speed: float) -> bool:
+    def _time(node: Element, distance: float, speed: float) -> bool:
         """Whether a time to come compares; one that cannot be predicted does not."""
         return speed > 0.0 and _compare(node, distance / speed)
 
 
-def _compare(node: Node, value: float) -> bool:
-    return RULES[node.get("rule")](value, number(node, "value"))
+def _compare(node: Element, value: float) -> bool:
+    return RULES[node.said("rule")](value, number(node, "value"))
 
 
-def _part(node: Node, along: float, across: float) -> float:
+def _part(node: Element, along: float, across: float) -> float:
     match node.get("direction"):
         case "longitudinal":
             return along

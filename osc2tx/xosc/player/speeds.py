@@ -9,9 +9,12 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-from tests.xosc.bodies import LONGITUDINAL, Body
-from tests.xosc.courses import Node, between, number, shaped, with_jerk
-from tests.xosc.scene import GAP_REACHED, STILL, Running, Scene
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Element
+from osc2tx.xosc.player.bodies import LONGITUDINAL, Body, Running
+from osc2tx.xosc.player.courses import Course, between, number, shaped, with_jerk
+from osc2tx.xosc.player.errors import Unplayable
+from osc2tx.xosc.player.scene import GAP_REACHED, STILL, Scene
 
 
 class Speeds:
@@ -28,7 +31,8 @@ class Speeds:
 
     # --- starting ---------------------------------------------------------------------------------
 
-    def begin(self, body: Body, node: Node) -> Running:
+    def begin(self, body: Body, node: Element) -> Running:
+        """Return an action that begins."""
         match node.tag:
             case "SpeedAction":
                 return self._speed(body, node)
@@ -37,14 +41,14 @@ class Speeds:
             case "LongitudinalDistanceAction":
                 side = self._scene.side(body, node, "longitudinal")
                 return Running(body, (LONGITUDINAL,), self._scene.time, None, gap=node, side=side)
-        raise NotImplementedError(node.tag)
+        raise Unplayable(f"<{node.tag}> is not played", node.place)
 
-    def _speed(self, body: Body, node: Node) -> Running:
-        dynamics, target = node.find("SpeedActionDynamics"), node.find("SpeedActionTarget")[0]
+    def _speed(self, body: Body, node: Element) -> Running:
+        dynamics, target = node.one(xml.SpeedActionDynamics), node.one(xml.SpeedActionTarget).inner
         if target.get("continuous") == "true":
             return Running(body, (LONGITUDINAL,), self._scene.time, None, relative=node)
         end = self._target_speed(target)
-        shape, dimension = dynamics.get("dynamicsShape"), dynamics.get("dynamicsDimension")
+        shape, dimension = dynamics.said("dynamicsShape"), dynamics.said("dynamicsDimension")
         value, change = number(dynamics, "value"), abs(end - body.v)
         peak = {"linear": 1.0, "cubic": 1.5, "sinusoidal": math.pi / 2, "step": 0.0}[shape]
         match dimension:
@@ -63,22 +67,23 @@ class Speeds:
             body, (LONGITUDINAL,), self._scene.time, time, speed=shaped(shape, body.v, end, time)
         )
 
-    def _target_speed(self, target: Node) -> float:
+    def _target_speed(self, target: Element) -> float:
         if target.tag == "AbsoluteTargetSpeed":
             return number(target, "value")
-        other, value = self._scene.bodies[target.get("entityRef")], number(target, "value")
+        other, value = self._scene.bodies[target.said("entityRef")], number(target, "value")
         is_factor = target.get("speedTargetValueType") == "factor"
         return other.v * value if is_factor else other.v + value
 
-    def _profile(self, body: Body, node: Node) -> Running:
+    def _profile(self, body: Body, node: Element) -> Running:
         assert node.get("entityRef") is None
-        entries, limits = node.findall("SpeedProfileEntry"), node.find("DynamicConstraints")
+        entries, limits = node.all(xml.SpeedProfileEntry), node.find(xml.DynamicConstraints)
 
         def limit(name: str) -> float:
             told = math.inf if limits is None else number(limits, name, math.inf)
             return min(told, body.limits[name])
 
-        points, courses = [(0.0, body.v)], []
+        points = [(0.0, body.v)]
+        courses: list[Course | None] = []
         for entry in entries:
             begin, v = points[-1]
             end = number(entry, "speed")
@@ -123,15 +128,15 @@ class Speeds:
         if run.relative is not None:
             return self._nearing(body, run.relative)
         if run.gap is not None:
-            return self._closing(body, run)
+            return self._closing(body, run, run.gap)
         assert run.speed is not None and run.length is not None
         run.done = time >= run.length - STILL
         return run.speed(time)
 
-    def _closing(self, body: Body, run: Running) -> float:
+    def _closing(self, body: Body, run: Running, node: Element) -> float:
         """Return the next speed of an entity that keeps a distance, as fast as it may."""
-        node, limits = run.gap, run.gap.find("DynamicConstraints")
-        leader, is_behind = self._scene.bodies[node.get("entityRef")], run.side > 0
+        limits = node.find(xml.DynamicConstraints)
+        leader, is_behind = self._scene.bodies[node.said("entityRef")], run.side > 0
         gap = self._scene.gap(body, node, "longitudinal")
         wanted = number(node, "distance")
         if node.get("timeGap") is not None:
@@ -161,16 +166,17 @@ class Speeds:
         )
         return min(max(speed, body.v - low), body.v + high)
 
-    def _nearing(self, body: Body, action: Node) -> float:
+    def _nearing(self, body: Body, action: Element) -> float:
         """Return the next speed of an entity that keeps one relative to that of another one.
 
         The dynamics say how it is reached: at a rate, or in a step.
         """
-        target = self._target_speed(action.find("SpeedActionTarget")[0])
-        dynamics = action.find("SpeedActionDynamics")
+        target = self._target_speed(action.one(xml.SpeedActionTarget).inner)
+        dynamics = action.one(xml.SpeedActionDynamics)
         if dynamics.get("dynamicsShape") == "step":
             return target
-        assert dynamics.get("dynamicsDimension") == "rate", "no length goes with continuous"
+        if not (dynamics.get("dynamicsDimension") == "rate"):
+            raise Unplayable("no length goes with continuous")
         most = number(dynamics, "value") * self._scene.dt
         return body.v + min(max(target - body.v, -most), most)
 

@@ -1,0 +1,129 @@
+"""Values of attributes: numbers, parameters, and arithmetic over these in `${…}`.
+
+An expression is computed here by its grammar; it never becomes code. Truth values (`and`, `or`,
+`not`) are not among what is computed.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Mapping
+from typing import TypeAlias
+
+Shown: TypeAlias = Mapping[str, float]
+"""Values of the parameters of a document, by their names there."""
+
+DEEPEST = 50
+"""Brackets and signs in one another."""
+
+_FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
+    "abs": (1, abs),
+    "ceil": (1, math.ceil),
+    "floor": (1, math.floor),
+    "max": (2, max),
+    "min": (2, min),
+    "pow": (2, math.pow),
+    "round": (1, lambda value: math.floor(value + 0.5)),
+    "sign": (1, lambda value: (value > 0.0) - (value < 0.0)),
+    "sqrt": (1, math.sqrt),
+}
+"""Number of operands, and what is computed from them."""
+
+_TOKEN = re.compile(r"\s*(\$?[A-Za-z_]\w*|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+*/%(),])")
+
+
+def evaluated(text: str, shown: Shown) -> float | None:
+    """Return the number that an attribute says for values of parameters; `None` if it is none."""
+    try:
+        if text.startswith("${") and text.endswith("}"):
+            return _Evaluation(text[2:-1], shown).run()
+        return shown[text[1:]] if text.startswith("$") else float(text)
+    except (ArithmeticError, KeyError, ValueError):
+        return None
+
+
+class _Evaluation:
+    """Computes an expression, by recursive descent.
+
+    Raises:
+        ValueError: It is none.
+        KeyError: A parameter has no value.
+        ArithmeticError: It has no value.
+    """
+
+    def __init__(self, text: str, shown: Shown) -> None:
+        self._tokens = _TOKEN.findall(text)
+        if "".join(self._tokens) != re.sub(r"\s", "", text):
+            raise ValueError(text)
+        self._at = 0
+        self._depth = 0
+        self._shown = shown
+
+    def run(self) -> float:
+        value = self._sum()
+        if self._at < len(self._tokens):
+            raise ValueError(self._next)
+        return float(value)
+
+    @property
+    def _next(self) -> str:
+        return self._tokens[self._at] if self._at < len(self._tokens) else ""
+
+    def _take(self, expected: str = "") -> str:
+        token = self._next
+        if expected and token != expected:
+            raise ValueError(token)
+        self._at += 1
+        return token
+
+    def _sum(self) -> float:
+        value = self._product()
+        while self._next in ("+", "-"):
+            sign = self._take()
+            other = self._product()
+            value = value + other if sign == "+" else value - other
+        return value
+
+    def _product(self) -> float:
+        value = self._atom()
+        while self._next in ("*", "/", "%"):
+            sign = self._take()
+            other = self._atom()
+            if sign == "*":
+                value *= other
+            else:
+                value = value / other if sign == "/" else math.fmod(value, other)
+        return value
+
+    def _atom(self) -> float:
+        self._depth += 1
+        if self._depth > DEEPEST:
+            raise ValueError("too deep")
+        try:
+            return self._operand(self._take())
+        finally:
+            self._depth -= 1
+
+    def _operand(self, token: str) -> float:
+        if token in ("-", "+"):
+            value = self._atom()
+            return -value if token == "-" else value
+        if token == "(":
+            value = self._sum()
+            self._take(")")
+            return value
+        if token in _FUNCTIONS:
+            count, compute = _FUNCTIONS[token]
+            self._take("(")
+            operands = [self._sum()]
+            for _ in range(count - 1):
+                self._take(",")
+                operands.append(self._sum())
+            self._take(")")
+            return compute(*operands)
+        if token.startswith("$"):
+            return self._shown[token[1:]]
+        if token[:1].isalpha():  # `inf` is a number to Python alone
+            raise ValueError(token)
+        return float(token)

@@ -1,0 +1,16 @@
+"""Plays documents by the text of the standard alone, with laws of motion of its own.
+
+It shares nothing with the back end that writes documents but the model of their elements, and with
+the runtime only the reader of maps: what it finds is evidence about both.
+
+- `storyboard`: acts and events, from instant to instant; begin here
+- `conditions`, `distances`: triggers, and what they measure
+- `actions` with `speeds`, `across`, `ways`: what is at work on the bodies, in `scene`
+- `bodies`, `places`: entities on their map; `courses`: values over time
+"""
+
+from osc2tx.xosc.player.conditions import BY_THE_STANDARD, Reading
+from osc2tx.xosc.player.errors import Unplayable
+from osc2tx.xosc.player.storyboard import Evaluator, map_of
+
+__all__ = ["BY_THE_STANDARD", "Evaluator", "Reading", "Unplayable", "map_of"]

@@ -1,0 +1,322 @@
+"""The storyboard of a document, from instant to instant.
+
+At an instant the storyboard is gone through until nothing changes: transitions take no time. Then
+everything moves by one step. Elements are told apart by identity: two equal ones are two.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from types import MappingProxyType
+
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Element
+from osc2tx.xosc.player.actions import Stage
+from osc2tx.xosc.player.bodies import Body, Running, body_of, couple
+from osc2tx.xosc.player.conditions import BY_THE_STANDARD, Conditions, Reading
+from osc2tx.xosc.player.courses import number, with_parameters
+from osc2tx.xosc.player.distances import Ruler
+from osc2tx.xosc.player.errors import Unplayable
+from osc2tx.xosc.reader import read
+from osc2tx_runtime.opendrive import RoadMap
+
+Row = tuple[float, float, float, float]  # t, x, y, v
+NOTHING: Mapping[str, str] = MappingProxyType({})
+SETTLES = 1000  # passes of an instant
+
+
+Member = tuple[xml.Event, Sequence[xml.Event], xml.ManeuverGroup]
+"""An event, those of its maneuver, and the group of its actors."""
+
+
+class Evaluator:
+    """Plays a document.
+
+    Attributes:
+        time: Seconds since the start.
+        step: The same in steps.
+        starts: First start of each event and act, by name.
+        track: Motion of each entity.
+    """
+
+    def __init__(
+        self,
+        document: str | Element,
+        road_map: RoadMap,
+        dt: float,
+        *,
+        reading: Reading = BY_THE_STANDARD,
+        given: Mapping[str, str] = NOTHING,
+    ) -> None:
+        self.root = with_parameters(
+            document if isinstance(document, Element) else read(document), given
+        )
+        self.dt, self.step = dt, 0
+        self.bodies: dict[str, Body] = {}
+        for node in self.root.below(xml.ScenarioObject):
+            body = body_of(node)
+            self.bodies[body.name] = body
+        carries = reading.carries_acceleration
+        self.stage = Stage(self.root, self.bodies, road_map, dt, carries=carries)
+        self.ruler = Ruler(road_map)
+        variables, parameters = xml.VariableDeclaration, xml.ParameterDeclaration
+        self.variables = {node.name: node.value for node in self.root.below(variables)}
+        self.variables |= {node.name: node.value for node in self.root.below(parameters)}
+        self.lights: dict[str, str] = {}
+        self.cycles = {
+            node.name: (_phases(node), 0, node.delay or 0.0)
+            for node in self.root.below(xml.TrafficSignalController)
+        }
+        self.states: dict[int, str] = {}
+        self.transitions: set[tuple[int, str]] = set()
+        self.counts: dict[int, int] = {}
+        self.started_at: dict[int, int] = {}
+        self.work: dict[int, list[Running]] = {}
+        self.starts: dict[str, float] = {}
+        self.track: dict[str, list[Row]] = {name: [] for name in self.bodies}
+        self.conditions = Conditions(self, dt, reading)
+        self._stop = self.root.one(xml.Storyboard).find(xml.StopTrigger)
+        self._acts = [(act, _members(act)) for act in self.root.below(xml.Act)]
+        self._init()
+
+    @property
+    def time(self) -> float:
+        """Seconds since the start."""
+        return self.step * self.dt
+
+    def _init(self) -> None:
+        """Carry out `Init`: references before what is placed beside them."""
+        privates = list(
+            self.root.one(xml.Storyboard).one(xml.Init).one(xml.Actions).all(xml.Private)
+        )
+        waiting = [(self.bodies[p.entityRef], p.children) for p in privates]
+        while waiting:
+            ready = [each for each in waiting if not self._waits(each[1])]
+            if not (ready):
+                raise Unplayable("places of Init refer to each other")
+            for entry in ready:
+                waiting.remove(entry)
+                for action in entry[1]:
+                    self.stage.begin(action, entry[0], self.time)
+        for action in (
+            self.root.one(xml.Storyboard).one(xml.Init).one(xml.Actions).all(xml.GlobalAction)
+        ):
+            self._global(action)
+        couple(self.root, self.bodies)
+        for body in self.bodies.values():
+            if body.behind is not None:
+                tow, hitch, bar = body.behind
+                x, y, h = tow.here
+                back = hitch + bar
+                body.pose = tow.here._replace(x=x - back * math.cos(h), y=y - back * math.sin(h))
+                body.v = tow.v
+
+    def _waits(self, actions: Sequence[Element]) -> bool:
+        named = (node.get("entityRef") for action in actions for node in action.walk())
+        return any(name is not None and self.bodies[name].pose is None for name in named)
+
+    # --- a run ------------------------------------------------------------------------------------
+
+    def play(self, most: float) -> float:
+        """Play to the end; return when that is (s), infinite if it is not over in time."""
+        while self.time < most:
+            for name, body in self.bodies.items():
+                if body.pose is not None:
+                    self.track[name].append((self.time, *body.here[:2], body.v))
+            self.transitions.clear()
+            self._run_cycles()
+            if self._settle():
+                return self.time
+            self.stage.advance(self.time)
+            self.step += 1
+        return math.inf
+
+    def _settle(self) -> bool:
+        """Go through the storyboard until nothing changes; return whether it is over."""
+        for _ in range(SETTLES):
+            if self.conditions.fires(self._stop):
+                return True
+            if not any([self._act(*each) for each in self._acts]):
+                return False
+        raise Unplayable(f"the storyboard does not come to rest at {self.time:g} s")
+
+    def is_in(self, element: Element, state: str) -> bool:
+        """Whether an element is in a state, or just in a transition."""
+        if state.endswith("Transition"):
+            return (id(element), state) in self.transitions
+        if isinstance(element, xml.Event | xml.Act):
+            return self._state(element) == state
+        inner = {self._state(event) for event in element.below(xml.Event)}
+        if inner == {"completeState"}:
+            return state == "completeState"
+        return state == ("standbyState" if inner == {"standbyState"} else "runningState")
+
+    def _state(self, element: Element) -> str:
+        return self.states.get(id(element), "standbyState")
+
+    def _enter(self, element: Element, state: str, *transitions: str) -> None:
+        self.states[id(element)] = state
+        self.transitions |= {(id(element), transition) for transition in transitions}
+
+    # --- acts and events --------------------------------------------------------------------------
+
+    def _act(self, act: xml.Act, events: Sequence[Member]) -> bool:
+        """Take an act further; return whether something has changed."""
+        state, changed = self._state(act), False
+        if state == "completeState":
+            return False
+        if state == "standbyState":
+            trigger = act.find(xml.StartTrigger)
+            if trigger is not None and not self.conditions.fires(trigger):
+                return False
+            self._enter(act, "runningState", "startTransition")
+            self.starts.setdefault(act.name, self.time)
+            changed = True
+        if self.conditions.fires(act.find(xml.StopTrigger)):
+            for event, *_ in events:
+                self._break_off(event)
+            self._enter(act, "completeState", "stopTransition")
+            return True
+        changed = any([self._event(*each) for each in events]) or changed
+        if all(self._state(event) == "completeState" for event, *_ in events):
+            self._enter(act, "completeState", "endTransition")
+            changed = True
+        return changed
+
+    def _event(
+        self, event: xml.Event, beside: Sequence[xml.Event], group: xml.ManeuverGroup
+    ) -> bool:
+        """Take an event further, given those of its maneuver; return whether something changed."""
+        state = self._state(event)
+        if state == "runningState" and all(run.done for run in self.work[id(event)]):
+            again = self.counts[id(event)] < event.maximumExecutionCount
+            self._enter(event, "standbyState" if again else "completeState", "endTransition")
+            return True
+        # a trigger is evaluated once in each step in which the event stands by
+        if state != "standbyState" or self.started_at.get(id(event)) == self.step:
+            return False
+        trigger = event.find(xml.StartTrigger)
+        if trigger is not None and not self.conditions.fires(trigger):
+            return False
+        running = [
+            each for each in beside if each is not event and self._state(each) == "runningState"
+        ]
+        self.started_at[id(event)] = self.step
+        self.counts[id(event)] = self.counts.get(id(event), 0) + 1
+        if event.priority == "skip" and running:
+            again = self.counts[id(event)] < event.maximumExecutionCount
+            self._enter(event, "standbyState" if again else "completeState", "skipTransition")
+            return True
+        if event.priority in ("override", "overwrite"):
+            for each in running:
+                self._break_off(each)
+        self._enter(event, "runningState", "startTransition")
+        self.starts.setdefault(event.name, self.time)
+        self.work[id(event)] = [
+            run for action in event.all(xml.Action) for run in self._begin(action, group)
+        ]
+        return True
+
+    def _begin(self, action: xml.Action, group: xml.ManeuverGroup) -> Iterator[Running]:
+        inner = action.inner
+        if isinstance(inner, xml.GlobalAction):
+            self._global(inner)
+        elif isinstance(inner, xml.PrivateAction):
+            for actor in group.one(xml.Actors).all(xml.EntityRef):
+                run = self.stage.begin(inner, self.bodies[actor.entityRef], self.time)
+                if run is not None:
+                    yield run
+
+    def _break_off(self, event: xml.Event) -> None:
+        for run in self.work.get(id(event), ()):
+            run.done = True
+        if self._state(event) != "completeState":
+            self._enter(event, "completeState", "stopTransition")
+
+    # --- what concerns no entity ------------------------------------------------------------------
+
+    def _global(self, action: xml.GlobalAction) -> None:
+        inner = action.inner
+        match inner.tag:
+            case "VariableAction" | "ParameterAction":
+                self._set(inner)
+            case "InfrastructureAction":
+                signal = inner.one(xml.TrafficSignalAction).inner
+                if signal.tag == "TrafficSignalStateAction":
+                    self.lights[signal.said("name")] = signal.said("state")
+                else:
+                    name = signal.said("trafficSignalControllerRef")
+                    phases = self.cycles[name][0]
+                    names = [phase.name for phase in phases]
+                    self.cycles[name] = (phases, names.index(signal.said("phase")), self.time)
+                    self._run_cycles()
+            case "EnvironmentAction" | "SetMonitorAction":
+                pass  # nothing here moves by the weather, or asks a monitor
+            case _:
+                raise Unplayable(f"<{inner.tag}> is not played", inner.place)
+
+    def _set(self, node: Element) -> None:
+        name = node.get("variableRef") or node.said("parameterRef")
+        given = node.find(xml.SetAction)
+        if given is not None:
+            self.variables[name] = given.said("value")
+            return
+        rule = node.one(xml.ModifyAction).one(xml.Rule).inner
+        value, before = number(rule, "value"), float(self.variables[name])
+        after = before + value if rule.tag == "AddValue" else before * value
+        self.variables[name] = f"{after:g}"
+
+    def _run_cycles(self) -> None:
+        """Show the phases of the controllers."""
+        for name, (phases, index, since) in self.cycles.items():
+            while self.time >= since + phases[index].duration - 1e-9:
+                since += phases[index].duration
+                index = (index + 1) % len(phases)
+            self.cycles[name] = (phases, index, since)
+            if self.time >= since:
+                for state in phases[index].all(xml.TrafficSignalState):
+                    self.lights[state.said("trafficSignalId")] = state.said("state")
+
+
+def _members(act: xml.Act) -> list[Member]:
+    """Return the events of an act.
+
+    Raises:
+        Unplayable: A group of them is repeated.
+    """
+    found: list[Member] = []
+    for group in act.all(xml.ManeuverGroup):
+        if group.maximumExecutionCount != 1:
+            raise Unplayable("a maneuver group that is repeated is not played", group.place)
+        for maneuver in group.all(xml.Maneuver):
+            beside = tuple(maneuver.all(xml.Event))
+            found += [(event, beside, group) for event in beside]
+    return found
+
+
+def _phases(controller: xml.TrafficSignalController) -> Sequence[xml.Phase]:
+    """Return the phases of a cycle, which takes some time.
+
+    Raises:
+        Unplayable: It takes none.
+    """
+    phases = list(controller.all(xml.Phase))
+    if not any(phase.duration > 0.0 for phase in phases):
+        raise Unplayable("a cycle that takes no time is not played", controller.place)
+    return phases
+
+
+def map_of(document: str, folders: Sequence[Path]) -> Path:
+    """Return the file of the map that a document names.
+
+    Raises:
+        Unplayable: No folder has it.
+    """
+    node = read(document).one(xml.RoadNetwork).one(xml.LogicFile)
+    for folder in folders:
+        for name in (node.filepath, f"{node.filepath}.xodr"):
+            if (folder / name).is_file():
+                return folder / name
+    raise Unplayable(f"there is no map {node.filepath}", node.place)
