@@ -151,5 +151,5 @@ scenario lists:{MEMBERS}
 """
     scenario = load(emit(asam(text.replace("        %s\n", ""), tmp_path)))
     assert run(scenario).states("ego")[-1]["v"] == pytest.approx(0.5 * (20 / 3.6 + 1))
-    with pytest.raises(SettingsError, match=r"`step.*speeds` has no value.*invokes"):
+    with pytest.raises(SettingsError, match=r"`step.*speeds` has no value.*the invocation"):
         run(load(emit(asam(text.replace("%s", "ego.step()"), tmp_path))))

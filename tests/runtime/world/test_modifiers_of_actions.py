@@ -47,7 +47,6 @@ STRAIGHT = Path((Pose(60.0, -6.0), Pose(200.0, -6.0)))
     "act",
     [
         lambda s, *m: s.a.follow_path(*m, absolute=STRAIGHT),
-        lambda s, *m: s.a.replay_path(*m, absolute=STRAIGHT),
         lambda s, *m: s.a.change_position(*m, target_xyz=Point(200.0, -6.0)),
         lambda s, *m: s.a.follow_lane(*m, duration=8.0),
         lambda s, *m: s.a.change_space_gap(*m, target=1.0, direction="left", reference=s.b),
@@ -58,6 +57,16 @@ def test_actions_on_the_way_take_a_speed(run: Run, act: Callable[..., Behaviour]
     states = run(scenario(lambda s: act(s, speed(14.0)))).states("a")
     after = next(e["t"] for e in states if e["v"] == 14.0)
     assert after == pytest.approx(2.2, abs=0.051)
+
+
+def test_a_replayed_path_takes_a_speed_at_once(run: Run) -> None:
+    """It need not be physical (8.8.2.8): the speed is there after the first step."""
+
+    def body(s: TwoCars) -> Behaviour:
+        return s.a.replay_path(speed(14.0), absolute=STRAIGHT)
+
+    states = run(scenario(body)).states("a")
+    assert [e["v"] for e in states[:3]] == [10.0, 14.0, 14.0]
 
 
 def test_a_lane_change_with_a_speed_at_its_end(run: Run) -> None:

@@ -236,10 +236,13 @@ SHAPE = CommonPositionShape("smooth", target=30.0)
 @pytest.mark.parametrize(
     ("modifiers", "message"),
     [
-        ([distance(30.0, shape=SHAPE), speed(3.0)], "distance and speed speak of the same"),
-        ([position(shape=SHAPE), keep_speed()], "position and keep_speed speak of the same"),
-        ([position(shape=SHAPE), distance(2.0)], "position and distance speak of the same"),
-        ([distance(30.0, shape=SHAPE), acceleration(1.0)], "distance and acceleration speak"),
+        ([distance(30.0, shape=SHAPE), speed(3.0)], "distance and speed constrain the same motion"),
+        (
+            [position(shape=SHAPE), keep_speed()],
+            "position and keep_speed constrain the same motion",
+        ),
+        ([position(shape=SHAPE), distance(2.0)], "position and distance constrain the same motion"),
+        ([distance(30.0, shape=SHAPE), acceleration(1.0)], "distance and acceleration constrain"),
     ],
 )
 def test_it_leaves_no_room(run: Run, modifiers: list[Any], message: str) -> None:
