@@ -52,7 +52,7 @@ class CutIn(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "cut_in",
+            self.name,
             self.ego.drive("ego_drives", speed(self.v_ego)),
             self.other_cuts_in(),
         )

@@ -75,7 +75,7 @@ class CutInAndEvade(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "cut_in_and_evade",
+            self.name,
             # Twilight
             self.env.assign_celestial_position(
                 light_source=self.env.sun, azimuth=270 * deg, elevation=12 * deg

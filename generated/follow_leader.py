@@ -47,7 +47,7 @@ class FollowLeader(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "follow_leader",
+            self.name,
             self.lead(),
             self.follower.keep_space_gap("follow", reference=self.leader, direction="longitudinal"),
         )

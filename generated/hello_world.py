@@ -80,7 +80,7 @@ class HelloWorld(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "hello_world",
+            self.name,
             self._env_then_hero(),
             self._hero_and_npc(),
         )

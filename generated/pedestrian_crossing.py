@@ -55,7 +55,7 @@ class PedestrianCrossing(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "pedestrian_crossing",
+            self.name,
             self.walker_part(),
             self.ego_part(),
         )

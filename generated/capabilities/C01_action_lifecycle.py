@@ -40,7 +40,7 @@ class ActionLifecycle(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "action_lifecycle",
+            self.name,
             # Ends by itself: 4 m/s at 2 m/s^2
             self.ego.change_speed(
                 "speed_up", target=14 * mps, rate_profile="constant", rate_peak=2 * mpss

@@ -36,7 +36,7 @@ class GainSpeed(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "gain_speed",
+            self.short_name,
             self.actor.change_speed(
                 target=self.target, rate_profile="constant", rate_peak=2 * mpss
             ),
@@ -63,7 +63,7 @@ class ActorBinding(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "actor_binding",
+            self.name,
             self.settle(),
             self.gain(),
         )

@@ -98,7 +98,7 @@ class ActorParts(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "actor_parts",
+            self.name,
             self.van.drive(speed(10 * mps)),
             self._ego_drive_then_change_speed(),
             self.load.remain_stationary(),

@@ -40,7 +40,7 @@ class Composition(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "composition",
+            self.name,
             self.ego_part(),
             self.other_part(),
         )

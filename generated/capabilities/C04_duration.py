@@ -40,7 +40,7 @@ class Durations(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "durations",
+            self.name,
             # Open-ended: ends after 3 s
             self.ego.drive("cruise", speed(10 * mps), duration=3 * s),
             # With a goal: reaches it after exactly 4 s

@@ -56,7 +56,7 @@ class MoveDriveWalk(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "move_drive_walk",
+            self.name,
             self.car.drive(speed(20 * mps)),
             self.ball.move(speed(3 * mps)),
             self.walker.walk(speed(1.4 * mps)),

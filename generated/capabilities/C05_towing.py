@@ -40,7 +40,7 @@ class Towing(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "towing",
+            self.name,
             self.car.drive(speed(15 * mps), duration=16 * s),
         )
 

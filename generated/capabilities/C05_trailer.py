@@ -42,7 +42,7 @@ class DrivingWithATrailer(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "driving_with_a_trailer",
+            self.name,
             Until(
                 self.load.remain_stationary(),
                 elapsed(1 * s),

@@ -44,7 +44,7 @@ class SpeedControl(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "speed_control",
+            self.name,
             self.even.change_speed(
                 target=self.v_target, rate_profile="constant", rate_peak=2.5 * mpss
             ),

@@ -37,7 +37,7 @@ class AccelerationControl(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "acceleration_control",
+            self.name,
             self.ego.change_acceleration(
                 "build_up", target=1.5 * mpss, rate_profile="constant", rate_peak=1 * mpspsps
             ),

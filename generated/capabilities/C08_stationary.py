@@ -39,7 +39,7 @@ class Stationary(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "stationary",
+            self.name,
             self.parked.remain_stationary(),
             self._arriving_drive_then_hold(),
         )

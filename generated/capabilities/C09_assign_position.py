@@ -43,7 +43,7 @@ class AssignPosition(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "assign_position",
+            self.name,
             self.other.drive(speed(10 * mps)),
             self._ego_drive_then_to_point(),
         )

@@ -48,7 +48,7 @@ class AssignOrientation(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "assign_orientation",
+            self.name,
             self.walker.walk("east", speed(1 * mps), duration=5 * s),
             self.walker.assign_orientation("turn", orientation=self.north_east),
             self.walker.walk("onward", speed(1 * mps), duration=5 * s),

@@ -50,7 +50,7 @@ class ChangePosition(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "change_position",
+            self.name,
             self._car_drive_then_change_position(),
             self._walker_walk_then_change_position(),
         )

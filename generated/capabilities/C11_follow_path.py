@@ -43,7 +43,7 @@ class PathFollowing(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "path_following",
+            self.name,
             self.ego.drive(speed(10 * mps), duration=1 * s),
             self.ego.follow_path(
                 "curve",

@@ -53,7 +53,7 @@ class RelativePath(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "relative_path",
+            self.name,
             self.begin(),
             self.both(),
         )

@@ -37,7 +37,7 @@ class RoadPathScenario(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "road_path",
+            self.name,
             self.ego.drive(speed(12 * mps), duration=1 * s),
             self.ego.follow_path(
                 "bend",

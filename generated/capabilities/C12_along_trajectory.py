@@ -50,7 +50,7 @@ class AlongTrajectory(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "along_trajectory",
+            self.name,
             self.ego.drive(speed(10 * mps), duration=1 * s),
             self.ego.drive("timed", along_trajectory(self.plan)),
         )

@@ -43,7 +43,7 @@ class TrajectoryFollowing(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "trajectory_following",
+            self.name,
             self.ego.drive(speed(10 * mps), duration=1 * s),
             self.ego.follow_trajectory(
                 "timed",

@@ -50,7 +50,7 @@ class RelativeTrajectory(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "relative_trajectory",
+            self.name,
             self.ego.drive(speed(10 * mps), duration=1 * s),
             self.ego.replay_trajectory(
                 "pass_by", relative=self.shape, reference=self.ego, transform="object_relative"

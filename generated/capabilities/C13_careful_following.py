@@ -40,7 +40,7 @@ class CarefulFollowing(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "careful_following",
+            self.name,
             self.ego.drive(speed(25 * mps), avoid_collisions(True)),
             self._slower_drive_then_change_speed(),
             duration=60 * s,

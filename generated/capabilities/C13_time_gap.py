@@ -50,7 +50,7 @@ class TimeGap(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "time_gap",
+            self.name,
             self._leader_drive_then_slow_down(),
             self._follower_close_up_then_stay(),
         )

@@ -45,7 +45,7 @@ class GapInTime(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "gap_in_time",
+            self.name,
             self.lead.drive(duration=30 * s),
             self._follower_change_space_gap_serial(),
             overlap="any",

@@ -52,7 +52,7 @@ class SpaceGap(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "space_gap",
+            self.name,
             self.leader.drive(speed(20 * mps)),
             self._follower_close_up_then_stay(),
             self._side_car_drive_then_nearer(),

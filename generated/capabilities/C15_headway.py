@@ -52,7 +52,7 @@ class Headway(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "headway",
+            self.name,
             self.leader.drive(speed(18 * mps)),
             self._near_closes_then_near_stays(),
             self._far_closes_then_far_stays(),

@@ -45,7 +45,7 @@ class AutomaticLights(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "automatic_lights",
+            self.name,
             self.ego.drive(speed(20 * mps)),
             self.dark.drive(speed(20 * mps)),
             self._env_then_ego(),

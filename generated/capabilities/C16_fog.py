@@ -48,7 +48,7 @@ class FogScenario(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "fog",
+            self.name,
             self.standing.remain_stationary(),
             self.broken.remain_stationary(),
             self.early.drive(speed(15 * mps), avoid_collisions(True)),

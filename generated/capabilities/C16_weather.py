@@ -42,7 +42,7 @@ class WeatherControl(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "weather_control",
+            self.name,
             self.ego.drive(speed(20 * mps), duration=6 * s),
             self._env_air_then_clouds(),
         )

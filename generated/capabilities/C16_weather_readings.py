@@ -68,7 +68,7 @@ class WeatherReadings(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "weather_readings",
+            self.name,
             self._ego_drive_then_change_speed(),
             self._env_rain_then_assign_celestial_position(),
         )

@@ -52,7 +52,7 @@ class BehavioralModels(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "behavioral_models",
+            self.name,
             self.lights.set_semantic_state(traffic_light=self.ahead, state="stop"),
             # The action ends, and the driver goes on by itself.
             self.ego.drive(speed(12 * mps), duration=1 * s),

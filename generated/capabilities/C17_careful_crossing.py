@@ -48,7 +48,7 @@ class CarefulCrossing(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "careful_crossing",
+            self.name,
             self.ego.drive(speed(self.v_ego), avoid_collisions(True)),
             self._walker_remain_stationary_then_walk(),
             duration=40 * s,

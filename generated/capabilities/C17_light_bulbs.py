@@ -96,7 +96,7 @@ class LightBulbs(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "light_bulbs",
+            self.name,
             self.lights.play_cycles(cycles=self.road.traffic_light_control),
             self._ego_drive_serial(),
         )

@@ -50,7 +50,7 @@ class SignalConditions(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "signal_conditions",
+            self.name,
             self._lights_set_semantic_state_then_set_group_bulb_state(),
             self._wait_serial(),
         )

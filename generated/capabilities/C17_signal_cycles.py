@@ -55,7 +55,7 @@ class SignalCycles(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "signal_cycles",
+            self.name,
             self.lights.play_cycles("run_by_itself", cycles=[self.cycle], duration=12 * s),
         )
 

@@ -37,7 +37,7 @@ class SignalLamps(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "signal_lamps",
+            self.name,
             self.lights.set_state(traffic_light=self.east, state=["is_on", "is_off", "is_off"]),
             Wait(elapsed(1 * s)),
             self.lights.set_bulb_state(

@@ -46,7 +46,7 @@ class TrafficSignals(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "traffic_signals",
+            self.name,
             self._lights_set_semantic_state_then_set_group_semantic_state(),
             self.ego.drive(speed(12 * mps), avoid_collisions(True), duration=20 * s),
         )

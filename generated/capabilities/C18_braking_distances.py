@@ -41,7 +41,7 @@ class BrakingDistances(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "braking_distances",
+            self.name,
             self.ego.drive(speed(self.v_full), duration=1 * s),
             self.ego.change_speed("dry", target=0 * mps, rate_profile="asap"),
             self.ego.assign_speed(speed=self.v_full),

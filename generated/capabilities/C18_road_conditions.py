@@ -41,7 +41,7 @@ class RoadConditions(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "road_conditions",
+            self.name,
             self.ego.drive(speed(self.v_full), duration=1 * s),
             self.ego.change_speed("dry", target=0 * mps, rate_profile="asap"),
             self.ego.change_speed(

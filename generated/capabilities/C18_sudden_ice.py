@@ -52,7 +52,7 @@ class SuddenIce(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "sudden_ice",
+            self.name,
             self._fast_drive_serial(),
             self._slow_drive_serial(),
             self.walker.walk(speed(1.4 * mps)),

@@ -36,7 +36,7 @@ class RelativeSpeed(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "relative_speed",
+            self.name,
             self.ego.drive(speed(12 * mps), duration=1 * s),
             self.ego.drive("gain", change_speed(4 * mps), duration=5 * s),
             self.ego.drive("hold", keep_speed(), duration=2 * s),

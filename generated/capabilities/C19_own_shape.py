@@ -95,7 +95,7 @@ class OwnShapeScenario(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "own_shape",
+            self.name,
             self.swelling.drive(speed(shape=self.wave), duration=self.wave.duration()),
             self.starting.drive(
                 acceleration(shape=self.push), duration=self.wave.duration() + self.ramp.duration()

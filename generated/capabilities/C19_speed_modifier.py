@@ -44,7 +44,7 @@ class SpeedModifier(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "speed_modifier",
+            self.name,
             self.pace.drive(speed(self.v_pace)),
             self.faster.drive(speed(3 * mps, faster_than=self.pace)),
             self.slower.drive(speed(3 * mps, slower_than=self.pace)),

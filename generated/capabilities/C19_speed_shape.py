@@ -46,7 +46,7 @@ class VelocityProfile(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "velocity_profile",
+            self.name,
             self.even.drive(speed(18 * mps, shape=self.even_shape)),
             self.gentle.drive(speed(16 * mps, shape=self.gentle_shape)),
             duration=7 * s,

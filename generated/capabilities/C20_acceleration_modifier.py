@@ -37,7 +37,7 @@ class AccelerationModifier(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "acceleration_modifier",
+            self.name,
             self.ego.drive(speed(8 * mps), duration=1 * s),
             self.ego.drive("gain", acceleration(1.25 * mpss), duration=4 * s),
             self.ego.drive("lose", acceleration(-2 * mpss), duration=8 * s),

@@ -41,7 +41,7 @@ class AccelerationProfile(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "acceleration_profile",
+            self.name,
             self.ego.drive(speed(10 * mps), duration=1 * s),
             self.ego.drive("gain", acceleration(1.5 * mpss, shape=self.build_up), duration=6 * s),
         )

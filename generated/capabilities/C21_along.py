@@ -44,7 +44,7 @@ class AlongAPath(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "along_a_path",
+            self.name,
             self.ego.drive(speed(20 * mps), duration=1 * s),
             self.ego.drive("ride", along(self.way, end_offset=10 * m)),
             self.ego.drive(duration=1 * s),

@@ -45,7 +45,7 @@ class Ways(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "ways",
+            self.name,
             self._ego_first_leg_then_second_leg(),
             self.walker.walk(keep_position()),
         )

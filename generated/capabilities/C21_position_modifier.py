@@ -55,7 +55,7 @@ class PositionModifier(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "position_modifier",
+            self.name,
             self.ego.drive(speed(15 * mps)),
             self.front.drive(speed(15 * mps)),
             # Counts at the speed of the one behind: 2 s at 15 m/s

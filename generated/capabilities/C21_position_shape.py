@@ -68,7 +68,7 @@ class PositionShape(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "position_shape",
+            self.name,
             self.stopping.drive(distance(60 * m, shape=self.smoothly)),
             self.lead.drive(),
             self.closing.drive(position(25 * m, behind=self.lead, shape=self.smoothly, at="end")),

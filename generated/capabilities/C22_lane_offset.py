@@ -37,7 +37,7 @@ class LaneOffset(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "lane_offset",
+            self.name,
             self.ego.follow_lane("aside", offset=0.4 * m, duration=5 * s),
             self.ego.change_lane(
                 "across", num_of_lanes=1, side="right", rate_profile="constant", rate_peak=1 * mps

@@ -49,7 +49,7 @@ class LateralModifiers(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "lateral_modifiers",
+            self.name,
             self.ego.drive(speed(15 * mps), keep_lane()),
             self.shifted.drive(speed(15 * mps), lateral(0.6 * m)),
             self.changing.drive(speed(15 * mps), change_lane(2, side="right")),

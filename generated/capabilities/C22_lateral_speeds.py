@@ -79,7 +79,7 @@ class LateralSpeeds(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "lateral_speeds",
+            self.name,
             self._drifting_drive_serial(),
             self.bulging.drive(lateral(shape=self.out), duration=4 * s),
             self.leaning.drive(duration=4 * s),

@@ -36,7 +36,7 @@ class MapSides(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "map_sides",
+            self.name,
             self.ego.drive(speed(10 * mps), duration=1 * s),
             self.ego.change_lane("outwards", num_of_lanes=1, side="outside", duration=3 * s),
             self.ego.change_lane("inwards", num_of_lanes=1, side="inside", duration=3 * s),

@@ -47,7 +47,7 @@ class Overtaking(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "overtaking",
+            self.name,
             self.slow.drive(speed(8 * mps)),
             self.oncoming.drive(speed(12 * mps)),
             self._ego_behind_then_out(),

@@ -39,7 +39,7 @@ class PhysicalMovements(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "physical_movements",
+            self.name,
             self.bound.change_speed(physical_movement("must_be_physical"), target=20 * mps),
             self.free.change_speed(physical_movement("prefer_non_physical"), target=20 * mps),
         )

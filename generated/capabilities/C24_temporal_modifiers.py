@@ -42,7 +42,7 @@ class TemporalModifiers(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "temporal_modifiers",
+            self.name,
             self.ego.drive(speed(10 * mps), duration=1 * s),
             Wait("pause", elapsed(self.delay)),
             Until(

@@ -45,7 +45,7 @@ class RelativeModifiers(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "relative_modifiers",
+            self.name,
             self._lead_drive_then_lead_changes(),
             self.wing.drive(speed(same_as=self.lead)),
         )

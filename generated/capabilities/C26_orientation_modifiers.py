@@ -61,7 +61,7 @@ class OrientationModifiers(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "orientation_modifiers",
+            self.name,
             self.along.walk(speed(1 * mps)),
             self.guide.walk(speed(1 * mps)),
             self.opposite.walk(speed(1 * mps)),

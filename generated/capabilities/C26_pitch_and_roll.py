@@ -65,7 +65,7 @@ class PitchAndRoll(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "pitch_and_roll",
+            self.name,
             self._car_drive_serial(),
             self._box_move_then_assign_orientation(),
             duration=12 * s,

@@ -50,7 +50,7 @@ class PointDistance(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "point_distance",
+            self.name,
             Until(
                 self.ego.drive("approach", speed(20 * mps)),
                 self.near,

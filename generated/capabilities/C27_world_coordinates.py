@@ -54,7 +54,7 @@ class WorldCoordinates(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "world_coordinates",
+            self.name,
             Until(
                 self.walker.walk("approach", speed(1.4 * mps)),
                 rise(

@@ -62,7 +62,7 @@ class RelativeCoordinates(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "relative_coordinates",
+            self.name,
             self.walker.remain_stationary(),
             self._car_approach_then_drive(),
         )

@@ -43,7 +43,7 @@ class AbstractRoute(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "abstract_route",
+            self.name,
             self.ego.drive(speed(15 * mps), duration=3 * s),
         )
 

@@ -75,7 +75,7 @@ class Conversions(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "conversions",
+            self.name,
             self.ego.drive(speed(10 * mps), duration=1 * s),
             Emit(self.later),
             self.ego.drive(duration=1 * s),

@@ -88,7 +88,7 @@ class CrossingTheStreet(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "crossing_the_street",
+            self.name,
             self.walker.walk(along(self.way), speed(1.5 * mps)),
             self.other.walk(along(self.shortcut), speed(1 * mps)),
         )

@@ -45,7 +45,7 @@ class GeodeticPoints(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "geodetic_points",
+            self.name,
             self.ego.drive(along(self.way), speed(20 * mps)),
         )
 

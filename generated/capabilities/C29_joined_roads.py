@@ -89,7 +89,7 @@ class JoinedRoads(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "joined_roads",
+            self.name,
             self.ego.drive(speed(15 * mps), duration=3 * s),
         )
 

@@ -51,7 +51,7 @@ class LanesAbreast(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "lanes_abreast",
+            self.name,
             self.ego.drive(speed(15 * mps)),
             self.other.drive(speed(15 * mps)),
             self.oncoming.drive(speed(15 * mps)),

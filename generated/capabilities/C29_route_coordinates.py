@@ -43,7 +43,7 @@ class RouteCoordinates(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "route_coordinates",
+            self.name,
             self.ego.assign_position(
                 odr_point=self.road.create_odr_point(road_id="1", lane_id="-1", s=120 * m, t=0 * m)
             ),

@@ -60,7 +60,7 @@ class RoutePoints(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "route_points",
+            self.name,
             Until(
                 self.ego.drive(speed(16 * mps)),
                 self.half_way,

@@ -83,7 +83,7 @@ class RouteValues(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "route_values",
+            self.name,
             self.ego.drive(
                 along(self.way, start_offset=20 * m, end_offset=20 * m), speed(10 * mps)
             ),

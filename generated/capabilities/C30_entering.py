@@ -46,7 +46,7 @@ class Entering(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "entering",
+            self.name,
             self.cruise(),
             self.merge(),
         )

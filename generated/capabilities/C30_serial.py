@@ -38,7 +38,7 @@ class SerialExecution(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "serial_execution",
+            self.name,
             self.ego.drive("drive_on", speed(12 * mps), duration=2 * s),
             self.ego.change_lane("swerve", side="left", duration=4 * s),
             self.ego.change_speed(

@@ -40,7 +40,7 @@ class Overlaps(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "overlaps",
+            self.name,
             self.begin(),
             self.equal(),
             self.inside(),

@@ -40,7 +40,7 @@ class ParallelExecution(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "parallel_execution",
+            self.name,
             self.together(),
             self.same_end(),
         )

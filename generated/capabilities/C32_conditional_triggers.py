@@ -54,7 +54,7 @@ class ConditionalTriggers(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "conditional_triggers",
+            self.name,
             self._ego_part_and_other_part(),
             On(
                 self.ready,

@@ -66,7 +66,7 @@ class TriggerMeasures(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "trigger_measures",
+            self.name,
             self.slow.drive(speed(10 * mps)),
             self._ego_approach_then_evade(),
         )

@@ -56,7 +56,7 @@ class MotionReadings(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "motion_readings",
+            self.name,
             Until(
                 self.ego.drive(speed(15 * mps)),
                 self.out_of_it,

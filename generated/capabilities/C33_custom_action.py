@@ -81,7 +81,7 @@ class CustomAction(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "custom_action",
+            self.name,
             self.ego.drive(speed(3 * mps), duration=1 * s),
             creep(self.ego, v=2 * mps, duration=3 * s),
             roll_out(self.ego),

@@ -61,7 +61,7 @@ class OwnTypes(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "own_types",
+            self.name,
             self.ego.drive(speed(5 * mps), duration=1 * s),
             self.ego.change_speed(
                 "gain", target=self.quiet.cruise, rate_profile="constant", rate_peak=self.quiet.peak

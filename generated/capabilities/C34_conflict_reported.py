@@ -40,7 +40,7 @@ class ConflictReported(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "conflict_reported",
+            self.name,
             self.ego.drive(speed(20 * mps)),
             self._ego_change_speed_serial(),
         )

@@ -40,7 +40,7 @@ class ConflictResolution(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "conflict_resolution",
+            self.name,
             # Controls the speed, until `evade` wants it
             Until(
                 self.ego.drive("cruise", speed(20 * mps)),

@@ -42,7 +42,7 @@ class Overriding(Scenario):
         self.override("cruise", "brake")
         self.override("hurry", "brake", mode="when_active")
         return Parallel(
-            "overriding",
+            self.name,
             self.ego.drive("cruise", speed(20 * mps)),
             self.warning(),
             self.comfort(),

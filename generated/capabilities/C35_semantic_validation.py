@@ -55,7 +55,7 @@ class SemanticValidation(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "semantic_validation",
+            self.name,
             self._ego_approach_then_evade(),
             self.other.drive(speed(self.v_other)),
         )

@@ -40,7 +40,7 @@ class OneOfRace(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "one_of_race",
+            self.name,
             self.race(),
             self.ego.drive(duration=1 * s),
         )

@@ -45,7 +45,7 @@ class RisingEdge(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "rising_edge",
+            self.name,
             self._ego_change_speed_serial(),
             self._wait_serial(),
         )

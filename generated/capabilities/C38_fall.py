@@ -46,7 +46,7 @@ class FallingEdge(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "falling_edge",
+            self.name,
             self.slow.drive(speed(10 * mps)),
             self._ego_drive_then_evade(),
         )

@@ -178,4 +178,5 @@ def _scenarios_in(module: ModuleType) -> dict[str, type[Scenario]]:
         if isinstance(value, type)
         and issubclass(value, Scenario)
         and value.__module__ == module.__name__
+        and not value.is_abstract()
     }

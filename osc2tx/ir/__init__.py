@@ -2,8 +2,8 @@
 
 Nodes are frozen data without references to syntax or symbols; every one knows its span.
 Modules, in reading order: `values`, `expressions`, `behaviors`, `declarations`, `user_types`,
-`coverage`, `nodes`, `lineages`; then `traversal`, `rewrite`, `compare`, `verify` (the invariants)
-and `dump` (the printable form).
+`coverage`, `nodes`; then `traversal`, `compare`, `inheritance`, `verify` (the invariants) and
+`dump` (the printable form).
 """
 
 from osc2tx.ir.behaviors import (
@@ -87,7 +87,9 @@ from osc2tx.ir.expressions import (
     Undefined,
     UserShape,
 )
+from osc2tx.ir.inheritance import Additions, additions, is_named_after
 from osc2tx.ir.nodes import (
+    AbstractScenario,
     Module,
     Override,
     Placement,
@@ -111,8 +113,10 @@ from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
 
 __all__ = [
     "GLOBAL_MARK",
+    "AbstractScenario",
     "ActionParameter",
     "Actor",
+    "Additions",
     "Application",
     "Argument",
     "Attribute",
@@ -198,6 +202,7 @@ __all__ = [
     "ValueType",
     "Variable",
     "Wait",
+    "additions",
     "applied_with",
     "bounds",
     "children",
@@ -205,6 +210,7 @@ __all__ = [
     "constant",
     "dump_ir",
     "is_live",
+    "is_named_after",
     "lineage",
     "lineages",
     "means_same",

@@ -45,6 +45,7 @@ from osc2tx.ir.expressions import (
     Expression,
 )
 from osc2tx.ir.nodes import (
+    AbstractScenario,
     Module,
     Placement,
     Scenario,
@@ -71,8 +72,9 @@ def dump_ir(module: Module) -> str:
     lines.extend(_indented(map(_user_action, module.actions)))
     for modifier in module.modifiers:
         lines.extend(_indented(_user_modifier(modifier)))
-    for scenario in module.scenarios:
-        lines.extend(_indented(_scenario(scenario)))
+    names = {each.key: each.name for each in (*module.bases, *module.scenarios)}
+    for scenario in (*module.bases, *module.scenarios):
+        lines.extend(_indented(_scenario(scenario, names.get(scenario.base or ""))))
     return "\n".join(lines) + "\n"
 
 
@@ -117,10 +119,11 @@ def _user_modifier(modifier: UserModifier) -> Iterator[str]:
     yield from _indented(map(_modifier, modifier.calls))
 
 
-def _scenario(scenario: Scenario) -> Iterator[str]:
+def _scenario(scenario: AbstractScenario, base: str | None) -> Iterator[str]:
     origin = f" of {scenario.span.source.name}" if scenario.is_imported else ""
     word = "action" if scenario.is_action else "scenario"
-    yield f"{word} {scenario.name}{origin} @{scenario.span.line}"
+    above = "" if base is None else f" inherits {base}"
+    yield f"{word} {scenario.name}{above}{origin} @{scenario.span.line}"
     for declaration in scenario.declarations:
         yield from _indented(_declaration(declaration))
     yield from _indented(map(_method, scenario.methods))
@@ -132,7 +135,8 @@ def _scenario(scenario: Scenario) -> Iterator[str]:
         yield from _indented(_placement(placement))
     for override in scenario.overrides:
         yield f"{INDENT}override {override.overridden} by {override.by} {override.mode}"
-    yield from _indented(_behavior(scenario.body))
+    if isinstance(scenario, Scenario):
+        yield from _indented(_behavior(scenario.body))
 
 
 def _coverage(item: Coverage) -> str:

@@ -43,22 +43,22 @@ class Override:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Scenario:
-    """A scenario, ready to be written down by a backend.
+class AbstractScenario:
+    """A scenario without a `do`, for others to inherit; it has all that it inherits itself.
 
     Attributes:
         name: As in the source.
         comments: The comment lines above it.
-        declarations: Cast, values and events in source order.
+        declarations: Cast, values and events in source order, those of its bases first.
         constraints: What must hold between the values.
         methods: Its methods, in source order.
         placements: Initial placement, in source order.
-        body: Its `do` tree.
+        base: Key of the scenario that it inherits from; `None` if it does not, or has to be
+            declared as a whole.
         end_comments: Comment lines below its last member.
         overrides: Which labelled members end which others.
         coverage: What is sampled for coverage.
-        is_invoked: A scenario of the module invokes it.
-        is_imported: It stands here because a scenario of the file invokes it.
+        is_imported: It stands here because a scenario of the file invokes or inherits it.
         is_action: It is an action that says what it does.
     """
 
@@ -68,12 +68,11 @@ class Scenario:
     declarations: tuple[Declaration, ...]
     methods: tuple[Method, ...]
     placements: tuple[Placement, ...]
-    body: Behavior
+    base: str | None = None
     end_comments: tuple[str, ...] = ()
     overrides: tuple[Override, ...] = ()
     coverage: tuple[Coverage, ...] = ()
     constraints: tuple[Constraint, ...] = ()
-    is_invoked: bool = False
     is_imported: bool = False
     is_action: bool = False
 
@@ -84,10 +83,25 @@ class Scenario:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Scenario(AbstractScenario):
+    """A scenario with a behavior, ready to be written down by a backend.
+
+    Attributes:
+        body: Its `do` tree.
+        is_invoked: A scenario of the module invokes it.
+    """
+
+    body: Behavior
+    is_invoked: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Module:
     """All scenarios of one source file, with the settings that give them their meaning.
 
     Attributes:
+        bases: Scenarios without a `do`: those of the file, and those of imported files that its
+            scenarios inherit.
         types: Types of their objects that are not the library's, bases first, then the others of
             the file.
         actions: Actions they invoke that are not the library's, in order of use, then the others
@@ -104,6 +118,7 @@ class Module:
     dialect: str
     one_of: str
     scenarios: tuple[Scenario, ...]
+    bases: tuple[AbstractScenario, ...] = ()
     comments: tuple[str, ...] = ()
     types: tuple[UserType, ...] = ()
     actions: tuple[UserAction, ...] = ()

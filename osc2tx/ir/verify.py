@@ -30,7 +30,7 @@ from osc2tx.ir.behaviors import (
 )
 from osc2tx.ir.declarations import Actor, Event, Parameter, Struct, Variable
 from osc2tx.ir.expressions import Expression, FieldRef, ParameterRef
-from osc2tx.ir.nodes import Module, Scenario
+from osc2tx.ir.nodes import AbstractScenario, Module, Scenario
 from osc2tx.ir.traversal import walk
 from osc2tx.ir.user_types import UserModifier
 from osc2tx.ir.values import Kind
@@ -43,10 +43,15 @@ def verify(module: Module) -> None:
         InternalCompilerError: A name is declared twice or not at all, a value is used before
             its declaration, a composition is empty, a reference dangles.
     """
-    _require_unique((s.key for s in module.scenarios), f"scenarios of {module.source}")
+    every = (*module.bases, *module.scenarios)
+    _require_unique((s.key for s in every), f"scenarios of {module.source}")
     for modifier in module.modifiers:
         _verify_modifier(modifier)
-    for scenario in module.scenarios:
+    keys = set[str]()
+    for scenario in every:
+        if scenario.base is not None and scenario.base not in keys:
+            raise InternalCompilerError(f"{scenario.name}: no base {scenario.base!r} above it")
+        keys.add(scenario.key)
         _ScenarioVerifier(scenario).run()
 
 
@@ -70,8 +75,9 @@ def _require_unique(names: Iterator[str], what: str) -> None:
 
 
 class _ScenarioVerifier:
-    def __init__(self, scenario: Scenario) -> None:
+    def __init__(self, scenario: AbstractScenario) -> None:
         self.scenario = scenario
+        self.tree = walk_behaviors(scenario.body) if isinstance(scenario, Scenario) else ()
         self.fields = {d.name for d in scenario.declarations}
         self.actors = {
             d.name
@@ -84,7 +90,7 @@ class _ScenarioVerifier:
     def run(self) -> None:
         scenario = self.scenario
         _require_unique((d.name for d in scenario.declarations), f"fields of {scenario.name}")
-        for member in walk_behaviors(scenario.body):
+        for member in self.tree:
             if member.label is not None:
                 self.labels.append(member.label)
         _require_unique(iter(self.labels), f"labels of {scenario.name}")
@@ -105,7 +111,7 @@ class _ScenarioVerifier:
             self.require(placement.actor in self.actors, f"placement of {placement.actor!r}")
             for modifier in placement.modifiers:
                 self.check_modifier(modifier)
-        for member in walk_behaviors(scenario.body):
+        for member in self.tree:
             self.check_behavior(member)
 
     def require(self, holds: bool, what: str) -> None:

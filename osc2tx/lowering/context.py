@@ -55,8 +55,8 @@ class LoweringContext:
         own_names: Names of the members of the scenario.
         event_fields: Names of the events that fields such as `x` in `@e as x` stand for.
         invoked: The scenarios and composed actions that it invokes, in order of use.
-        drawn: Parameters that stand for ranges in its tree, and structs that constraints of
-            invocations describe, in order of use.
+        drawn: Parameters that stand for ranges in its tree, structs that constraints of
+            invocations describe, and variables of modifiers, in order of use.
         place: Where the names in an expression are looked up, in constraints.
         it: What `it` is there.
         types: Types of declared objects that are not the library's, in order of use.
@@ -69,17 +69,19 @@ class LoweringContext:
         object_events: Events of its objects that it waits for, by path, in order of use.
         object_variables: Sampled variables of its objects that it reads, by path: the field, and
             the object.
+        attached: Events and variables of the modifier or extended action that is looked at, and
+            their names in the scenario.
         locals: What parameters stand for, where they are not those of a method.
         actor: What `actor` is in a modifier; elsewhere it is the field of the scenario.
         expanding: Methods of modifiers that the expression is the body of, the outermost first.
         purity: Methods, and whether their results do not depend on the world.
-        mentioned: The fields that some expression of the program speaks of, and in which files.
+        mentioned: The fields that some expression of the program reads, and in which files.
         handed_in: Parameters of invoked scenarios that some invocation gives a value.
         computed: Those of them that some invocation gives no plain name.
         same_actors: The actors of the scenario that are others.
         object_types: The types of which the program may have objects.
-        constants: What constraints that set a parameter to a constant say of it, and what is left
-            of its domain then.
+        constants: Values of parameters that constraints set to a constant, with the rest of their
+            domains.
     """
 
     model: SemanticModel
@@ -90,7 +92,7 @@ class LoweringContext:
     own_names: frozenset[str] = frozenset()
     event_fields: dict[int, str] = field(default_factory=dict)
     invoked: list[ScenarioSymbol | ActionSymbol] = field(default_factory=list)
-    drawn: list[ir.Parameter | ir.Struct | ir.Actor] = field(default_factory=list)
+    drawn: list[ir.Parameter | ir.Struct | ir.Actor | ir.Variable] = field(default_factory=list)
     types: list[ActorSymbol | StructSymbol] = field(default_factory=list)
     combined: dict[str, ir.UserType] = field(default_factory=dict)
     actions: list[ActionSymbol] = field(default_factory=list)
@@ -104,6 +106,7 @@ class LoweringContext:
     object_variables: dict[str, tuple[FieldSymbol, ir.Expression]] = field(default_factory=dict)
     expanding: tuple[str, ...] = ()
     purity: dict[MethodSymbol, bool] = field(default_factory=dict)
+    attached: Mapping[Symbol, str] = field(default_factory=dict)
     locals: Mapping[str, ir.Expression] = field(default_factory=dict)
     actor: ir.Expression | None = None
     mentioned: Mapping[FieldSymbol, frozenset[str]] = field(default_factory=dict)
@@ -165,6 +168,7 @@ class LoweringContext:
             methods=dict(self.methods),
             object_events=dict(self.object_events),
             object_variables=dict(self.object_variables),
+            constants={},
         )
 
     def draw(
@@ -176,9 +180,9 @@ class LoweringContext:
 
         Args:
             name: The name.
-            domain: What it is drawn from; `None` if settings must give it.
+            domain: The domain to draw from; `None` if settings must give it.
             type_: Its type.
-            span: Its place; without one it is the place of the domain.
+            span: Its position; without one, the position of the domain.
         """
         place = span or (domain.span if domain is not None else None)
         assert place is not None

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 from osc2tx import ir
 from osc2tx.analysis import ConstraintAnalysis
 from osc2tx.analysis.same_actors import same_actors
 from osc2tx.diagnostics import DiagnosticSink
+from osc2tx.ir.compare import field_names
 from osc2tx.lowering.behavior.composed_behaviors import (
     Composed,
     actor_type_of,
+    has_behavior,
     is_composed,
     lineage_of,
 )
@@ -59,17 +62,16 @@ def lower(
     options: CompileOptions,
     sink: DiagnosticSink,
 ) -> ir.Module:
-    """Lower the scenarios of the root file, and imported ones that they invoke.
+    """Lower the scenarios of the root file, and imported ones that they invoke or inherit.
 
-    What is refused is reported and left out.
+    Rejected scenarios are reported and left out.
     """
-    lowered: dict[int, ir.Scenario | None] = {}
-    invoked: set[int] = set()
+    lowered: dict[Composed, ir.AbstractScenario | None] = {}
+    invoked: set[Composed] = set()
     used: list[sym.ActorSymbol | sym.StructSymbol] = []
     actions: list[sym.ActionSymbol] = []
     applied: list[sym.ModifierSymbol] = []
     pending: list[Composed] = list(model.scenarios)
-    composed: list[Composed] = []
     program = LoweringContext(
         model,
         analysis,
@@ -95,32 +97,36 @@ def lower(
     )
     while pending:
         scenario = pending.pop(0)
-        if id(scenario) in lowered:
+        if scenario in lowered:
             continue
-        ctx = program.of_scenario(
+        is_inherited_only = scenario not in model.scenarios and scenario not in invoked
+        ctx = (program.quiet() if is_inherited_only else program).of_scenario(
             frozenset(name for each in lineage_of(scenario) for name in each.members),
             same_actors(analysis.types[scenario]),
         )
-        is_imported = scenario not in model.scenarios
-        composed.append(scenario)
-        lowered[id(scenario)] = _lower_scenario(
-            ctx, scenario, is_imported=is_imported, first_come=options.dialect == "carla"
+        made = _lower_scenario(
+            ctx,
+            scenario,
+            is_imported=scenario not in model.scenarios,
+            first_come=options.dialect == "carla",
         )
-        pending.extend(ctx.invoked)
-        invoked.update(map(id, ctx.invoked))
-    report_unsupported_members(program, used, actions, composed)
-    scenarios = present(
-        [
-            scenario and replace(scenario, is_invoked=key in invoked)
-            for key, scenario in lowered.items()
-        ]
-    )
+        is_refused = is_inherited_only and ctx.sink.has_errors  # its own file reports it
+        lowered[scenario] = None if is_refused else made
+        invoked.update(ctx.invoked)
+        pending += [*ctx.invoked, *_user_base(scenario)]
+    report_unsupported_members(program, used, actions, tuple(lowered))
+    found = _bases_first(lowered)
     module = ir.Module(
         source=model.root.span.source.name,
         standard=options.standard,
         dialect=options.dialect,
         one_of=options.one_of,
-        scenarios=scenarios,
+        scenarios=tuple(
+            replace(each, is_invoked=symbol in invoked)
+            for symbol, each in found.items()
+            if isinstance(each, ir.Scenario)
+        ),
+        bases=tuple(each for each in found.values() if not isinstance(each, ir.Scenario)),
         comments=_head_comments(model.root),
         units=lower_units(model),
         types=lower_types(program, used),
@@ -129,6 +135,30 @@ def lower(
     modifiers = dict.fromkeys((*own_modifiers(model), *applied))
     module = replace(module, modifiers=lower_modifiers(program, modifiers))
     return replace(module, enums=lower_enums(model, module))
+
+
+def _user_base(scenario: Composed) -> tuple[Composed, ...]:
+    """Return the base of a scenario, if a module has a class for it."""
+    base = scenario.base
+    is_scenario = isinstance(base, sym.ScenarioSymbol) and base.origin == "user"
+    return (base,) if base is not None and (is_scenario or is_composed(base)) else ()
+
+
+def _bases_first(
+    lowered: Mapping[Composed, ir.AbstractScenario | None],
+) -> dict[Composed, ir.AbstractScenario]:
+    """Return what could be lowered, each below its base, which it refers to if it adds to it."""
+    found: dict[Composed, ir.AbstractScenario] = {}
+    for symbol in lowered:
+        for each in reversed(list(lineage_of(symbol))):
+            made = lowered.get(each)
+            if each in found or made is None:
+                continue
+            base = next((found[above] for above in _user_base(each) if above in found), None)
+            if base is not None and ir.additions(made, base) is not None:
+                made = replace(made, base=base.key)
+            found[each] = made
+    return found
 
 
 def _own_actions(model: SemanticModel) -> Iterator[sym.ActionSymbol]:
@@ -161,7 +191,7 @@ def _head_comments(file: ast.File) -> tuple[str, ...]:
 
 def _lower_scenario(
     ctx: LoweringContext, scenario: Composed, *, is_imported: bool, first_come: bool
-) -> ir.Scenario | None:
+) -> ir.AbstractScenario | None:
     node = scenario.node
     statements = _statements(scenario)
     constraints = ConstraintLowering.of_scenario(ctx, scenario)
@@ -175,20 +205,21 @@ def _lower_scenario(
     shared = GlobalLowering(ctx, scenario, constraints)
     methods = lowering.lower_methods()
     tree = lower_body(ctx, scenario, statements, constraints, standing, duration)
-    if tree is None:
+    if tree is None and has_behavior(scenario):
         return None
     times = TimeSystem(ctx, declarations)
-    if not first_come:
-        tree = times.solve(tree)
-    placements, body = PlacementLowering(ctx).split(labelled_once(tree))
-    if body is None:
-        body = nothing_left(scenario)
+    body: ir.Behavior | None = None
+    placements: tuple[ir.Placement, ...] = ()
+    if tree is not None:
+        timed = tree if first_come else times.solve(tree)
+        placements, body = PlacementLowering(ctx).split(labelled_once(timed))
+        body = body or nothing_left(scenario)
     left_over = constraints.left_over()
     coverage = lower_coverage(ctx, scenario)
     object_variables = lowering.lower_object_variables()
     type_methods = lowering.lower_type_methods()
     global_parameters = shared.lower()
-    return ir.Scenario(
+    made = ir.AbstractScenario(
         name=scenario.qualified_name,
         span=node.name.span,
         comments=statement_comments(node),
@@ -206,7 +237,6 @@ def _lower_scenario(
         ),
         methods=(*methods, *type_methods),
         placements=merged(ctx, (*_member_placements(ctx, statements, standing), *placements)),
-        body=body,
         end_comments=node.end_comments if isinstance(node, ast.ScenarioDeclaration) else (),
         overrides=lower_overrides(ctx, statements),
         coverage=coverage,
@@ -214,6 +244,11 @@ def _lower_scenario(
         is_imported=is_imported,
         is_action=isinstance(scenario, sym.ActionSymbol),
     )
+    return made if body is None else ir.Scenario(**_fields(made), body=body)
+
+
+def _fields(scenario: ir.AbstractScenario) -> dict[str, Any]:
+    return {name: getattr(scenario, name) for name in field_names(scenario)}
 
 
 def _own_actor(ctx: LoweringContext, scenario: Composed) -> tuple[ir.Actor, ...]:

@@ -1,7 +1,7 @@
 """Reports members of types that modules do not support.
 
-What the members of a type mean is mostly said where they are used: fields and constraints by the
-objects, methods by their calls, events by those who wait for them. The rest has to be looked for.
+Members of a type are mostly reported where they are used: fields and constraints by the objects,
+methods by their calls, events by waits for them. The rest has to be searched.
 """
 
 from __future__ import annotations
@@ -89,7 +89,8 @@ def _report(ctx: LoweringContext, owner: sym.TypeSymbol, statement: ast.Statemen
             f"`{item.kind}` in an action is not supported yet",
             help="sample it in the scenario, `cover(name, expression: object.member)`",
         )
-    if isinstance(statement, ast.DoDirective | ast.OnDirective):
+    is_attached = owner.origin != "user" and isinstance(statement, ast.OnDirective)
+    if isinstance(statement, ast.DoDirective | ast.OnDirective) and not is_attached:
         word = "do" if isinstance(statement, ast.DoDirective) else "on"
         ctx.unsupported(
             "OSC506",

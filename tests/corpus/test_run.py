@@ -72,7 +72,7 @@ def load(path: Path, name: str) -> ModuleType:
 def own_scenarios(module: ModuleType) -> list[type[Scenario]]:
     """Return those that one may run by themselves, as `main` of the module has them."""
     classes = [each for each in vars(module).values() if isinstance(each, type)]
-    own = [each for each in classes if issubclass(each, Scenario) and each is not Scenario]
+    own = [each for each in classes if issubclass(each, Scenario) and not each.is_abstract()]
     return [each for each in own if "." not in each.name]
 
 

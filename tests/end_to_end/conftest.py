@@ -32,7 +32,7 @@ def load(
         classes = [
             value
             for value in vars(module).values()
-            if isinstance(value, type) and issubclass(value, Scenario) and value is not Scenario
+            if isinstance(value, type) and issubclass(value, Scenario) and not value.is_abstract()
         ]
         return next((each for each in classes if each.name == "top"), classes[-1])
 

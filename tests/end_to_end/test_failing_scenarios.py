@@ -177,7 +177,7 @@ ERRORS: list[tuple[Case, type[ScenarioError]]] = [
             "    position(at_point: p, at: start)",
             0.0,
             3,
-            "walker overlaps npc at its start",
+            "walker overlaps npc by",
             POINT.format("p", 90, -8.75),
             beside=True,
         ),

@@ -67,7 +67,7 @@ def classes(tmp_path_factory: pytest.TempPathFactory, load: Load) -> dict[str, t
     return {
         value.name: value
         for value in vars(module).values()
-        if isinstance(value, type) and issubclass(value, Scenario) and value is not Scenario
+        if isinstance(value, type) and issubclass(value, Scenario) and not value.is_abstract()
     }
 
 

@@ -68,7 +68,9 @@ def starts(trace: Trace) -> dict[str, dict[str, float]]:
 
 
 def test_who_would_overlap_starts_nowhere_else(play: Callable[..., Trace]) -> None:
-    with pytest.raises(PlacementError, match="b: somebody else is 201 m from the start of road 1"):
+    with pytest.raises(
+        PlacementError, match=r"b overlaps a by 3\.60 m 201 m from the start of road 1"
+    ):
         play(FAR.format(first=200, second=201, lane="lane(2, at: start)"))
 
 

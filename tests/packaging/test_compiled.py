@@ -23,6 +23,8 @@ for path in sorted(folder.rglob("*.py")):
     for scenario in vars(importlib.import_module(path.stem)).values():
         if isinstance(scenario, type) and scenario.__module__ == path.stem:
             if issubclass(scenario, Scenario) and "." not in scenario.name:
+                if scenario.is_abstract():
+                    continue
                 try:
                     lines = run_scenario(scenario, RunSettings(max_time=30.0)).trace_lines
                 except ScenarioError as error:

@@ -9,6 +9,7 @@ from typing import TypeAlias
 from osc2tx.analysis.library_facts import is_library_actor
 from osc2tx.analysis.tree_walk import NodesByKind, do_directives, nodes_below
 from osc2tx.diagnostics import DiagnosticSink, Label
+from osc2tx.diagnostics.suggestions import nearest
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import is_subtype, supertypes
@@ -30,12 +31,12 @@ SETTINGS: tuple[type[ast.Node], ...] = (
 DIVISIONS = frozenset({ast.BinaryOperator.DIVIDE, ast.BinaryOperator.MODULO})
 Rule: TypeAlias = ast.KeepConstraint | ast.RemoveDefault
 CONSTRAINTS = (ast.KeepConstraint, ast.RemoveDefault)
-"""What is looked at as a whole: it reads fields only where it relates several."""
+"""Types that are used as a whole: a constraint reads their fields only where it relates several."""
 
 
 @dataclass(slots=True, eq=False)
 class Usage:
-    """What the user's files use.
+    """The names that the user's files use.
 
     Attributes:
         emitted: Events that some `emit` emits.
@@ -47,7 +48,7 @@ class Usage:
         settings: What gives values to fields and parameters: declarations, calls, invocations.
         divisions: Divisions and remainders.
         demanded: Constraints and defaults.
-        evaluated: Those of scenarios: there is an instance whose values they give.
+        evaluated: Constraints and defaults of scenarios: they give values to an instance.
         casts: Conversions outside of constraints.
         declared: Events and the types that declare them, by the type at the top of the inheritance
             and their name.
@@ -68,7 +69,7 @@ class Usage:
 
 
 def find_usage(model: SemanticModel, nodes: Mapping[ast.File, NodesByKind]) -> Usage:
-    """Return what the user's files use.
+    """Return the names that the user's files use.
 
     Args:
         model: The checked program.
@@ -213,6 +214,15 @@ def _ancestor(symbol: sym.TypeSymbol) -> sym.TypeSymbol:
 
 
 def _report_emits(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> None:
+    """Report an emitted event without use, if the one with a similar name is meant.
+
+    Others mark an instant in the trace.
+    """
+    in_vain = {
+        symbol.name
+        for symbol in usage.awaited - usage.emitted
+        if isinstance(symbol, sym.EventSymbol) and symbol.origin == "user"
+    }
     for emit in usage.emits:
         symbol = model.symbol_of(emit.event)
         if not isinstance(symbol, sym.EventSymbol) or symbol.origin != "user":
@@ -221,16 +231,20 @@ def _report_emits(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> N
             continue  # whoever invokes it may wait for its events
         if symbol in usage.awaited or set(_redeclared(usage, symbol)) & usage.awaited:
             continue
+        meant = nearest(symbol.name, in_vain)
+        if meant is None:
+            continue
         sink.report(
             "OSC431",
             emit.event.span,
-            f"nothing waits for event `{symbol.name}`",
+            f"nothing waits for event `{symbol.name}`, and nothing emits `{meant}`",
+            help=f"did you mean `{meant}`?",
             labels=[] if symbol.is_implicit else [Label(symbol.span, "declared here")],
         )
 
 
 def _is_made_to_be_invoked(owner: sym.TypeSymbol | None) -> bool:
-    """Whether a behavior has an actor, which only an invocation names; `dut` names nobody."""
+    """Whether a behavior has an actor, which only an invocation names; `dut` has none."""
     actor = owner.actor if isinstance(owner, sym.BehaviorSymbol) else None
     return actor is not None and actor.origin != "prelude"
 

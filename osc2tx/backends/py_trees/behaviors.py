@@ -6,7 +6,7 @@ stand inline, nested as they are in the source.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import assert_never
 
 from osc2tx import ir
@@ -27,9 +27,7 @@ from osc2tx.backends.py_trees.naming import (
     composition_names,
     identifier,
     invocation_names,
-    method_name,
 )
-from osc2tx.backends.py_trees.source_map import ScenarioMap
 from osc2tx.backends.py_trees.user_actions import action_key, is_function
 from osc2tx.backends.py_trees.view import (
     ArgumentView,
@@ -40,10 +38,6 @@ from osc2tx.backends.py_trees.view import (
 )
 from osc2tx_shared.classes import replace
 
-# Compositions nested deeper than this inside one method get a method of their own: far below
-# CPython's limits (200 brackets, 99 indents), and about what a reader can follow.
-MAX_INLINE_DEPTH = 6
-
 BEHAVIOUR = name_expression(PyName("Behaviour"))
 CLASSES = {ir.Serial: "Serial", ir.Parallel: "Parallel", ir.OneOf: "OneOf"}
 
@@ -53,33 +47,33 @@ class BehaviorTreeBuilder:
 
     Args:
         calls: Writer of calls.
-        names: Names of the scenario's fields and methods.
+        phases: Names of the methods for parts of the tree.
         classes: Names of the module's scenario classes, by key of the scenario.
-        source_map: Where the nodes' lines go, in the pre-order of the tree.
         actions: The actions of the user's own.
     """
 
     def __init__(
         self,
         calls: CallWriter,
-        names: NameTable,
+        phases: Mapping[ir.Behavior, PyName],
         classes: NameTable,
-        source_map: ScenarioMap,
         actions: Iterable[ir.UserAction],
     ) -> None:
         self._actions = {action.qualified_name: action for action in actions}
         self._classes = classes
         self._calls = calls
-        self._names = names
-        self._source_map = source_map
+        self._phases = phases
         self._written: list[MethodView] = []
-        self._wanted: set[str] = set()
-        self._compositions: dict[ir.Behavior, str] = {}
+        self._compositions: dict[ir.Behavior, PyExpr] = {}
         self._invocations: dict[ir.Behavior, InvocationName] = {}
 
     def write(self, scenario: ir.Scenario) -> tuple[MethodView, ...]:
         """Return `behavior` and the methods it calls, in source order."""
-        self._compositions = composition_names(scenario.body)
+        self._compositions = {
+            node: literal(name) for node, name in composition_names(scenario.body).items()
+        }
+        if ir.is_named_after(scenario):  # a subclass is called otherwise
+            self._compositions[scenario.body] = _own_name(scenario)
         self._invocations = invocation_names(scenario.body)
         self._method(PyName("behavior"), scenario.body)
         first = replace(self._written[0], statements=tuple(map(_override, scenario.overrides)))
@@ -91,7 +85,7 @@ class BehaviorTreeBuilder:
         A short comment above the phase is its docstring, a longer one stays above.
         """
         index = len(self._written)
-        value = self._node(node, depth=0)
+        value = self._node(node)
         story = docstring_of(node.comments)
         method = MethodView(
             signature=signature(name, (), BEHAVIOUR),
@@ -101,27 +95,19 @@ class BehaviorTreeBuilder:
         )
         self._written.insert(index, method)
 
-    def _member(self, node: ir.Behavior, *, depth: int) -> ArgumentView:
+    def _member(self, node: ir.Behavior) -> ArgumentView:
         """Write a member of a composition: in place, or as the call of its own method."""
-        if not isinstance(node, ir.Serial | ir.Parallel | ir.OneOf):
-            return self._node(node, depth=depth)
-        if not node.is_phase and depth <= MAX_INLINE_DEPTH:
-            return self._node(node, depth=depth)
-        wanted = method_name(node)
-        suffix = "" if wanted in self._wanted else "_"  # else it is a field that has the name
-        self._wanted.add(wanted)
-        name = self._names.add(f"method at {node.span.start}", wanted, suffix)
+        name = self._phases.get(node)
+        if name is None:
+            return self._node(node)
         self._method(name, node)
         return ArgumentView(call=CallView(self_attribute(name)))
 
-    def _node(self, node: ir.Behavior, *, depth: int) -> ArgumentView:
+    def _node(self, node: ir.Behavior) -> ArgumentView:
         until = (
             () if isinstance(node, ir.Wait | ir.Emit | ir.Finish | ir.Call | ir.On) else node.until
         )
-        if until:
-            self._source_map.nodes.append(self._source_map.place_of(until[0].span))
-        self._source_map.nodes.append(self._source_map.place_of(node.span))
-        call = self._call(node, depth=depth)
+        call = self._call(node)
         if until:
             triggers = self._calls.triggers(until)
             call = self._calls.runtime_call("Until", ArgumentView(call=call), *triggers)
@@ -129,10 +115,10 @@ class BehaviorTreeBuilder:
         above, behind = apart(node.comments)
         return ArgumentView(call=call, comments=above, trailing=behind)
 
-    def _call(self, node: ir.Behavior, *, depth: int) -> CallView:
+    def _call(self, node: ir.Behavior) -> CallView:
         match node:
             case ir.Serial() | ir.Parallel() | ir.OneOf():
-                return self._composition(node, depth=depth)
+                return self._composition(node)
             case ir.Invoke():
                 return self._invocation(node)
             case ir.InvokeScenario():
@@ -153,15 +139,15 @@ class BehaviorTreeBuilder:
                 return self._calls.runtime_call("Call", *self._label(node.label), function)
             case ir.On(trigger=trigger, reactions=reactions):
                 what, *condition = self._calls.trigger(trigger)
-                do = (self._node(reaction, depth=depth + 1) for reaction in reactions)
+                do = map(self._node, reactions)
                 call = self._calls.runtime_call("On", what, *do, *condition)
                 return replace(call, exploded=True)
             case _:
                 assert_never(node)
 
-    def _composition(self, node: ir.Composition, *, depth: int) -> CallView:
-        name = code(literal(self._compositions[node]))
-        members = tuple(self._member(member, depth=depth + 1) for member in node.members)
+    def _composition(self, node: ir.Composition) -> CallView:
+        name = code(self._compositions[node])
+        members = tuple(map(self._member, node.members))
         arguments = (name, *members, *self._composition_arguments(node))
         function = name_expression(self._calls.use_name(CLASSES[type(node)]))
         return CallView(
@@ -221,6 +207,11 @@ class BehaviorTreeBuilder:
 
     def _label(self, label: str | None) -> tuple[ArgumentView, ...]:
         return () if label is None else (code(literal(label)),)
+
+
+def _own_name(scenario: ir.Scenario) -> PyExpr:
+    """Write the name of a scenario, which is another one in a subclass."""
+    return self_attribute(PyName("short_name" if "." in scenario.name else "name"))
 
 
 def docstring_of(lines: Sequence[str]) -> str:

@@ -12,6 +12,7 @@ from osc2tx.backends.py_trees.coverage import render_coverage_model
 from osc2tx.backends.py_trees.environment import environment
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.formatting import format_module
+from osc2tx.backends.py_trees.members import members_of
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls, never_called
 from osc2tx.backends.py_trees.modifier_functions import write_modifiers
 from osc2tx.backends.py_trees.naming import NameTable, identifier, module_name
@@ -55,7 +56,7 @@ ONE_OF_POLICIES = {
 
 @dataclass(frozen=True, slots=True)
 class GeneratedModule:
-    """What the backend makes of one source file.
+    """The outputs of the backend for one source file.
 
     Attributes:
         source: Name of the source.
@@ -88,12 +89,13 @@ def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
     defined = [each for each in declarations(module) if key_of(each) not in sharing.homes]
     types = [each for each in defined if isinstance(each, ir.UserType)]
     actions = [each for each in defined if isinstance(each, ir.UserAction)]
-    scenarios = [each for each in defined if isinstance(each, ir.Scenario)]
+    scenarios = [each for each in defined if isinstance(each, ir.AbstractScenario)]
     table = TypeTable(module.types, names, uses, sharing.homes.keys())
     enums = [each for each in defined if isinstance(each, ir.UserEnum)]
     for enum in enums:  # those that nothing here uses as well: others may
         table.annotation(ir.ValueType(ir.Kind.ENUM, enum.name, members=enum.members))
-    type_methods = TypeMethods(module.types, module.scenarios)
+    every = (*module.bases, *module.scenarios)
+    type_methods = TypeMethods(module.types, every)
     type_views = write_types(types, table, type_methods, uses)
     plain = ExpressionWriter(NameTable(), uses.unit, uses.name)
     action_views = write_actions(actions, names, table, uses, plain.write)
@@ -103,10 +105,13 @@ def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
     ]
     functions = ModifierCalls(module.modifiers, names)
     modifier_views = write_modifiers(modifiers, functions, names, table, type_methods, uses)
-    main = main_scenario(module) if len(scenarios) > 1 else None
+    complete = [each for each in scenarios if isinstance(each, ir.Scenario)]
+    main = main_scenario(module) if len(complete) > 1 else None
+    members = members_of(module, type_methods)
     writers = [
         ScenarioWriter(
             scenario,
+            members[scenario.key],
             module.one_of,
             is_first_come(module),
             scenario is main,
@@ -121,8 +126,10 @@ def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
     ]
     scenario_views = [writer.write() for writer in writers]
     siblings, shown = sibling_imports(sharing, names), shown_scenario(module)
-    for name in ("Behaviour", "Scenario") if scenarios else ():
-        uses.name(name)
+    if any(view.methods for view in scenario_views) or shown is not None:
+        uses.name("Behaviour")
+    if any(not view.is_derived for view in scenario_views):
+        uses.name("Scenario")
     if shown is not None:
         uses.name("main")
     view = ModuleView(
@@ -145,13 +152,13 @@ def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
     text = environment().get_template("module.py.j2").render(module=view)
     maps = {s.name: w.source_map for s, w in zip(scenarios, writers, strict=True)}
     stem = module_name(module.source)
-    model = render_coverage_model(module.source, scenarios)
+    model = render_coverage_model(module.source, complete)
     python = format_module(text)
     return GeneratedModule(module.source, stem, python, render_source_map(maps), model)
 
 
 def _all_names(module: ir.Module, sharing: Sharing) -> NameTable:
-    """Name what a module defines and imports; what its own file declares is named first."""
+    """Name the definitions and imports of a module; those of its own file are named first."""
     names = own_names(module)
     for key, home in sharing.homes.items():
         names.add(key, home.name)
@@ -237,7 +244,7 @@ def shown_scenario(module: ir.Module) -> ir.Scenario | None:
 
 
 def _is_given(declaration: ir.Declaration) -> bool:
-    """Whether only an invoker can say what an object is."""
+    """Whether only the invoker decides the type of an object."""
     return isinstance(declaration, ir.Actor) and declaration.is_given
 
 
@@ -251,8 +258,9 @@ def _policies(module: ir.Module) -> Iterator[str]:
 
 
 def _docstring(module: ir.Module) -> tuple[PyDocLine, ...]:
-    own: Sequence[ir.Scenario | ir.UserType | ir.UserEnum | ir.UserModifier]
-    own = own_scenarios(module)
+    own: Sequence[ir.AbstractScenario | ir.UserType | ir.UserEnum | ir.UserModifier]
+    bases = [each for each in module.bases if not each.is_imported]
+    own = [*bases, *own_scenarios(module)]
     words = ("Scenario", "Scenarios")
     if not own:
         own = [t for t in module.types if is_own(t, module)]

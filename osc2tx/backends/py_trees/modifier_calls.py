@@ -35,7 +35,7 @@ class ModifierCalls:
 
         Args:
             application: Where it is applied.
-            calls: What is left there of what it stands for.
+            calls: The library modifiers that remain there.
         """
         modifier = self._modifiers.get(application.key)
         given = {argument.parameter: argument.value for argument in application.arguments}
@@ -82,7 +82,7 @@ class ModifierCalls:
         ]
 
     def hidden(self, modifier: ir.UserModifier) -> frozenset[str]:
-        """Return what a function speaks of, so that no parameter of it may have that name."""
+        """Return the names that a function reads, which its parameters must not have."""
         applied = [each for call in modifier.calls for each in call.applied]
         values = [argument.value for call in modifier.calls for argument in call.arguments]
         values += [argument.value for each in applied for argument in each.arguments]
@@ -101,8 +101,9 @@ def never_called(module: ir.Module) -> set[str]:
     """
     functions = ModifierCalls(module.modifiers, NameTable())
     nodes = [node for each in module.scenarios for node in ir.walk_behaviors(each.body)]
+    every = (*module.bases, *module.scenarios)
     lists = [node.modifiers for node in nodes if isinstance(node, ir.Invoke)]
-    lists += [placement.modifiers for each in module.scenarios for placement in each.placements]
+    lists += [placement.modifiers for each in every for placement in each.placements]
     applied, called = set[str](), set[str]()
     for calls in lists:
         functions.note(calls, applied, called)

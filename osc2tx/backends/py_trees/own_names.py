@@ -1,6 +1,6 @@
-"""Names of what a module defines, and keys for them.
+"""Names of the definitions of a module, and keys for them.
 
-What a file declares itself is named first, by its text alone: whatever it imports or is imported
+Definitions of its own file are named first, by its text alone: whatever it imports or is imported
 by, its classes have the same names.
 """
 
@@ -21,9 +21,11 @@ from osc2tx.backends.py_trees.user_actions import action_key, has_function, prot
 from osc2tx.backends.py_trees.uses import LIBRARY
 from osc2tx.catalogue import catalogue, object_tables
 
-Declared: TypeAlias = ir.Scenario | ir.UserType | ir.UserEnum | ir.UserAction | ir.UserModifier
+Declared: TypeAlias = (
+    ir.AbstractScenario | ir.UserType | ir.UserEnum | ir.UserAction | ir.UserModifier
+)
 
-# What a module has of the runtime, of Python and of itself; none of its own names must hide it.
+# Names from the runtime, from Python and of the module; none of its own names must hide them.
 RUNTIME_CLASSES = frozenset(
     {
         *ACTOR_CLASSES.values(),
@@ -108,7 +110,7 @@ ROOT_FUNCTION = "create_root"
 def key_of(declared: Declared) -> str:
     """Return what tells a declaration apart from all others of a module."""
     match declared:
-        case ir.Scenario() | ir.UserModifier():
+        case ir.AbstractScenario() | ir.UserModifier():
             return declared.key
         case ir.UserType():
             return class_key(declared.name)
@@ -126,7 +128,8 @@ def is_own(declared: Declared, module: ir.Module) -> bool:
 def declarations(module: ir.Module) -> tuple[Declared, ...]:
     """Return all that a module has a name for."""
     actions = (each for each in module.actions if has_function(each.qualified_name))
-    return (*module.scenarios, *module.types, *module.enums, *actions, *module.modifiers)
+    scenarios = (*module.bases, *module.scenarios)
+    return (*scenarios, *module.types, *module.enums, *actions, *module.modifiers)
 
 
 def has_module(module: ir.Module) -> bool:
@@ -136,7 +139,7 @@ def has_module(module: ir.Module) -> bool:
     have the name of the file, and the module would hide it.
     """
     own = [each for each in declarations(module) if is_own(each, module)]
-    has_scenario = any(isinstance(each, ir.Scenario) for each in own)
+    has_scenario = any(isinstance(each, ir.AbstractScenario) for each in own)
     return has_scenario or (
         any(isinstance(each, ir.UserType | ir.UserEnum | ir.UserModifier) for each in own)
         and not any(isinstance(each, ir.UserAction) for each in own)
@@ -144,7 +147,7 @@ def has_module(module: ir.Module) -> bool:
 
 
 def own_names(module: ir.Module) -> NameTable:
-    """Return the names of what the file of a module declares itself."""
+    """Return the names of the definitions in the file of a module."""
     library = object_tables().enums | object_tables().units | catalogue().modifiers.keys()
     runtime = RUNTIME_CLASSES | RUNTIME_FUNCTIONS
     extended = {class_name(each.name) for each in module.types if each.is_of_library}
@@ -156,10 +159,10 @@ def own_names(module: ir.Module) -> NameTable:
 
 
 def add_name(names: NameTable, declared: Declared) -> None:
-    """Name what a module defines."""
+    """Name the definitions of a module."""
     key = key_of(declared)
     match declared:
-        case ir.Scenario():
+        case ir.AbstractScenario():
             names.add(key, class_name(declared.name.rpartition(".")[2]), "Scenario")
         case ir.UserType():
             names.add(key, class_name(declared.name), "Type")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.behaviors import BehaviorTreeBuilder
@@ -18,8 +18,9 @@ from osc2tx.backends.py_trees.code import (
 )
 from osc2tx.backends.py_trees.coverage import CoverageWriter, written_unit
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
+from osc2tx.backends.py_trees.members import Members
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
-from osc2tx.backends.py_trees.naming import SCENARIO_ATTRIBUTES, NameTable, identifier
+from osc2tx.backends.py_trees.naming import NameTable
 from osc2tx.backends.py_trees.objects import ObjectWriter
 from osc2tx.backends.py_trees.source_map import ScenarioMap
 from osc2tx.backends.py_trees.type_methods import TypeMethods
@@ -29,6 +30,7 @@ from osc2tx.backends.py_trees.view import (
     ArgumentView,
     CallView,
     FunctionView,
+    MethodView,
     ScenarioView,
     StatementView,
     signature,
@@ -53,20 +55,22 @@ class ScenarioWriter:
 
     Args:
         scenario: The scenario.
+        members: What its class has, and how it is called.
         one_of: Policy of `one_of` in this module.
         first_come: Durations and `until` end with whichever comes first.
-        is_main: It runs if nobody says which of the module is to.
+        is_main: It is the default scenario of the module.
         classes: Names of the module's scenario classes, by key of the scenario.
         types: All types that the module knows.
-        type_methods: The methods of types that stand in their classes.
+        type_methods: The methods of types that are in their classes.
         functions: The modifiers of the user's own that the module has as functions.
-        uses: What the module has to import.
+        uses: Collects the imports of the module.
         actions: The actions of the user's own.
     """
 
     def __init__(
         self,
-        scenario: ir.Scenario,
+        scenario: ir.AbstractScenario,
+        members: Members,
         one_of: str,
         first_come: bool,
         is_main: bool,
@@ -84,10 +88,8 @@ class ScenarioWriter:
         self._first_come = first_come
         self._is_main = is_main
         self._classes = classes
-        self._names = NameTable(SCENARIO_ATTRIBUTES)
-        self._methods = [each for each in scenario.methods if each.name not in type_methods]
-        for member in (*scenario.declarations, *self._methods):
-            self._names.add(member.name, identifier(member.name))
+        self._members, self._own, self._names = members, members.own, members.names
+        self._methods = [each for each in self._own.methods if each.name not in type_methods]
         self._types = types
         expressions = ExpressionWriter(
             self._names,
@@ -106,33 +108,50 @@ class ScenarioWriter:
 
     def write(self) -> ScenarioView:
         """Return the view model; afterwards `source_map` is complete."""
-        declarations = tuple(
-            self._declaration(declaration, is_first=index == 0)
-            for index, declaration in enumerate(self._scenario.declarations)
-        )
+        self._note_places()
+        own, base = self._own, self._members.base
         functions = tuple(
             self._function(method, method.expression)
             for method in self._methods
             if method.expression is not None
         )
-        placements = tuple(self._placement(placement) for placement in self._scenario.placements)
-        methods = BehaviorTreeBuilder(
-            self._calls, self._names, self._classes, self.source_map, self._actions
-        ).write(self._scenario)
+        statements = (*self._externals(), *self._declared(own.ahead), *self._narrowed())
+        after = (*self._reassigned(), *self._declared(own.declarations))
         return ScenarioView(
             class_name=self._classes[self._scenario.key],
+            base=PyName("Scenario") if base is None else self._classes[base.key],
+            is_derived=base is not None,
             docstring=tuple(PyDocLine.of(line) for line in self._scenario.comments),
             attributes=self._attributes(),
-            declarations=(
-                *self._externals(),
-                *declarations,
-                *self._constraints(),
-                *self._coverage(),
-            ),
+            ahead=statements,
+            declarations=(*after, *self._constraints(), *self._coverage()),
             functions=functions,
-            placements=placements,
-            methods=methods,
+            places_besides=not own.places_anew,
+            placements=tuple(map(self._placement, own.placements)),
+            methods=self._behavior(),
             end_comments=comments(self._scenario.end_comments),
+        )
+
+    def _note_places(self) -> None:
+        """Fill the source map: with all that the scenario has, in the order of a run."""
+        found, scenario = self.source_map, self._scenario
+        for method in scenario.methods:
+            if method.external is not None:
+                path = f"{method.external.module}.{method.external.function}"
+                found.fields[path] = found.place_of(method.span)
+        for declaration in scenario.declarations:
+            found.fields[str(self._names[declaration.name])] = found.place_of(declaration.span)
+        found.constraints += (found.place_of(each.span) for each in self._members.constraints)
+        found.placements += (found.place_of(each.span) for each in scenario.placements)
+        if isinstance(scenario, ir.Scenario):
+            found.add_nodes(scenario.body)
+
+    def _behavior(self) -> tuple[MethodView, ...]:
+        if self._own.body is None or not isinstance(self._scenario, ir.Scenario):
+            return ()
+        phases = self._members.phases
+        return BehaviorTreeBuilder(self._calls, phases, self._classes, self._actions).write(
+            self._scenario
         )
 
     def _attributes(self) -> tuple[StatementView, ...]:
@@ -155,9 +174,72 @@ class ScenarioWriter:
             for name, value in values.items()
         )
 
+    def _declared(self, declarations: Sequence[ir.Declaration]) -> tuple[StatementView, ...]:
+        return tuple(
+            self._declaration(each, is_first=index == 0) for index, each in enumerate(declarations)
+        )
+
+    def _narrowed(self) -> tuple[StatementView, ...]:
+        """Write what constraints leave of declarations of the base, before it declares them."""
+        return tuple(
+            StatementView(
+                target=None,
+                value=self._narrowing(here, there),
+                comments=comments(_lines_besides(here, there)),
+            )
+            for there, here in self._own.narrowed
+            if not _is_assigned(there)
+        )
+
+    def _reassigned(self) -> tuple[StatementView, ...]:
+        """Write constants of the base that are written otherwise here."""
+        return tuple(
+            StatementView(
+                target=self_attribute(self._names[here.name]),
+                value=self._declared_value(here),
+                comments=comments(_lines_besides(here, there)),
+            )
+            for there, here in self._own.narrowed
+            if _is_assigned(there)
+        )
+
+    def _narrowing(self, declaration: ir.Declaration, there: ir.Declaration) -> ArgumentView:
+        """Write the call that narrows a declaration; what reads the base is computed by it."""
+        name = code(literal(ir.setting_name(declaration.name)))
+        arguments: tuple[ArgumentView, ...]
+        match declaration:
+            case ir.Parameter(value=value, is_fixed=True) if value is not None:
+                method, read = "fix_to", [value]
+                arguments = (code(self._calls.expressions.write(value)),)
+            case ir.Parameter(value=value, domain=domain):
+                method, read = "narrow_to", [part for part in (value, domain) if part is not None]
+                is_unit_known = isinstance(there, ir.Parameter) and there.unit == declaration.unit
+                arguments = self._choice(
+                    replace(declaration, unit=None) if is_unit_known else declaration
+                )
+            case ir.Actor(values=values) | ir.Struct(values=values):
+                read = [each.value for each in values]
+                whole = declaration.value if isinstance(declaration, ir.Struct) else None
+                read += [] if whole is None else [whole]
+                method, arguments = "fix_to", (self._value_of(declaration),)
+            case _:
+                raise AssertionError(f"{declaration.name}: cannot be narrowed")
+        if any(map(self._reads_base, read)):
+            late = self._calls.expressions.late
+            arguments = tuple(a if a.keyword else _deferred(a, late) for a in arguments)
+        return ArgumentView(call=CallView(_self(method), (name, *arguments)))
+
+    def _reads_base(self, value: ir.Expression) -> bool:
+        """Whether a value is computed from declarations of the base, which come later."""
+        ahead = {each.name for each in self._own.ahead}
+        return any(
+            (isinstance(part, ir.FieldRef) and part.name not in ahead)
+            or (isinstance(part, ir.MethodCall) and isinstance(part.base, ir.ScenarioSelf))
+            for part in ir.walk(value)
+        )
+
     def _declaration(self, declaration: ir.Declaration, *, is_first: bool) -> StatementView:
         name = self._names[declaration.name]
-        self.source_map.fields[str(name)] = self.source_map.place_of(declaration.span)
         lines = declaration.comments
         if declaration is self._first_implicit_event:
             lines = ("Events that the scenario uses without declaring them",)
@@ -192,8 +274,7 @@ class ScenarioWriter:
         """Write what must hold between the values, below them."""
         write = self._calls.expressions.write
         statements = []
-        for index, constraint in enumerate(self._scenario.constraints):
-            self.source_map.constraints.append(self.source_map.place_of(constraint.span))
+        for index, constraint in enumerate(self._own.constraints):
             above, behind = apart(constraint.comments)
             statements.append(
                 StatementView(
@@ -209,7 +290,7 @@ class ScenarioWriter:
         return tuple(statements)
 
     def _coverage(self) -> tuple[StatementView, ...]:
-        """Write what is sampled for coverage, below the values."""
+        """Write the values sampled for coverage, below the values."""
         writer = CoverageWriter(self._calls)
         return tuple(
             StatementView(
@@ -218,7 +299,7 @@ class ScenarioWriter:
                 comments=comments(item.comments),
                 blank_before=index == 0 or bool(item.comments),
             )
-            for index, item in enumerate(self._scenario.coverage)
+            for index, item in enumerate(self._own.coverage)
         )
 
     def _declared_value(self, declaration: ir.Declaration) -> ArgumentView:
@@ -227,13 +308,13 @@ class ScenarioWriter:
                 class_ = name_expression(self._types.class_of(lineage))
                 call = CallView(_self("required_argument"), (code(literal(name)), code(class_)))
                 return ArgumentView(call=call)
-            case ir.Actor(name=name, lineage=lineage):
-                actor = self._objects.write(lineage, declaration.values)
+            case ir.Actor() | ir.Struct():
+                method = "cast" if isinstance(declaration, ir.Actor) else "argument"
                 if declaration.is_global:
-                    return self._shared(name, actor)
-                return self._from_invoker("cast", name, actor)
-            case ir.Struct():
-                return self._struct(declaration)
+                    method = "global_object"
+                known_as = code(literal(ir.setting_name(declaration.name)))
+                value = self._value_of(declaration)
+                return ArgumentView(call=CallView(_self(method), (known_as, value)))
             case ir.Variable():
                 return self._variable(declaration)
             case ir.Parameter():
@@ -244,24 +325,11 @@ class ScenarioWriter:
                 arguments += self._known_as(declaration.name)
                 return ArgumentView(call=self._calls.runtime_call("Event", *arguments))
 
-    def _struct(self, struct: ir.Struct) -> ArgumentView:
-        """Write an object; it may come from the caller."""
-        if struct.value is not None:
-            value = code(self._calls.expressions.write(struct.value))
-        else:
-            value = self._objects.write(struct.lineage, struct.values)
-        if struct.is_global:
-            return self._shared(struct.name, value)
-        return self._from_invoker("argument", struct.name, value)
-
-    def _shared(self, name: str, value: ArgumentView) -> ArgumentView:
-        """Write an object that all scenarios of a run share."""
-        known_as = code(literal(ir.setting_name(name)))
-        return ArgumentView(call=CallView(_self("global_object"), (known_as, value)))
-
-    def _from_invoker(self, method: str, name: str, value: ArgumentView) -> ArgumentView:
-        """Write what an invoker may hand in instead of the declared value."""
-        return ArgumentView(call=CallView(_self(method), (code(literal(name)), value)))
+    def _value_of(self, declared: ir.Actor | ir.Struct) -> ArgumentView:
+        """Write an object: what it equals, or the call that makes it."""
+        if isinstance(declared, ir.Struct) and declared.value is not None:
+            return code(self._calls.expressions.write(declared.value))
+        return self._objects.write(declared.lineage, declared.values)
 
     def _variable(self, variable: ir.Variable) -> ArgumentView:
         """Write the value, or how the variable is sampled."""
@@ -299,27 +367,36 @@ class ScenarioWriter:
 
     def _parameter(self, parameter: ir.Parameter) -> ArgumentView:
         """Write a constant as its value, anything else so that `--set` can reach it."""
-        write = self._calls.expressions.write
         if parameter.value is not None and parameter.is_fixed:
-            return self._fixed(parameter.type, code(write(parameter.value)))
+            return self._choice(parameter)[0]
         is_object = parameter.type.element is not None or parameter.type.kind is ir.Kind.ACTOR
-        if parameter.value is not None and is_object:
-            name, value = code(literal(parameter.name)), code(write(parameter.value))
-            return ArgumentView(call=CallView(_self("argument"), (name, value)))
-        known_as = ir.setting_name(parameter.name) if parameter.is_global else parameter.name
-        arguments = [code(literal(known_as))]
         is_plain = parameter.type.element is None and parameter.type.kind is not ir.Kind.STRUCT
-        method = "global_parameter" if parameter.is_global else "parameter"
-        if parameter.is_required and not is_plain:
+        if parameter.value is not None and is_object:
+            method = "argument"
+        elif parameter.is_required and not is_plain:
             method = "required_argument"
-            arguments.append(code(self._types.annotation(parameter.type)))
         elif parameter.is_required:
             method = "required_global" if parameter.is_global else "required"
-            arguments.append(code(self._types.annotation(parameter.type)))
-        arguments += [code(write(v)) for v in (parameter.value, parameter.domain) if v is not None]
+        else:
+            method = "global_parameter" if parameter.is_global else "parameter"
+        known_as = ir.setting_name(parameter.name) if parameter.is_global else parameter.name
+        name = code(literal(known_as))
+        return ArgumentView(call=CallView(_self(method), (name, *self._choice(parameter))))
+
+    def _choice(self, parameter: ir.Parameter) -> tuple[ArgumentView, ...]:
+        """Write what a parameter may be: its value, or type or default, domain and unit."""
+        write = self._calls.expressions.write
+        if parameter.value is not None and parameter.is_fixed:
+            return (self._fixed(parameter.type, code(write(parameter.value))),)
+        is_object = parameter.type.element is not None or parameter.type.kind is ir.Kind.ACTOR
+        if parameter.value is not None and is_object:
+            return (code(write(parameter.value)),)
+        arguments = [code(write(v)) for v in (parameter.value, parameter.domain) if v is not None]
+        if parameter.is_required:
+            arguments.insert(0, code(self._types.annotation(parameter.type)))
         if parameter.unit is not None:
             arguments.append(code(written_unit(self._calls, parameter.unit), "unit"))
-        return ArgumentView(call=CallView(_self(method), tuple(arguments)))
+        return tuple(arguments)
 
     def _fixed(self, type_: ir.ValueType, value: ArgumentView) -> ArgumentView:
         """Write a constant; that of an enum so that it may be compared with other members."""
@@ -335,7 +412,6 @@ class ScenarioWriter:
                 continue
             name = self._names[method.name]
             path = f"{method.external.module}.{method.external.function}"
-            self.source_map.fields[path] = self.source_map.place_of(method.span)
             kind = (
                 code(self._types.annotation(method.result)) if method.result is not None else None
             )
@@ -367,7 +443,6 @@ class ScenarioWriter:
         return text if parameter.default is None else f"{text} = {writer.write(parameter.default)}"
 
     def _placement(self, placement: ir.Placement) -> StatementView:
-        self.source_map.placements.append(self.source_map.place_of(placement.span))
         actor = code(self._calls.expressions.field(placement.actor))
         # A placement speaks of the start anyway.
         modifiers = (self._calls.modifier(replace(m, at="all")) for m in placement.modifiers)
@@ -375,6 +450,24 @@ class ScenarioWriter:
         method = _self("require" if placement.of_map else "place")
         call = CallView(method, (actor, *modifiers, *later))
         return StatementView(None, ArgumentView(call=call), comments(placement.comments))
+
+
+def _is_assigned(declaration: ir.Declaration) -> bool:
+    """Whether a class assigns a declaration, without a call that has its name."""
+    return isinstance(declaration, ir.Parameter) and declaration.is_fixed
+
+
+def _lines_besides(here: ir.Declaration, there: ir.Declaration) -> tuple[str, ...]:
+    """Return the comment lines of what narrows a declaration."""
+    return tuple(line for line in here.comments if line not in there.comments)
+
+
+def _deferred(argument: ArgumentView, late: Callable[[PyExpr], PyExpr]) -> ArgumentView:
+    """Return an argument as a function without parameters that gives it."""
+    if argument.call is not None and argument.call.callee is not None:
+        callee = PyExpr(f"lambda: {argument.call.callee}", Level.LAMBDA)
+        return replace(argument, call=replace(argument.call, callee=callee))
+    return argument if argument.code is None else replace(argument, code=late(argument.code))
 
 
 def _self(name: str) -> PyExpr:

@@ -1,7 +1,7 @@
 """The source map: which source line each part of a generated module comes from.
 
-The module cites no line, so that an edit of the source stirs nothing but what it says. The map is
-one line of JSON with numbers only: it decides nothing, and nobody reviews it.
+The module cites no line, so that an edit of the source changes only the related code. The map is
+one line of JSON with numbers only: it decides nothing, and is not reviewed.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from dataclasses import asdict, field
 
+from osc2tx import ir
 from osc2tx.diagnostics import Span
 from osc2tx_shared.classes import dataclass
 from osc2tx_shared.text import in_json
@@ -21,9 +22,9 @@ Place = tuple[int, int]
 
 @dataclass(slots=True)
 class ScenarioMap:
-    """The places of one scenario in its source.
+    """The positions of one scenario in its source.
 
-    What a scenario takes from other files has no place here: it is in the map of their modules.
+    Parts from other files have no position here: they are in the map of their modules.
 
     Attributes:
         source: Name of the source.
@@ -43,8 +44,28 @@ class ScenarioMap:
         """Return where a piece of the source begins; `None` for a piece of another one."""
         return (span.line, span.column) if span.source.name == self.source else None
 
+    def add_nodes(self, body: ir.Behavior) -> None:
+        """Note the places of the nodes of a tree; what ends a member is a node around it."""
+        pending = [body]
+        while pending:
+            node = pending.pop()
+            until = (
+                ()
+                if isinstance(node, ir.Wait | ir.Emit | ir.Finish | ir.Call | ir.On)
+                else node.until
+            )
+            spans = (*(each.span for each in until[:1]), node.span)
+            self.nodes += map(self.place_of, spans)
+            match node:
+                case ir.Serial() | ir.Parallel() | ir.OneOf():
+                    pending += reversed(node.members)
+                case ir.On():
+                    pending += reversed(node.reactions)
+                case _:
+                    pass
+
     def content(self) -> dict[str, object]:
-        """Return what is written down."""
+        """Return the map as text."""
         found = asdict(self)
         del found["source"]
         return found

@@ -1,4 +1,4 @@
-"""Refuses what the runtime library cannot carry out, before any module is written."""
+"""Rejects constructs that the runtime library does not have, before any module is written."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from osc2tx.catalogue import catalogue, object_tables
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.support.python_modules import is_taken
 
-# CPython gives up on expressions of about 3,000 parts; nobody reads one of this length anyway.
+# CPython gives up on expressions of about 3,000 parts; one of this length is unreadable anyway.
 MAX_PARTS = 1000
 
 # Names that `Scenario.invoke` takes for itself, so that parameters cannot be handed in by them.
@@ -30,12 +30,12 @@ def check_support(module: ir.Module, sink: DiagnosticSink) -> None:
     """Report every part of a module that the runtime does not know, and a name it cannot have."""
     check_name(module, sink)
     own = {each.name: each for each in module.types}
-    for scenario in module.scenarios:
+    for scenario in (*module.bases, *module.scenarios):
         _SupportCheck(scenario.declarations, own, sink).run(scenario)
 
 
 def has_support(method: ir.Method, types: Iterable[ir.UserType]) -> bool:
-    """Return whether a class may have a method that nobody calls."""
+    """Return whether a class may have an unused method."""
     sink = DiagnosticSink()
     _SupportCheck((), {each.name: each for each in types}, sink).method(method)
     return not sink.has_errors
@@ -66,7 +66,7 @@ class _SupportCheck:
         self.domains = domains_of(declarations)
         self.calls = CallCheck(catalogue(), self.objects, sink, self.expressions, declarations)
 
-    def run(self, scenario: ir.Scenario) -> None:
+    def run(self, scenario: ir.AbstractScenario) -> None:
         for declaration in scenario.declarations:
             self.declaration(declaration)
         for method in scenario.methods:
@@ -78,8 +78,9 @@ class _SupportCheck:
         for placement in scenario.placements:
             for modifier in placement.modifiers:
                 self.calls.placing(modifier)
-        for node in ir.walk_behaviors(scenario.body):
-            self.behavior(node)
+        if isinstance(scenario, ir.Scenario):
+            for node in ir.walk_behaviors(scenario.body):
+                self.behavior(node)
 
     def declaration(self, declaration: ir.Declaration) -> None:
         match declaration:

@@ -1,4 +1,4 @@
-"""View models: what the templates place, every decision already taken."""
+"""View models: the data that the templates place, every decision already taken."""
 
 from __future__ import annotations
 
@@ -144,8 +144,8 @@ class TypeView:
 
     Attributes:
         class_name: Its name.
-        bases: What it inherits from.
-        kinds: Name of an actor in the source; of a combination also those of what it combines.
+        bases: Its base classes.
+        kinds: Name of an actor in the source; of a combination also the names of its parts.
         above: The class whose kinds follow; a struct has none.
         is_object: An object takes its fields by its constructor, a struct of values is a dataclass.
         docstring: Lines of its docstring.
@@ -208,13 +208,33 @@ class UserModifierView:
 
 @dataclass(frozen=True, slots=True)
 class ScenarioView:
-    """A scenario class; `copied` says why it is a copy, if it is one."""
+    """A scenario class.
+
+    Attributes:
+        class_name: Its name.
+        base: The class that it inherits from.
+        is_derived: That is one of another scenario, not of the runtime.
+        docstring: Lines of its docstring.
+        attributes: Its name, its source and its policies.
+        ahead: What it declares before its base does.
+        declarations: What it declares.
+        functions: Its methods that compute a value.
+        places_besides: It places what its base does, and more.
+        placements: What it places.
+        methods: Its behavior, and the phases of it.
+        end_comments: Those below its last member.
+        copied: Why it is a copy, if it is one.
+    """
 
     class_name: PyName
+    base: PyName
+    is_derived: bool
     docstring: tuple[PyDocLine, ...]
     attributes: tuple[StatementView, ...]
+    ahead: tuple[StatementView, ...]
     declarations: tuple[StatementView, ...]
     functions: tuple[FunctionView, ...]
+    places_besides: bool
     placements: tuple[StatementView, ...]
     methods: tuple[MethodView, ...]
     end_comments: tuple[PyComment, ...] = ()
@@ -228,13 +248,13 @@ class ModuleView:
     Attributes:
         docstring: Lines of its docstring.
         library: Its name for the whole of the runtime, if it needs one.
-        imports: What it takes from the runtime.
-        siblings: What it takes from the modules of imported files.
+        imports: Its imports from the runtime.
+        siblings: Its imports from the modules of imported files.
         root: The folder where those are found, if it is not that of the module.
         api_level: Level of the runtime it is made for.
         units: Units it defines.
         enums: Enums it defines.
-        standard_imports: What it takes from Python's standard library.
+        standard_imports: Its imports from Python's standard library.
         types: Classes for the types of its objects.
         actions: Actions of the user's own.
         modifiers: Modifiers of the user's own.

@@ -5,10 +5,11 @@ from __future__ import annotations
 import itertools
 
 from osc2tx import ir
-from osc2tx.lowering.behavior.behaviors import BehaviorLowering, emitted_at
+from osc2tx.lowering.behavior.behaviors import BehaviorLowering
 from osc2tx.lowering.behavior.composed_behaviors import Composed
 from osc2tx.lowering.behavior.durations import lasting
-from osc2tx.lowering.behavior.triggers import WHOLE, boundary_of, is_own_failure
+from osc2tx.lowering.behavior.reactions import Attached
+from osc2tx.lowering.behavior.triggers import WHOLE, is_own_failure
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, present
 from osc2tx.lowering.modifiers.standing_modifiers import StandingModifiers
@@ -36,27 +37,25 @@ def lower_body(
         return None
     lowering = BehaviorLowering(ctx, constraints, standing)
     body = _lower_directives(lowering, scenario, directives)
-    on = [s for s in statements if isinstance(s, ast.OnDirective)]
-    reactions = present([lowering.lower_on(s) for s in on if boundary_of(ctx, s.event) is None])
+    attached = Attached(is_whole=True)
+    attached.add(ctx, statements)
+    attached.extend(standing.attached)
     if body is None:
         return None
     body = lasting(ctx, body, duration)
+    body = _framed(scenario, tuple(attached.before), body, tuple(attached.after))
+    on = [s for s in statements if isinstance(s, ast.OnDirective)]
     events = [s for s in statements if isinstance(s, ast.EventDeclaration)]
-    before, after = (
-        (*emitted_at(ctx, events, moment), *lowering.at_boundary(on, moment))
-        for moment in ("start", "end")
-    )
-    body = _framed(scenario, before, body, after)
     watched = (*(s.event for s in on), *(s.specification for s in events))
     if any(each is not None and is_own_failure(ctx, each.event) for each in watched):
         body = _labelled(scenario, body)
-    if not reactions:
+    if not attached.beside:
         return body
     return ir.Parallel(
         span=body.span,
         label=None,
         name=scenario.name,
-        members=(_named_as_do(body), *reactions),
+        members=(_named_as_do(body), *attached.beside),
     )
 
 

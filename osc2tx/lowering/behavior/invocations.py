@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from osc2tx import ir
 from osc2tx.analysis.constraints.operation_list import Key
+from osc2tx.analysis.constraints.parameter_lookup import Place
 from osc2tx.analysis.constraints.specialisation import (
     Behavior,
     determinant_of,
@@ -24,6 +25,7 @@ from osc2tx.lowering.behavior.durations import (
     with_open_duration,
 )
 from osc2tx.lowering.behavior.node_names import invocation_name
+from osc2tx.lowering.behavior.reactions import Attached, attached_context, label_of
 from osc2tx.lowering.behavior.triggers import lower_until
 from osc2tx.lowering.behavior.user_actions import default_arguments, is_user_defined
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
@@ -43,6 +45,7 @@ from osc2tx.semantics.bodies.modifiers import instead_of_scenario
 from osc2tx.semantics.conversions import symbol_of
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.names.member_lookup import parameters_of
+from osc2tx.semantics.scope import supertypes
 from osc2tx.syntax import ast
 from osc2tx_shared.classes import replace
 
@@ -53,21 +56,53 @@ class InvocationLowering:
     def __init__(
         self, ctx: LoweringContext, constraints: ConstraintLowering, standing: StandingModifiers
     ) -> None:
-        """Take the checked program, and what the constraints and members of the scenario say."""
+        """Take the checked program, and the constraints and members of the scenario."""
         self._ctx = ctx
         self._constraints = constraints
         self._standing = standing
 
-    def lower(
-        self, node: ast.Invocation, comments: tuple[str, ...]
-    ) -> ir.Invoke | ir.InvokeScenario | None:
-        """Lower an invocation; `None` if it was refused."""
+    def lower(self, node: ast.Invocation, comments: tuple[str, ...]) -> ir.Behavior | None:
+        """Lower an invocation, with what its modifiers attach; `None` if it was refused."""
         binding = self._ctx.model.binding_of(node)
         callee = binding.callee
         actor = self._actor(node, binding)
+        attached = Attached()
+        invocation: ir.Invoke | ir.InvokeScenario | None
         if is_composed(callee):
-            return self._scenario(node, self._specialised(node, callee), actor, comments)
-        assert isinstance(callee, sym.ActionSymbol)
+            special = self._specialised(node, callee)
+            invocation = self._scenario(node, special, actor, comments, attached)
+        else:
+            assert isinstance(callee, sym.ActionSymbol)
+            invocation = self._action(node, callee, actor, comments, attached)
+            self._attach_extension(node, callee, actor, attached)
+        if invocation is None:
+            return None
+        return attached.around(invocation, f"{name_of_member(node)} with reactions")
+
+    def _attach_extension(
+        self,
+        node: ast.Invocation,
+        callee: sym.ActionSymbol,
+        actor: ir.Expression | None,
+        attached: Attached,
+    ) -> None:
+        """Attach the events and reactions that `extend` adds to an action of the library."""
+        for each in supertypes(callee):
+            if not each.is_extended:
+                continue
+            added = [s for s in each.statements if s.span.source is not each.span.source]
+            place = Place(model=self._ctx.model, owner=callee, prefix=(node,), it=None)
+            ctx = replace(self._ctx.at(place), actor=actor or self._ctx.actor)
+            attached.add(attached_context(ctx, each, added, name_of_member(node)), added)
+
+    def _action(
+        self,
+        node: ast.Invocation,
+        callee: sym.ActionSymbol,
+        actor: ir.Expression | None,
+        comments: tuple[str, ...],
+        attached: Attached,
+    ) -> ir.Invoke:
         self._ctx.actions.append(callee)
         arguments = self._arguments(node, actor)
         if is_user_defined(callee):
@@ -86,7 +121,7 @@ class InvocationLowering:
             owner=None if callee.actor is None else callee.actor.name,
             action=callee.name,
             arguments=tuple(a for a in arguments if a.parameter != "duration"),
-            modifiers=self._modifiers(node, actor),
+            modifiers=self._modifiers(node, actor, attached),
             duration=next((a.value for a in arguments if a.parameter == "duration"), None),
             until=lower_until(self._ctx, node.with_members),
             is_own=is_user_defined(callee),
@@ -95,9 +130,9 @@ class InvocationLowering:
         return start_on_path(with_open_duration(self._ctx, invocation, name))
 
     def _specialised(self, node: ast.Invocation, callee: Composed) -> Composed:
-        """Return the scenario that an invocation is by its values (§7.3.8.2.2).
+        """Return the special scenario that the values of an invocation select (§7.3.8.2.2).
 
-        What it is must be known when compiling.
+        It must be known at compile time.
         """
         certain: list[Composed] = []
         for symbol in self._ctx.model.symbols:
@@ -127,7 +162,7 @@ class InvocationLowering:
         return {condition.field.name for condition in found if condition is not None}
 
     def _actor(self, node: ast.Invocation, binding: Binding) -> ir.Expression | None:
-        """Return who acts; without an expression it is the actor of the scenario (§5.5)."""
+        """Return the actor; without an expression it is the actor of the scenario (§5.5)."""
         callee = binding.callee
         type_of_actor = actor_type_of(callee) if isinstance(callee, sym.BehaviorSymbol) else None
         if type_of_actor is None:
@@ -143,6 +178,7 @@ class InvocationLowering:
         callee: Composed,
         actor: ir.Expression | None,
         comments: tuple[str, ...],
+        attached: Attached,
     ) -> ir.InvokeScenario | None:
         if not has_behavior(callee):
             self._ctx.unsupported(
@@ -154,7 +190,7 @@ class InvocationLowering:
             return None
         self._ctx.invoked.append(callee)
         arguments = self._arguments(node, actor)
-        self.refuse_movement(node, actor, callee, "an invoked scenario")
+        self.refuse_movement(node, actor, callee, "an invoked scenario", attached)
         types_ = {each.name: symbol_of(each.type) for each in parameters_of(callee)}
         handed_in = [(each.value, types_.get(each.parameter)) for each in arguments]
         for whose, type_ in ((actor, callee.actor), *handed_in):
@@ -196,9 +232,10 @@ class InvocationLowering:
         actor: ir.Expression | None,
         behavior: sym.BehaviorSymbol | None,
         what: str,
+        attached: Attached,
     ) -> None:
-        """Report modifiers of what is no action; those that only constrain parameters may stand."""
-        lowering = self._modifier_lowering(node, actor, behavior)
+        """Report modifiers of what is no action; those that move nothing may stand."""
+        lowering = self._modifier_lowering(node, actor, behavior, attached)
         for member in node.with_members:
             if not isinstance(member, ast.ModifierApplication) or is_override(self._ctx, member):
                 continue
@@ -216,12 +253,14 @@ class InvocationLowering:
         node: Instance,
         actor: ir.Expression | None,
         behavior: sym.BehaviorSymbol | None,
+        attached: Attached | None = None,
     ) -> ModifierLowering:
         ctx = self._ctx
         if ctx.actor is None and "actor" not in ctx.own_names:
             ctx = replace(ctx, actor=actor)  # the scenario has none: it is that of the invocation
         return ModifierLowering(
-            ctx, self._constraints, name_of_member(node), actor, behavior, (node,)
+            *(ctx, self._constraints, name_of_member(node), actor, behavior, (node,)),
+            attached=attached or Attached(),
         )
 
     def _arguments(
@@ -283,11 +322,11 @@ class InvocationLowering:
         return self._ctx.draw(name, setting.domain, lower_type(parameter.type))
 
     def _modifiers(
-        self, node: ast.Invocation, actor: ir.Expression | None
+        self, node: ast.Invocation, actor: ir.Expression | None, attached: Attached
     ) -> tuple[ir.ModifierCall, ...]:
         action = self._ctx.model.binding_of(node).callee
         assert isinstance(action, sym.BehaviorSymbol)
-        lowering = self._modifier_lowering(node, actor, action)
+        lowering = self._modifier_lowering(node, actor, action, attached)
         modifiers: list[ir.ModifierCall] = []
         for member in node.with_members:
             match member:
@@ -310,7 +349,7 @@ def _named(parameter: sym.FieldSymbol, value: ir.Expression) -> ir.Argument:
 
 
 def name_of_member(node: ast.Invocation | ast.Composition) -> str:
-    """Return what to call values that belong to a member of the tree: label, or who does what."""
+    """Return the prefix for values of a member of the tree: label, or actor and action."""
     if node.label is not None:
         return node.label.text
     if isinstance(node, ast.Composition):
@@ -318,11 +357,6 @@ def name_of_member(node: ast.Invocation | ast.Composition) -> str:
     if node.actor is None:
         return node.behavior.text
     return f"{''.join(node.actor.span.text.split())}.{node.behavior.text}"
-
-
-def label_of(node: ast.BehaviorMember) -> str | None:
-    """Return the label of a member of the tree."""
-    return None if node.label is None else node.label.text
 
 
 def _is_until(member: ast.WithMember) -> bool:

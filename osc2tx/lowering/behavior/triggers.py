@@ -36,9 +36,14 @@ def lower_trigger(
 
 
 def boundary_of(ctx: LoweringContext, event: ast.EventSpecification) -> str | None:
-    """Return `start` or `end` if a specification is that of the scenario itself."""
-    symbol = None if event.event is None else ctx.model.symbol_of(event.event)
-    is_plain = isinstance(event.event, ast.NameExpression) and event.condition is None
+    """Return `start` or `end` if a specification is that of the behavior itself.
+
+    In a modifier that is the modified behavior, `it`.
+    """
+    path = event.event
+    symbol = None if path is None else ctx.model.symbol_of(path)
+    is_of_it = isinstance(path, ast.MemberAccess) and isinstance(path.base, ast.ItExpression)
+    is_plain = (isinstance(path, ast.NameExpression) or is_of_it) and event.condition is None
     if not is_plain or not isinstance(symbol, sym.EventSymbol) or declares_event(symbol):
         return None
     return symbol.name if symbol.name in BOUNDARIES else None
@@ -52,7 +57,7 @@ def is_own_failure(ctx: LoweringContext, path: ast.Expression | None) -> bool:
 
 
 def _name_of(event: ir.EventRef | ir.LabelEvent | ir.InnerEvent) -> str:
-    """Return what the arguments of an occurrence are found by."""
+    """Return the key of the arguments of an occurrence."""
     match event:
         case ir.EventRef(name=name):
             return name
@@ -77,7 +82,7 @@ def _lower_event(
         return event_of_object(ctx, path, symbol)
     if isinstance(symbol, sym.EventSymbol) and isinstance(path, ast.NameExpression):
         if declares_event(symbol):
-            return ir.EventRef(span=path.span, name=symbol.name)
+            return ir.EventRef(span=path.span, name=ctx.attached.get(symbol, symbol.name))
         if is_own_failure(ctx, path):
             return ir.LabelEvent(span=path.span, label=WHOLE, moment=ir.Moment.FAIL)
         ctx.unsupported(
@@ -115,7 +120,7 @@ def _event_below(
     labels: tuple[sym.LabelSymbol, ...],
     *,
     is_moment: bool,
-) -> ir.LabelEvent | ir.InnerEvent | None:
+) -> ir.EventRef | ir.LabelEvent | ir.InnerEvent | None:
     """Return an event of a labelled member, or of one inside of it."""
     last = labels[-1]
     if is_moment and isinstance(last.node, ast.EmitDirective):
@@ -126,6 +131,9 @@ def _event_below(
             help=f"wait for the event itself, `@{last.node.event}`",
         )
         return None
+    symbol = ctx.model.symbol_of(path)
+    if len(labels) == 1 and isinstance(symbol, sym.EventSymbol) and _is_of_action(symbol):
+        return ir.EventRef(span=path.span, name=f"{last.name}.{symbol.name}")
     invoked = labels[:-1] if is_moment else labels
     if not all(is_composed(_invoked_by(ctx, label)) for label in invoked):
         ctx.unsupported(
@@ -139,6 +147,12 @@ def _event_below(
     if is_moment and not inner:
         return ir.LabelEvent(span=path.span, label=first, moment=MOMENTS[path.name.text])
     return ir.InnerEvent(span=path.span, label=first, name=".".join([*inner, path.name.text]))
+
+
+def _is_of_action(symbol: sym.EventSymbol) -> bool:
+    """Whether `extend` adds an event to an action of the library."""
+    is_action = isinstance(symbol.owner, sym.ActionSymbol) and symbol.owner.origin != "user"
+    return is_action and declares_event(symbol)
 
 
 def _invoked_by(ctx: LoweringContext, label: sym.LabelSymbol) -> sym.Symbol | None:

@@ -24,9 +24,9 @@ class GlobalLowering:
     the program invokes has all of them.
 
     Args:
-        ctx: The checked program; what is used is noted there.
+        ctx: The checked program; used names are noted there.
         scenario: The scenario.
-        constraints: What its own constraints say: they may be about members of global objects.
+        constraints: Its own constraints: they may refer to members of global objects.
     """
 
     def __init__(
@@ -72,7 +72,10 @@ class GlobalLowering:
         fields = FieldLowering(self._ctx, constraints)
         declaration = fields.lower(symbol, symbol.span, self._comments(symbol))
         drawn = self._ctx.drawn[before:]
-        self._ctx.drawn[before:] = [replace(parameter, is_global=True) for parameter in drawn]
+        self._ctx.drawn[before:] = [
+            each if isinstance(each, ir.Variable) else replace(each, is_global=True)
+            for each in drawn
+        ]
         if own is None:
             self.constraints += constraints.left_over()
         return () if declaration is None else (replace(declaration, name=name, is_global=True),)

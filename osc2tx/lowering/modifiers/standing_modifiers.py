@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from osc2tx import ir
 from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx.lowering.behavior.composed_behaviors import actor_type_of, is_composed
+from osc2tx.lowering.behavior.reactions import Attached
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext, Receiver
 from osc2tx.lowering.modifiers.modifiers import is_override
@@ -25,15 +26,16 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Standing:
-    """A modifier that stands in such a place.
+    """A modifier in such a position.
 
     Attributes:
         node: The application.
-        what: What it belongs to, for names of values that are drawn from ranges.
-        actor: Whose behavior it modifies, where it does not say that itself.
-        it: What `it` is in its body.
+        what: Its owner, for names of values that are drawn from ranges.
+        actor: The actor of the modified behavior, where the modifier does not name it.
+        it: The meaning of `it` in its body.
         within: The object of whose type it is a member.
         receiver: The same as a value.
+        composition: What it stands in the `with` of.
     """
 
     node: ast.ModifierApplication
@@ -42,22 +44,28 @@ class Standing:
     it: Key | None = None
     within: Key = ()
     receiver: Receiver | None = None
+    composition: ast.Composition | None = None
 
 
 class StandingModifiers:
     """The standing modifiers of one scenario, each lowered once."""
 
     def __init__(self, ctx: LoweringContext, constraints: ConstraintLowering) -> None:
-        """Take the checked program, and what the constraints of the scenario say."""
+        """Take the checked program, and what the constraints of the scenario say.
+
+        `attached` collects what stands beside all that the scenario does.
+        """
         self._ctx = ctx
         self._constraints = constraints
         self._around: list[ast.Composition] = []
         self._lowered: dict[tuple[ast.Node, Key], tuple[Applied, ...]] = {}
         self._used: set[ast.Node] = set()
+        self.attached = Attached(is_whole=True)
+        self._attached: dict[ast.Composition, Attached] = {}
 
     @contextmanager
     def inside(self, node: ast.Composition) -> Iterator[None]:
-        """Let the modifiers of a composition hold for what is lowered meanwhile."""
+        """Let the modifiers of a composition hold for its members."""
         self._around.append(node)
         yield
         self._around.pop()
@@ -67,14 +75,18 @@ class StandingModifiers:
                     self._refuse(standing.node, applied.call)
                     break
 
+    def attached_to(self, node: ast.Composition) -> Attached:
+        """Return what the modifiers of a composition attach to it."""
+        return self._attached.setdefault(node, Attached())
+
     def of(
         self, actor: ir.Expression | None, action: sym.BehaviorSymbol | None = None
     ) -> Iterator[ir.ModifierCall]:
         """Yield what modifies the invocations of an actor here.
 
         Args:
-            actor: Who acts.
-            action: What is invoked; with `None` whatever may be.
+            actor: The actor.
+            action: The invoked action; with `None` any.
         """
         for _, call in self._calls(actor, action):
             yield call
@@ -105,7 +117,7 @@ class StandingModifiers:
                 yield call
 
     def of_member(self, node: ast.ModifierApplication) -> tuple[Applied, ...]:
-        """Return what a member of the scenario stands for."""
+        """Return the meaning of a member of the scenario."""
         return self._lower(_member(node))
 
     def _standing(self, actor: ir.FieldRef) -> Iterator[Standing]:
@@ -122,7 +134,7 @@ class StandingModifiers:
         what = node.label.text if node.label is not None else node.operator.value
         for member in node.with_members:
             if isinstance(member, ast.ModifierApplication):
-                yield Standing(member, what, None, it=(node,))
+                yield Standing(member, what, None, it=(node,), composition=node)
 
     def _of_type(self, actor: ir.FieldRef) -> Iterator[Standing]:
         """Yield the members of the type of an actor."""
@@ -135,7 +147,7 @@ class StandingModifiers:
                     yield Standing(statement, actor.name, actor, key or None, key, receiver)
 
     def _known(self, actor: ir.FieldRef) -> tuple[Key, sym.ActorSymbol | None]:
-        """Return what the analysis calls an actor, and its type; `actor` has no name there."""
+        """Return the name of an actor in the analysis, and its type; `actor` has no name there."""
         owner = self._constraints.found.owner
         if actor.name == "actor" and is_composed(owner):
             return (), actor_type_of(owner)
@@ -166,6 +178,11 @@ class StandingModifiers:
                 *(ctx, self._constraints, standing.what, standing.actor, None),
                 it=standing.it,
                 within=standing.within,
+                attached=(
+                    self.attached
+                    if standing.composition is None
+                    else self.attached_to(standing.composition)
+                ),
             )
             self._lowered[key] = lowering.applied(standing.node)
         return self._lowered[key]

@@ -6,10 +6,13 @@ of its body then belong to the invocation like any others.
 
 from __future__ import annotations
 
+from dataclasses import field
+
 from osc2tx import ir
 from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx.analysis.constraints.parameter_lookup import Place
 from osc2tx.analysis.tree_walk import nodes_below
+from osc2tx.lowering.behavior.reactions import Attached, attached_context
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
 from osc2tx.lowering.constraints.parameter_domains import all_values
 from osc2tx.lowering.context import LoweringContext, statement_comments
@@ -25,7 +28,7 @@ from osc2tx.syntax import ast
 from osc2tx_shared.classes import dataclass, replace
 
 # Members by which a modifier changes something.
-EFFECTIVE = (ast.ModifierApplication, ast.KeepConstraint)
+EFFECTIVE = (ast.ModifierApplication, ast.KeepConstraint, ast.OnDirective)
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,9 +36,9 @@ class Applied:
     """A modifier of the library, where it is applied.
 
     Attributes:
-        call: What it says.
+        call: Its call.
         target: The behavior that it is one of; `None` for modifiers of actors.
-        actor: Whose behavior it modifies; `None` if that is the actor of the scenario.
+        actor: The actor of the modified behavior; `None` if that is the actor of the scenario.
     """
 
     call: ir.ModifierCall
@@ -49,13 +52,14 @@ class ModifierLowering:
 
     Attributes:
         ctx: The checked program.
-        constraints: What the constraints of the scenario say.
-        what: What they belong to, for names of values that are drawn from ranges.
-        actor: Whose behavior is modified.
-        action: What is invoked; `None` for modifiers of a whole scenario.
-        it: What `it` is in the body: what is modified.
+        constraints: The constraints of the scenario.
+        what: Their owner, for names of values that are drawn from ranges.
+        actor: The actor of the modified behavior.
+        action: The invoked action; `None` for modifiers of a whole scenario.
+        it: The meaning of `it` in the body: the modified behavior.
         chain: The applications around this one, the outermost first.
         within: The object of whose type it is a member.
+        attached: Where its reactions go: they stand beside what it modifies.
     """
 
     ctx: LoweringContext
@@ -66,6 +70,7 @@ class ModifierLowering:
     it: Key | None = None
     chain: tuple[ast.ModifierApplication, ...] = ()
     within: Key = ()
+    attached: Attached = field(default_factory=Attached)
 
     def lower(self, node: ast.ModifierApplication) -> tuple[ir.ModifierCall, ...]:
         """Return a modifier of the library, or those that one of the user stands for."""
@@ -83,7 +88,7 @@ class ModifierLowering:
         if not any(isinstance(part, EFFECTIVE) for part in callee.statements):
             self._refuse(
                 node,
-                f"modifier `{callee.qualified_name}`, which says nothing of what it modifies,",
+                f"modifier `{callee.qualified_name}` without an effect on the modified behavior",
                 "apply other modifiers in it, or constrain parameters, `keep(it.parameter == …)`",
             )
             return ()
@@ -92,6 +97,7 @@ class ModifierLowering:
             return ()
         inner = self._inside(node, callee)
         inner.bind(callee)
+        inner = inner.with_events(callee)
         parts = tuple(part for statement in callee.statements for part in inner.part(statement))
         if not parts:
             return ()
@@ -102,7 +108,7 @@ class ModifierLowering:
         return tuple(replace(p, call=call) for p, call in zip(parts, calls, strict=True))
 
     def prepare(self, node: ast.ModifierApplication) -> None:
-        """Find out what the parameters of a modifier are: arguments may depend on them."""
+        """Find the values of the parameters of a modifier: arguments may depend on them."""
         callee = self.ctx.model.binding_of(node).callee
         if isinstance(callee, sym.ModifierSymbol) and callee.origin == "user":
             self._inside(node, callee).bind(callee)
@@ -127,33 +133,37 @@ class ModifierLowering:
             chain=chain,
         )
 
+    def with_events(self, callee: sym.ModifierSymbol) -> ModifierLowering:
+        """Return the same, its events and variables declared and its reactions attached."""
+        ctx = attached_context(self.ctx, callee, callee.statements, self.what)
+        self.attached.add(ctx, callee.statements)
+        return replace(self, ctx=ctx)
+
     def values_of(self, callee: sym.ModifierSymbol) -> dict[sym.FieldSymbol, ir.Expression]:
         """Return what `bind` found."""
-        fields = parameters_of(callee)
-        values = (
-            (field, self.ctx.given.get((*self.within, *self.chain, field))) for field in fields
-        )
-        return {field: value for field, value in values if value is not None}
+        chain = (*self.within, *self.chain)
+        values = ((each, self.ctx.given.get((*chain, each))) for each in parameters_of(callee))
+        return {parameter: value for parameter, value in values if value is not None}
 
     def bind(self, callee: sym.ModifierSymbol) -> None:
         """Find out what the parameters are here."""
-        for field in parameters_of(callee):
-            key: Key = (*self.within, *self.chain, field)
+        for parameter in parameters_of(callee):
+            key: Key = (*self.within, *self.chain, parameter)
             if key in self.ctx.given:
                 continue
-            setting = self.constraints.setting(key, field.type)
+            setting = self.constraints.setting(key, parameter.type)
             value = setting.value
-            if value is None and (setting.domain is not None or is_plain(field.type)):
-                domain = setting.domain or all_values(field.type, field.span)
-                name, type_ = f"{self.what}.{field.name}", lower_type(field.type)
-                value = self.ctx.draw(name, domain, type_, field.span)
+            if value is None and (setting.domain is not None or is_plain(parameter.type)):
+                domain = setting.domain or all_values(parameter.type, parameter.span)
+                name, type_ = f"{self.what}.{parameter.name}", lower_type(parameter.type)
+                value = self.ctx.draw(name, domain, type_, parameter.span)
             if value is not None:
                 self.ctx.given[key] = value
                 continue
             self.ctx.unsupported(
                 "OSC501",
                 self.chain[-1].span,
-                f"parameter `{field.name}` of modifier `{callee.qualified_name}` has no value",
+                f"parameter `{parameter.name}` of modifier `{callee.qualified_name}` has no value",
                 help="give it as an argument, or a default",
             )
 
@@ -164,6 +174,8 @@ class ModifierLowering:
                 return ()  # see `bind`
             case ast.MethodDeclaration():
                 return ()  # calls stand for its body
+            case ast.EventDeclaration() | ast.VariableDeclaration() | ast.OnDirective():
+                return ()  # see `with_events`
             case ast.KeepConstraint():
                 pass  # the constraints of the scenario hold it, for this application
             case ast.ModifierApplication() if self._is_known(statement):
@@ -173,9 +185,8 @@ class ModifierLowering:
             case _:
                 self._refuse(
                     statement,
-                    "a modifier with events, variables or coverage in it",
-                    "declare it in the scenario: events of labelled members are `@label.start` and"
-                    " `@label.end`",
+                    "a modifier with coverage in it",
+                    "sample it in the scenario",
                 )
         return ()
 
@@ -190,7 +201,7 @@ class ModifierLowering:
         )
 
     def _applies(self, node: ast.ModifierApplication, callee: sym.ModifierSymbol) -> bool:
-        """Check what only the place of application tells: who, and what is invoked."""
+        """Check the position of application: the actor, and the invoked behavior."""
         if node.actor is not None and self.action is not None:
             whose = lower_expression(self.ctx, node.actor)
             if whose is None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
-from osc2tx_runtime.errors import NO_RESULT
+from osc2tx_runtime.errors import NO_RESULT, ScenarioError
 from osc2tx_runtime.language.actions.modifier import Modifier
 from osc2tx_runtime.language.actions.placement import Placement
 from osc2tx_runtime.language.declared import BaseActor
@@ -66,7 +66,13 @@ class BaseScenario(ScenarioParts):
 
     def behavior(self) -> Behaviour:
         """Return the tree."""
-        raise NotImplementedError
+        message = f"scenario {self.name} has no behavior: run one that inherits it"
+        raise ScenarioError(message, self.source)
+
+    @classmethod
+    def is_abstract(cls) -> bool:
+        """Whether a scenario is only there for others to inherit: it has no behavior."""
+        return cls.behavior is BaseScenario.behavior
 
     # --- used by generated classes ---
 
@@ -79,6 +85,7 @@ class BaseScenario(ScenarioParts):
             name: Name of the role.
             declared: The actor as declared.
         """
+        declared = self._fixed(name, declared)
         given = None if self._caller is None else self._caller.cast(name, declared)
         if given is not None:
             return given
@@ -92,6 +99,7 @@ class BaseScenario(ScenarioParts):
             name: Name of the global parameter.
             declared: The object as declared.
         """
+        declared = self._fixed(name, declared)
         if isinstance(declared, BaseActor) and declared.one_per_run:
             declared = self._only(declared)
         shared: AnyT = self._shared_objects.setdefault(name, declared)
@@ -186,8 +194,7 @@ class BaseScenario(ScenarioParts):
         label, (scenario,) = split_label(label_and_scenario)
         check_recursion(self, scenario)
         given = arguments if actor is None else {"actor": actor, **arguments}
-        short = scenario.name.rpartition(".")[2]  # of `vehicle.approach`
-        name = unique_name(label or known_as or short, self._invoked)
+        name = unique_name(label or known_as or scenario.name.rpartition(".")[2], self._invoked)
         path = f"{self._path}.{name}" if self._path else name
         key = label or draw_key(self, scenario, actor, arguments)
         key = unique_name(key if self._caller is None else f"{self._caller.key}/{key}", self._keys)

@@ -78,6 +78,11 @@ class ScenarioParts(ScenarioValues):
         self._inner_events: dict[str, Event] = {}
         self._overrides: list[tuple[str, str, Mode]] = []
 
+    @property
+    def short_name(self) -> str:
+        """The name without that of the actor, of `vehicle.approach`."""
+        return self.name.rpartition(".")[2]
+
     def invoked(self, label: str) -> Any:
         """Return an invoked scenario, to read its values: `self.invoked("p1").gap`."""
         if label not in self._invoked:

@@ -174,7 +174,10 @@ def test_cycle(highway: RoadMap, a: Vehicle, b: Vehicle) -> None:
             [lane(side="left", side_of="a")],
             "there is no lane to the left of a, which is in lane -1 of road 1",
         ),
-        ([lane(same_as="a"), position(distance=2.0, ahead_of="a")], "b overlaps a at its start"),
+        (
+            [lane(same_as="a"), position(distance=2.0, ahead_of="a")],
+            "b overlaps a by 2.60 m at its start",
+        ),
         (
             [position(distance=5000.0, ahead_of="a")],
             "the lane does not reach 5000.0 m ahead of a",

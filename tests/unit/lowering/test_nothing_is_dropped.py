@@ -105,7 +105,7 @@ CASES = {
         ast.ModifierApplication: Case("keep_lane()", text="keep_lane()"),
         ast.DoDirective: Case("do wait elapsed(45s)", code="OSC108"),
         ast.OnDirective: Case(
-            "on elapsed(46s):\n        emit seen", code="OSC508", before="event seen"
+            "on elapsed(46s):\n        emit seen", text="elapsed(46 * s)", before="event seen"
         ),
     },
     "scenario": {

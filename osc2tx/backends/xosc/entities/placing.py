@@ -65,7 +65,7 @@ class InitialPlacing(StartRoom[Start]):
 
     def _put(self, start: Start) -> Placed:
         ctx = self._ctx
-        position, state = position_of(ctx, start, lambda place: self._is_free(start, place))
+        position, state = position_of(ctx, start, lambda place: self._taken_by(start, place))
         pose = self._pose(start, state)
         other = None if pose is None else self.taken_by(box_at(pose, start.member.shape))
         if other is not None:
@@ -89,8 +89,9 @@ class InitialPlacing(StartRoom[Start]):
         self._ctx.start_poses[start.id] = pose
         return Placed(box_at(pose, start.member.shape), lane)
 
-    def _is_free(self, start: Start, place: LanePosition) -> bool:
+    def _taken_by(self, start: Start, place: LanePosition) -> str | None:
         roads = self._ctx.roads
         assert roads is not None
-        box = box_at(roads.pose(place), start.member.shape)
-        return not self.was_tried(start, place) and self.taken_by(box) is None
+        if self.was_tried(start, place):
+            return "another actor"
+        return self.taken_by(box_at(roads.pose(place), start.member.shape))

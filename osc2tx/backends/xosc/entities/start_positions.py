@@ -16,7 +16,7 @@ from osc2tx.backends.xosc.entities.start_statements import Start, is_at_point
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 from osc2tx.backends.xosc.facts.run_options import read_spawn
 from osc2tx.backends.xosc.facts.start_places import (
-    IsFree,
+    TakenBy,
     given_place,
     open_place,
 )
@@ -28,13 +28,15 @@ from osc2tx.xosc import elements as xml
 at_start("location", "position", "along", "lane", "lateral", "on_path")
 
 
-def position_of(ctx: Context, start: Start, is_free: IsFree) -> tuple[xml.PositionPart, ActorState]:
+def position_of(
+    ctx: Context, start: Start, taken_by: TakenBy
+) -> tuple[xml.PositionPart, ActorState]:
     """Return the position of an actor at the start, and what is known about the actor there.
 
     Args:
         ctx: The context.
         start: What is said about its start.
-        is_free: Whether nobody is at a place.
+        taken_by: Tells which actor is in the way of a place.
 
     Raises:
         NoPlace: There is no such place.
@@ -53,8 +55,8 @@ def position_of(ctx: Context, start: Start, is_free: IsFree) -> tuple[xml.Positi
         return beside(ctx, start)
     along = start.modifiers.get("along")
     if along is not None:
-        return _on_route(ctx, start, along, is_free)
-    return _on_road(ctx, start, road, is_free)
+        return _on_route(ctx, start, along, taken_by)
+    return _on_road(ctx, start, road, taken_by)
 
 
 def _at_pose(
@@ -145,7 +147,7 @@ def _numbered(ctx: Context, start: Start, place: LanePosition) -> LanePosition:
 
 
 def _on_route(
-    ctx: Context, start: Start, along: Arguments, is_free: IsFree
+    ctx: Context, start: Start, along: Arguments, taken_by: TakenBy
 ) -> tuple[xml.PositionPart, ActorState]:
     """Return the place at which a route begins, or so far from there; in a free lane of it."""
     lane, position = start.modifiers.get("lane"), start.modifiers.get("position")
@@ -157,13 +159,13 @@ def _on_route(
             if lane is not None:
                 raise Inexpressible("a lane of a way off the lanes", lane.source.span)
             return at_pose(place, None, None)
-        if lane is not None or is_free(place):
+        if lane is not None or taken_by(place) is None:
             return in_lane(ctx, start, _numbered(ctx, start, place))
     raise NoPlace(f"the route has no free lane {offset:g} m along it")
 
 
 def _on_road(
-    ctx: Context, start: Start, road: Constant | None, is_free: IsFree
+    ctx: Context, start: Start, road: Constant | None, taken_by: TakenBy
 ) -> tuple[xml.PositionPart, ActorState]:
     name, position, lane = start.id, start.modifiers.get("position"), lane_number(start)
     spawn = dict(map(read_spawn, ctx.options.spawns)).get(name)
@@ -181,4 +183,4 @@ def _on_road(
         return in_lane(ctx, start, given_place(ctx.roads, name, spawn, lane))
     distance = None if position is None else position.number("distance")
     segment = segment_of(ctx, road)
-    return in_lane(ctx, start, open_place(ctx.roads, name, lane, distance, segment, is_free))
+    return in_lane(ctx, start, open_place(ctx.roads, name, lane, distance, segment, taken_by))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Literal, NamedTuple
 
 from osc2tx.backends.xosc.facts.actors import Shape
@@ -10,7 +9,7 @@ from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
 from osc2tx.backends.xosc.report import NoPlace
 from osc2tx_runtime.domain.modifiers import Lane
-from osc2tx_runtime.domain.placing.default_starts import StartPlaces
+from osc2tx_runtime.domain.placing.default_starts import StartPlaces, TakenBy
 from osc2tx_runtime.domain.placing.start_room import Placed, StartRoom
 from osc2tx_runtime.domain.routes.lane_coordinates import place_at_distance
 from osc2tx_runtime.errors import PlacementError
@@ -20,10 +19,10 @@ from osc2tx_runtime.world.state import ActorState
 
 __all__ = [
     "Box",
-    "IsFree",
     "LaneNumber",
     "Placed",
     "StartRoom",
+    "TakenBy",
     "box_at",
     "given_place",
     "lane_beside",
@@ -31,8 +30,6 @@ __all__ = [
     "place_ahead",
     "trailer_pose",
 ]
-
-IsFree = Callable[[LanePosition], bool]
 
 
 class LaneNumber(NamedTuple):
@@ -54,7 +51,7 @@ def open_place(
     lane: LaneNumber | None,
     distance: float | None,
     segment: MapSegment | None,
-    is_free: IsFree,
+    taken_by: TakenBy,
 ) -> LanePosition:
     """Return where an actor starts whose place no other one and no point says.
 
@@ -64,7 +61,7 @@ def open_place(
         lane: In which lane; `None`: any.
         distance: Metres from the start of the road; `None`: anywhere.
         segment: Piece of road that it starts on; `None`: any.
-        is_free: Whether nobody is there.
+        taken_by: Tells which actor is in the way of a place.
 
     Raises:
         NoPlace: There is no such place.
@@ -72,8 +69,8 @@ def open_place(
     places, modifier = StartPlaces(roads.map), None if lane is None else lane.modifier
     try:
         if segment is None:
-            return places.default(name, modifier, distance, is_free)
-        return places.on_path(name, segment, modifier, distance, is_free)
+            return places.default(name, modifier, distance, taken_by)
+        return places.on_path(name, segment, modifier, distance, taken_by)
     except PlacementError as error:
         raise NoPlace(error.message) from None
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import partial
+from typing import TypeAlias
 
 from osc2tx_runtime.domain.map.segments import MapSegment
 from osc2tx_runtime.domain.modifiers import Lane, Position
@@ -12,7 +13,10 @@ from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.world.geometry.lane_neighbours import lane_with_number, number_of_lane
 
-__all__ = ["StartPlaces"]
+__all__ = ["StartPlaces", "TakenBy"]
+
+TakenBy: TypeAlias = Callable[[LanePosition], str | None]
+"""Returns which actor is in the way of a position, and how far; None if it is free."""
 
 
 class StartPlaces:
@@ -60,7 +64,7 @@ class StartPlaces:
         actor: str,
         lane: Lane | None,
         distance: float | None,
-        is_free: Callable[[LanePosition], bool],
+        taken_by: TakenBy,
         belongs: Callable[[LanePosition], bool] = lambda _place: True,
     ) -> LanePosition:
         """The first free default position on the lane; with a distance, the one there on its road.
@@ -71,7 +75,7 @@ class StartPlaces:
             actor: The actor to place.
             lane: The lane; None leaves it open.
             distance: Metres from the start of the road; None leaves it open.
-            is_free: Whether a position is free.
+            taken_by: Tells which actor an actor there would overlap.
             belongs: Whether a position satisfies the constraints.
 
         Raises:
@@ -85,10 +89,10 @@ class StartPlaces:
                     continue
             if place is None or not belongs(place):
                 continue
-            if is_free(place):
+            if (other := taken_by(place)) is None:
                 return place
             if distance is not None:
-                return self._beside(actor, lane, distance, place, is_free)
+                return self._beside(actor, lane, place, taken_by, f"{other} {distance:g} m")
         wish = "" if lane is None else f" with a lane {lane.number} from the {lane.edge}"
         far = "" if distance is None else f", {distance:g} m from its start"
         raise PlacementError(
@@ -99,19 +103,19 @@ class StartPlaces:
         self,
         actor: str,
         lane: Lane | None,
-        distance: float,
         place: LanePosition,
-        is_free: Callable[[LanePosition], bool],
+        taken_by: TakenBy,
+        where: str,
     ) -> LanePosition:
         """Another lane of the same carriageway, where the scenario leaves that open."""
         lanes = self._map.lanes(place.road, place.s, like=place.lane) if lane is None else ()
         for other in lanes:
             found = LanePosition(place.road, other, place.s)
-            if is_free(found):
+            if taken_by(found) is None:
                 return found
         raise PlacementError(
-            f"{actor}: another actor is {distance:g} m from the start of road {place.road}, in"
-            f" lane {place.lane}; give one of them another place"
+            f"{actor} overlaps {where} from the start of road {place.road}, in lane {place.lane};"
+            " give one of them another place"
         )
 
     def on_path(
@@ -120,7 +124,7 @@ class StartPlaces:
         segment: MapSegment,
         lane: Lane | None,
         distance: float | None,
-        is_free: Callable[[LanePosition], bool],
+        taken_by: TakenBy,
     ) -> LanePosition:
         """The first free default position on a piece of road; see `default`.
 
@@ -139,11 +143,11 @@ class StartPlaces:
 
         if distance is None:
             try:
-                return self.default(actor, lane, None, is_free, partial(is_on, third))
+                return self.default(actor, lane, None, taken_by, partial(is_on, third))
             except PlacementError:
                 pass  # the rest of it is tried below
         try:
-            return self.default(actor, lane, distance, is_free, partial(is_on, 0.0))
+            return self.default(actor, lane, distance, taken_by, partial(is_on, 0.0))
         except PlacementError as error:
             raise PlacementError(f"{error.message} that is part of its path, {segment}") from None
 

@@ -163,7 +163,7 @@ class ScenarioInitializer(StartRoom[ActorStart]):
                 actor,
                 start.modifiers,
                 spawn=self._spawn(actor.id),
-                is_free=lambda place: self._is_free(start, place),
+                taken_by=lambda place: self._taken_by(start, place),
                 draws=self._context.random_for(f"{actor.id} start"),
             )
             other = self._who_is_at(actor, initial.at, initial.heading)
@@ -187,12 +187,11 @@ class ScenarioInitializer(StartRoom[ActorStart]):
         lane = None if at is None else LanePosition(at.road, at.lane, at.s)
         return Placed(box_of(state), lane)
 
-    def _is_free(self, start: ActorStart, place: LanePosition) -> bool:
-        """Whether a position is free, and was not tried in vain."""
-        return (
-            not self.was_tried(start, place._replace(offset=0.0))
-            and self._who_is_at(start.actor, place) is None
-        )
+    def _taken_by(self, start: ActorStart, place: LanePosition) -> str | None:
+        """Which actor is in the way of a place; those that had no room beside it, too."""
+        if self.was_tried(start, place._replace(offset=0.0)):
+            return "another actor"
+        return self._who_is_at(start.actor, place)
 
     def _spawn(self, actor_id: str) -> LanePosition | None:
         given = self._context.settings.spawn.get(actor_id)

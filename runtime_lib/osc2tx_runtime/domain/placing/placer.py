@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -23,7 +23,7 @@ from osc2tx_runtime.domain.modifiers import (
 )
 from osc2tx_runtime.domain.modifiers.base import now, settled
 from osc2tx_runtime.domain.paths.path_values import Path
-from osc2tx_runtime.domain.placing.default_starts import StartPlaces
+from osc2tx_runtime.domain.placing.default_starts import StartPlaces, TakenBy
 from osc2tx_runtime.domain.placing.initial_state import (
     InitialState,
     aside_speed_at,
@@ -65,7 +65,7 @@ class Placer:
         now: ActorState | None = None,
         *,
         spawn: LanePosition | None = None,
-        is_free: Callable[[LanePosition], bool] = lambda _place: True,
+        taken_by: TakenBy = lambda _place: None,
         draws: random.Random | None = None,
     ) -> InitialState:
         """Resolves modifiers to a place.
@@ -75,7 +75,7 @@ class Placer:
             modifiers: position, lane, lateral, speed, yaw, orientation.
             now: Its present state, if it has one, for all that the modifiers leave open.
             spawn: Place given by the settings.
-            is_free: Tells whether a default start place can be used.
+            taken_by: Tells which actor is in the way of a default start place.
             draws: Chooses from ranges; None: their middle.
 
         Raises:
@@ -90,8 +90,8 @@ class Placer:
         own_speed = speed if speed is not None else (0.0 if now is None else now.v)
         lateral = one_of_kind(modifiers, Lateral)
         if lateral is not None and lateral.side_of is None and lateral.is_fixed:
-            is_free = partial(self._is_free_aside, actor, lateral, is_free)
-        at = self._place(actor, modifiers, own_speed, now, spawn, is_free)
+            taken_by = partial(self._taken_aside, actor, lateral, taken_by)
+        at = self._place(actor, modifiers, own_speed, now, spawn, taken_by)
         if speed and not actor.movable:
             raise PlacementError(f"{actor.id} is stationary, so it has no speed")
         if lateral is not None:
@@ -117,7 +117,7 @@ class Placer:
         speed: float,
         now: ActorState | None,
         spawn: LanePosition | None,
-        is_free: Callable[[LanePosition], bool],
+        taken_by: TakenBy,
     ) -> LanePosition | opendrive.Pose:
         position, lane = self._position(actor, modifiers), one_of_kind(modifiers, Lane)
         if spawn is not None:
@@ -137,7 +137,7 @@ class Placer:
             return self._beside(actor, lane, position, speed)
         along = one_of_kind(modifiers, Along)
         if along is not None:
-            return self._on_route(actor, along, lane, position, is_free)
+            return self._on_route(actor, along, lane, position, taken_by)
         timed = one_of_kind(modifiers, AlongTrajectory)
         if timed is not None:
             return self._points.at_pose(actor, self._begin(timed)[0])
@@ -146,8 +146,8 @@ class Placer:
         distance = None if position is None else self._of(position.size())
         on_path = one_of_kind(modifiers, OnPath)
         if on_path is not None:
-            return self._starts.on_path(actor.id, on_path.path.found, lane, distance, is_free)
-        return self._starts.default(actor.id, lane, distance, is_free)
+            return self._starts.on_path(actor.id, on_path.path.found, lane, distance, taken_by)
+        return self._starts.default(actor.id, lane, distance, taken_by)
 
     @staticmethod
     def _position(actor: PhysicalObject, modifiers: Sequence[Modifier]) -> Position | None:
@@ -162,15 +162,15 @@ class Placer:
         pose = location.pose
         return Position(x=pose.x, y=pose.y, z=pose.z, h=pose.yaw or 0.0)
 
-    def _is_free_aside(
+    def _taken_aside(
         self,
         actor: PhysicalObject,
         lateral: Lateral,
-        is_free: Callable[[LanePosition], bool],
+        taken_by: TakenBy,
         place: LanePosition,
-    ) -> bool:
-        """Whether a start place can be used at a distance from the centre of its lane."""
-        return is_free(self._aside(actor, place, lateral))
+    ) -> str | None:
+        """Which actor is in the way at a distance from the centre of a lane."""
+        return taken_by(self._aside(actor, place, lateral))
 
     def _aside(self, actor: PhysicalObject, at: LanePosition, lateral: Lateral) -> LanePosition:
         """The place across the lane, in the lane or beside another actor."""
@@ -232,7 +232,7 @@ class Placer:
         along: Along,
         lane: Lane | None,
         position: Position | None,
-        is_free: Callable[[LanePosition], bool],
+        taken_by: TakenBy,
     ) -> LanePosition | opendrive.Pose:
         """The start of a route of the map, or a distance from there; in any lane by default."""
         route = along.way
@@ -249,7 +249,7 @@ class Placer:
                 )
             if lane is not None:
                 return self._points.numbered(actor, step.position, lane)
-            if is_free(step.position):
+            if taken_by(step.position) is None:
                 return step.position
         raise PlacementError(f"{actor.id}: {route.found} has no free lane {distance:g} m along it")
 

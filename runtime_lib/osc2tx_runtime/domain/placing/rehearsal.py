@@ -15,10 +15,11 @@ from osc2tx_runtime.domain.actors import MovableObject
 from osc2tx_runtime.domain.modifiers import Along, AlongTrajectory, Modifier, OnPath, Position
 from osc2tx_runtime.domain.placing.entries import Entries, WayIn, start_demands
 from osc2tx_runtime.domain.placing.placer import Placer
+from osc2tx_runtime.domain.placing.start_room import overlap_with
 from osc2tx_runtime.domain.placing.ways_in import Arrival, way_in
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, MapError, Pose, RoadMap
-from osc2tx_runtime.world.measuring.collision import Box, box_of, overlapping
+from osc2tx_runtime.world.measuring.collision import Box, box_of
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.placing.initial_state import InitialState
@@ -119,14 +120,16 @@ class Rehearsal(Entries):
         """Return the place that is requested, among the others as they are now."""
         world, state = self._context.world, self._context.world.state(actor.id)
 
-        def is_free(place: LanePosition) -> bool:
+        def taken_by(place: LanePosition) -> str | None:
             pose = world.map.pose(place)
             box = box_of(state._replace(x=pose.x, y=pose.y, z=pose.z, h=pose.h))
-            others = (world.state(other) for other in world.actors() if other != actor.id)
-            return not any(overlapping(box, box_of(other)) for other in others)
+            others = {
+                each: box_of(world.state(each)) for each in world.actors() if each != actor.id
+            }
+            return overlap_with(box, others)
 
         draws = self._context.random_for(f"{actor.id} start")
-        return Placer(world).initial_state(actor, demands, here, is_free=is_free, draws=draws)
+        return Placer(world).initial_state(actor, demands, here, taken_by=taken_by, draws=draws)
 
     def _kept_speed(self, demands: Sequence[Modifier]) -> float:
         """Return the speed (m/s) of an actor whose place is kept relative to another one."""

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import ClassVar, Generic, NamedTuple, Protocol, TypeVar
 
 from osc2tx_runtime.opendrive import LanePosition
-from osc2tx_runtime.world.measuring.collision import Box, overlapping
+from osc2tx_runtime.world.measuring.collision import Box, overlap_along, overlapping
 
-__all__ = ["Placed", "Start", "StartRoom"]
+__all__ = ["Placed", "Start", "StartRoom", "overlap_with"]
 
 
 class Start(Protocol):
@@ -97,11 +97,9 @@ class StartRoom(ABC, Generic[StartT]):
                     raise
 
     def taken_by(self, box: Box) -> str | None:
-        """The actors placed so far."""
-        for other, (taken, _) in self._placed.items():
-            if taken is not None and overlapping(box, taken):
-                return other
-        return None
+        """Which actor is in the way, and by how much."""
+        placed = {actor: room for actor, (room, _) in self._placed.items() if room is not None}
+        return overlap_with(box, placed)
 
     def was_tried(self, start: StartT, place: LanePosition) -> bool:
         """Whether a place was tried in vain."""
@@ -144,6 +142,14 @@ class StartRoom(ABC, Generic[StartT]):
                 continue
             return True
         return False
+
+
+def overlap_with(box: Box, others: Mapping[str, Box]) -> str | None:
+    """Return the first of other actors that a box overlaps, with the length of the overlap."""
+    for actor, other in others.items():
+        if overlapping(box, other):
+            return f"{actor} by {overlap_along(box, other):.2f} m"
+    return None
 
 
 def _is_behind(start: StartT, anchor: StartT, placed: Sequence[StartT]) -> bool:

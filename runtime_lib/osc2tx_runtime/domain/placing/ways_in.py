@@ -24,7 +24,7 @@ Boxes = Sequence[dict[str, Box]]
 """The room that actors take, at each step from the start of the run on."""
 
 _FASTER = (5.0, 10.0, 15.0, 20.0, 25.0)  # m/s above the speed of arrival
-_EFFORTS = (COMFORT, 1.0)  # shares of the largest acceleration
+_EFFORTS = (COMFORT, 1.0)  # shares of what the actor can do at most
 _EARLIER = (0.0, 0.25, 0.5, 0.75, 1.0)  # share of the time by which it sets out earlier
 _NEAR = 1e-6  # m
 _SAME = 1e-3  # m, m/s
@@ -141,10 +141,11 @@ def _speeds(arrival: Arrival, dt: float) -> Iterator[tuple[float, int, int]]:
             yield 0.0, begin, begin + steps
     if not rolls:
         yield steady
-    for more in _FASTER if arrival.follows_lanes else ():
-        steps = _steps(more, COMFORT * arrival.limits.deceleration, dt)
-        if steps <= last:
-            yield target + more, last - steps, last
+    for effort in _EFFORTS if arrival.follows_lanes else ():
+        for more in _FASTER:
+            steps = _steps(more, effort * arrival.limits.deceleration, dt)
+            if steps <= last:
+                yield target + more, last - steps, last
 
 
 def _steps(change: float, rate: float, dt: float) -> int:

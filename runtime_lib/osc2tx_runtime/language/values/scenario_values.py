@@ -11,6 +11,7 @@ from osc2tx_runtime.language.source_map import SourceMap
 from osc2tx_runtime.language.tree.coverage import CoverageItem, ItemOptions
 from osc2tx_runtime.language.values.drawing import ATTEMPTS, Drawing
 from osc2tx_runtime.language.values.external_methods import external_function
+from osc2tx_runtime.language.values.narrowing import Narrowed
 from osc2tx_runtime.language.values.parameters import Choice, Domain, NumberT, Range, ValueT, choose
 from osc2tx_runtime.language.values.walks import Draws
 from osc2tx_runtime.language.values.written_units import AnyUnit, Unit, unit_named
@@ -72,6 +73,7 @@ class ScenarioValues:
             ATTEMPTS if settings.draws is None else 1,
         )
         self._items: dict[str, CoverageItem] = {}
+        self._narrowed: dict[str, Narrowed] = {}
 
     # --- used by generated classes ---
 
@@ -138,7 +140,7 @@ class ScenarioValues:
         Settings cannot give it, so it is not a parameter.
         """
         self._composite.add(name)
-        value: AnyT = self._arguments.get(name, default)
+        value: AnyT = self._arguments.get(name, self._fixed(name, default))
         return value
 
     def required_argument(self, name: str, kind: type[AnyT]) -> AnyT:
@@ -147,13 +149,13 @@ class ScenarioValues:
         Raises:
             SettingsError: If it does not.
         """
-        if name not in self._arguments:
+        if name not in self._arguments and name not in self._narrowed:
             path = f"{self._path}.{name}" if self._path else name
             raise SettingsError(
                 f"parameter `{path}` has no value, and `--set` cannot give it one:"
                 " the invocation of the scenario must"
             )
-        value: AnyT = self.argument(name, self._arguments[name])
+        value: AnyT = self.argument(name, self._arguments.get(name))  # type: ignore[assignment]
         return value
 
     @overload
@@ -190,6 +192,27 @@ class ScenarioValues:
         """Return the value of a global parameter without a constant: `--set` must give it."""
         value: ValueT = self._global(name, kind, domain, unit)
         return value
+
+    def narrow_to(self, name: str, default: Any, domain: Any = None, *, unit: AnyUnit = "") -> None:
+        """Let a parameter of the base be less: `self.narrow_to("gap", within(5 * m, 8 * m))`.
+
+        Call it in `declare`, before that of the base. What reads a value of the base is given as a
+        function without parameters, which is called when the base declares the parameter.
+
+        Args:
+            name: Name of the parameter.
+            default: As of `parameter`.
+            domain: As of `parameter`.
+            unit: As of `parameter`; that of the base if left out.
+        """
+        self._narrowed.setdefault(name, Narrowed(default, domain, unit))
+
+    def fix_to(self, name: str, value: Any) -> None:
+        """Let a parameter or object of the base be one value: `self.fix_to("gap", 8 * m)`.
+
+        As `narrow_to`; what is fixed is no parameter any more.
+        """
+        self._narrowed.setdefault(name, Narrowed(value, is_fixed=True))
 
     def keep(self, holds: bool) -> None:
         """Demand a relation between values; call it after their declarations.
@@ -245,6 +268,7 @@ class ScenarioValues:
             for name in vars(self).keys() - members:
                 del self.__dict__[name]
             self.parameters.clear()
+            self._narrowed.clear()
             for kept, before in ((self._shared, shared), (self._shared_objects, objects)):
                 kept.clear()
                 kept.update(before)
@@ -261,7 +285,18 @@ class ScenarioValues:
                 path = f"{self._path}.{name}" if self._path else name
                 self.parameters[name] = self._shared[path] = value
 
+    def _fixed(self, name: str, declared: AnyT) -> AnyT:
+        """Return what a scenario that inherits an object makes of it, else as it is declared."""
+        narrowed = self._narrowed.get(name)
+        value: AnyT = declared if narrowed is None else narrowed.value
+        return value
+
     def _own(self, name: str, default: Any, domain: Domain | None, unit: AnyUnit) -> Any:
+        narrowed = self._narrowed.get(name)
+        if narrowed is not None:
+            if narrowed.is_fixed:
+                return narrowed.value
+            default, domain, unit = narrowed.value, narrowed.domain, narrowed.unit or unit
         path = f"{self._path}.{name}" if self._path else name
         generator = self._drawing.draws_for(f"{self._key}/{name}")
         given = self._arguments.get(name)
@@ -272,6 +307,11 @@ class ScenarioValues:
         return value
 
     def _global(self, name: str, default: Any, domain: Domain | None, unit: AnyUnit) -> Any:
+        narrowed = self._narrowed.get(name)
+        if narrowed is not None:
+            if narrowed.is_fixed:
+                return narrowed.value
+            default, domain, unit = narrowed.value, narrowed.domain, narrowed.unit or unit
         if unit:
             self._first.parameter_units[name] = unit_named(unit)
         if name not in self._shared:

@@ -7,7 +7,17 @@ from typing import NamedTuple
 
 from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["Box", "Swept", "apart", "box_of", "contact_interval", "overlapping", "swept", "touch"]
+__all__ = [
+    "Box",
+    "Swept",
+    "apart",
+    "box_of",
+    "contact_interval",
+    "overlap_along",
+    "overlapping",
+    "swept",
+    "touch",
+]
 
 _NEAR = 1e-4  # m to which contacts of turning boxes are found
 
@@ -95,6 +105,12 @@ def apart(a: Box, b: Box) -> tuple[float, float, float]:
     """
     px, py = b.x - a.x, b.y - a.y
     return max([(abs(px * ux + py * uy) - reach, ux, uy) for ux, uy, reach in _axes(a, b)])
+
+
+def overlap_along(a: Box, b: Box) -> float:
+    """Distance (m) that two boxes share along the first one."""
+    ux, uy, both = _axes(a, b)[0]
+    return both - abs((b.x - a.x) * ux + (b.y - a.y) * uy)
 
 
 def _axes(a: Box, b: Box) -> tuple[tuple[float, float, float], ...]:

@@ -57,6 +57,7 @@ LIMITS: dict[str, tuple[XmlVersion, ...]] = {
     "C29_route_coordinates": ("1.1", "1.2", "1.3", "1.4"),  # `>=`
     "C29_route_points": ("1.1", "1.2", "1.3", "1.4"),  # `<=`
     "C29_route_values": NOTHING,  # corners of a way
+    "C30_entering": NOTHING,  # the start of a later action
     "C32_conditional_triggers": ("1.2", "1.3", "1.4"),  # the sign of a distance along
     "C32_measures": ("1.2", "1.3", "1.4"),
     "C32_motion_readings": ("1.2", "1.3", "1.4"),  # an acceleration across

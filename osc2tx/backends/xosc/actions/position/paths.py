@@ -46,8 +46,7 @@ def _on_line(leaf: Leaf) -> Performance:
         line = line_of(leaf.ctx, arguments.get("absolute"))
     if leaf.duration is not None:
         raise Inexpressible("a duration beside that of the way", leaf.node.span)
-    is_exact = leaf.node.action.startswith("replay") or may_jump(leaf)
-    changes = along_line(leaf, line, offsets, is_exact=is_exact)
+    changes = along_line(leaf, line, offsets, is_exact=may_jump(leaf))
     return Performance((*changes, *apply_modifiers(leaf)), "goal")
 
 

@@ -43,12 +43,12 @@ RATE = "SpeedActionDynamics/rate"
 
 
 def may_jump(leaf: Leaf) -> bool:
-    """Whether physics need not hold (§8.9.18)."""
+    """Whether physics need not hold (§8.9.18): as a modifier states, else of a replay."""
     for call in leaf.node.modifiers:
         if call.name == "physical_movement":
             arguments = Arguments(leaf.ctx, call.arguments, call)
             return arguments.member("option", "must_be_physical") == "prefer_non_physical"
-    return False
+    return leaf.node.action.startswith("replay_")
 
 
 def change_speed(

@@ -65,11 +65,12 @@ class _OnCourse(CourseAction, Generic[CourseT, RelativeT]):
     rules = (at_most_one("absolute", "relative"), at_least_one("absolute", "relative"))
     replays: ClassVar[bool]
 
-    @property
-    def exact(self) -> bool:
-        """Whether limits count for nothing: as the action says, if no modifier says otherwise."""
+    def option(self) -> str:
+        """What `physical_movement` says; without it, a replay need not be physical."""
         physical = one_of_kind(self.modifiers, PhysicalMovement)
-        return self.replays if physical is None else physical.option == "prefer_non_physical"
+        if physical is None and self.replays:
+            return "prefer_non_physical"
+        return super().option()
 
     def __init__(
         self,
@@ -116,7 +117,7 @@ class _OnPath(_OnCourse[Path, RelativePath]):
         """The path, from here."""
         return {
             LATERAL: path_command(
-                self.world.map, self.here, self.course(), self.offsets, exact=self.exact
+                self.world.map, self.here, self.course(), self.offsets, exact=self.may_jump
             )
         }
 
@@ -131,7 +132,7 @@ class _OnTrajectory(_OnCourse[Trajectory, RelativeTrajectory]):
     def commands(self) -> dict[str, Command]:
         """The trajectory, from now."""
         return trajectory_commands(
-            self.world.map, self.here, self.course(), self.offsets, exact=self.exact
+            self.world.map, self.here, self.course(), self.offsets, exact=self.may_jump
         )
 
     def resolved(self, relative: RelativeTrajectory, points: tuple[Pose, ...]) -> Trajectory:

@@ -1,4 +1,4 @@
-"""Scenario `calls`.
+"""Scenarios `with_limits`, `calls`.
 
 Made by osc2tx from input.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam.
@@ -20,6 +20,7 @@ from osc2tx_runtime import (
     elapsed,
     main,
     require_api,
+    undefined,
 )
 from osc2tx_runtime.modifiers import speed
 from osc2tx_runtime.units import Speed, kph, s
@@ -27,7 +28,22 @@ from osc2tx_runtime.units import Speed, kph, s
 require_api(1)
 
 
-class Calls(Scenario):
+class WithLimits(Scenario):
+    name = "with_limits"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.ego = self.cast("ego", Vehicle())
+
+    def limit(self) -> Speed:
+        return undefined("limit")
+
+    def half(self, v: Speed) -> Speed:
+        return v / 2.0
+
+
+class Calls(WithLimits):
     name = "calls"
     source = "input.osc"
 
@@ -36,21 +52,19 @@ class Calls(Scenario):
         # Code of the user: runs only with --allow-external
         self.note = self.external("own_code.note")
         self.doubled = self.external("own_code.twice", float)
-        self.ego = self.cast("ego", Vehicle())
+        super().declare()
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.reached = self.parameter("reached", False)
         self.passed = Event()
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
+        super().placement()
         self.place(self.ego, speed(self.half(self.limit())), throughout=True)
 
     # What the base leaves open
     def limit(self) -> Speed:
         return 30 * kph
-
-    def half(self, v: Speed) -> Speed:
-        return v / 2.0
 
     # A method of a type: its object comes first.
     def vehicle_is_faster_than(self, vehicle: Vehicle, limit: Speed) -> bool:
@@ -58,7 +72,7 @@ class Calls(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "calls",
+            self.name,
             self._ego_drive_then_now(),
             On(
                 self.passed,

@@ -43,7 +43,7 @@ class CarlaLanes(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "carla_lanes",
+            self.name,
             Wait(self.go),
             Until(
                 self.hero.drive(speed(30 * kph, rate_profile="smooth")),

@@ -61,7 +61,7 @@ class Top(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "top",
+            self.name,
             self.npc.drive(speed(30 * kph)),
             self._ego_vehicle_behind_then_drive(),
             duration=20 * s,

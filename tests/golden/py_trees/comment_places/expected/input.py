@@ -68,7 +68,7 @@ class Top(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "top",
+            self.name,
             self.ego.drive(speed(self.v)),
             self.other.drive(
                 # Above a modifier.

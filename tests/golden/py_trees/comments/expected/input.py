@@ -63,7 +63,7 @@ class Comments(Scenario):
     def behavior(self) -> Behaviour:
         """Above do."""
         return Serial(
-            "comments",
+            self.name,
             # Above a drive
             # beside the drive
             Until(

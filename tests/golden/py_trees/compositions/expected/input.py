@@ -36,7 +36,7 @@ class Compositions(Scenario):
     def behavior(self) -> Behaviour:
         """Everything at once."""
         return Parallel(
-            "compositions",
+            self.name,
             self._ego_drive_then_keep_speed(),
             self.with_limit(),
             self.other.keep_speed(duration=1 * s),

@@ -52,7 +52,7 @@ class Conditions(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "conditions",
+            self.name,
             self._ego_first_serial(),
             self._other_second_serial(),
         )

@@ -90,7 +90,7 @@ class Constraints(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "constraints",
+            self.name,
             Until(
                 self.ego.drive("drive", speed(self.slow), duration=(self.first, inf)),
                 elapsed(self.second + self.pause),

@@ -40,7 +40,7 @@ class Expressions(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "expressions",
+            self.name,
             Wait(
                 lambda: self.ego.speed > self.v + 5 * kph
                 or (not self.other.speed < self.v or self.ego.speed == self.other.speed)

@@ -135,7 +135,7 @@ class ExtendedLibrary(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "extended_library",
+            self.name,
             self._ego_drive_serial(),
             On(
                 self.ego_quick,

@@ -95,7 +95,7 @@ class Extensions(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "extensions",
+            self.name,
             self.invoke(Commute, actor=self.ego, habit=self.economical, top=self.ego_commute_top),
             self.invoke(Commute, actor=self.ego, habit=self.fast, known_as="commute_2"),
             Wait(

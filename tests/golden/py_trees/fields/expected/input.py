@@ -159,7 +159,7 @@ class Fields(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "fields",
+            self.name,
             self._ego_drive_then_call(),
             self._env_then_van(),
         )

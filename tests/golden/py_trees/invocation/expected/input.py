@@ -53,7 +53,7 @@ class Approach(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "approach",
+            self.short_name,
             Until(
                 self.actor.drive("close_in", speed(70 * kph)),
                 self.near,
@@ -83,7 +83,7 @@ class Top(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "top",
+            self.name,
             self._car1_p1_and_drive(),
             On(
                 self.told,

@@ -52,7 +52,7 @@ class Lists(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "lists",
+            self.name,
             self.ego.drive(speed(self.cruise), duration=2 * s),
             Wait(lambda: sum(it.speed > 1 * kph for it in self.fleet) > 0),
             Wait(

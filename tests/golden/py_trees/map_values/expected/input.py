@@ -149,7 +149,7 @@ class MapValues(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "map_values",
+            self.name,
             self.walker.walk(along(self.way), speed(1.5 * mps)),
             self.ego.drive(
                 along(self.section, end_offset=lambda: self.over.length), speed(10 * mps)

@@ -49,7 +49,7 @@ class Methods(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "methods",
+            self.name,
             self.ego.drive(speed(self.share(self.limit)), duration=2 * s),
             Wait(
                 lambda: self.ego.object_distance(reference=self.other, direction="euclidean")

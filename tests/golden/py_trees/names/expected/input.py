@@ -45,7 +45,7 @@ class EventScenario(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "event",
+            self.name,
             self.class_(),
             self.behavior_(),
         )

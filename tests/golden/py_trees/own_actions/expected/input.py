@@ -102,7 +102,7 @@ class OwnActions(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "own_actions",
+            self.name,
             note(text="honking"),
             honk(self.ego, times=3, at_whom=self.ego),
             self._ego_keep_honking_and_drive(),

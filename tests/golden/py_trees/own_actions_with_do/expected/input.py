@@ -46,7 +46,7 @@ class Top(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "top",
+            self.name,
             self._ego_quick_then_hurry(),
             On(
                 self.event("quick.done"),
@@ -65,25 +65,6 @@ class Top(Scenario):
         )
 
 
-class HurryMore(Scenario):
-    name = "vehicle.hurry_more"
-    source = "input.osc"
-
-    def declare(self) -> None:
-        """Cast, events and values."""
-        self.actor = self.cast("actor", Vehicle())
-        self.to = 18 * mps
-        self.done = Event()
-
-    def behavior(self) -> Behaviour:
-        return Serial(
-            "hurry_more",
-            self.actor.change_speed(target=self.to),
-            Emit(self.done),
-            self.actor.drive(duration=1 * s),
-        )
-
-
 class Hurry(Scenario):
     """There and back to the speed it had"""
 
@@ -98,11 +79,21 @@ class Hurry(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "hurry",
+            self.short_name,
             self.actor.change_speed(target=self.to),
             Emit(self.done),
             self.actor.drive(duration=1 * s),
         )
+
+
+class HurryMore(Hurry):
+    name = "vehicle.hurry_more"
+    source = "input.osc"
+
+    def declare(self) -> None:
+        """Cast, events and values."""
+        self.fix_to("to", 18 * mps)
+        super().declare()
 
 
 class Platoon(Scenario):
@@ -124,7 +115,7 @@ class Platoon(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "platoon",
+            self.name,
             self.first.drive(speed(self.pace)),
             self.second.drive(speed(self.pace)),
             duration=1 * s,

@@ -58,7 +58,7 @@ class Step(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "step",
+            self.short_name,
             self.actor.drive("roll", speed(self.pace), duration=1 * s),
             Emit(self.moving, at=lambda: self.actor.speed),
             self.actor.drive(duration=1 * s),
@@ -75,7 +75,7 @@ class WalkAround(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "walk_around",
+            self.name,
             self.invoke("inner", Step, actor=self.car),
         )
 
@@ -104,7 +104,7 @@ class OwnEvents(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "own_events",
+            self.name,
             self._ego_round_serial(),
             On(
                 self.event("round.inner.moving"),

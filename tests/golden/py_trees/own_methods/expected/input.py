@@ -86,7 +86,7 @@ class OwnMethods(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "own_methods",
+            self.name,
             self.ego.drive(speed(self.range_of_speed.middle()), duration=1 * s),
             self.ego.drive(speed(self.cruise, at="end"), duration=1 * s),
             Wait(lambda: self.ego.is_full(40) and not self.other.is_full(40)),

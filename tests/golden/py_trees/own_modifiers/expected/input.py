@@ -65,7 +65,7 @@ class Demo(Scenario):
     def behavior(self) -> Behaviour:
         self.override("slow", "quick")
         return Serial(
-            "demo",
+            self.name,
             self.ego.drive("a", speed(10 * mps), duration=2 * s),
             self.ego.drive("b", *gentle(), duration=2 * s),
             self.ego.drive("c", *gentle(top=7 * mps), duration=2 * s),

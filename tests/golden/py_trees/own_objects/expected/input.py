@@ -126,7 +126,7 @@ class Top(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "top",
+            self.name,
             self.invoke(Ride, it_is=self.ego),
             self.ego.owner.cars[0].drive(speed(self.ego.trip.allowed), duration=1 * s),
             Wait(
@@ -151,7 +151,7 @@ class Ride(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "ride",
+            self.name,
             self.it_is.drive(
                 speed(self.it_is.trip.first.most), duration=self.it_is.trip.first.time_of
             ),

@@ -110,7 +110,7 @@ class OwnTypes(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "own_types",
+            self.name,
             self.ego.assign_position(position(at_point=self.start), speed(self.style.v)),
             self.ego.drive(speed(self.coach.number * (1 * mps)), duration=self.style.patience),
             Wait(lambda: self.ego.number > self.ego.seats or self.start.title == "nowhere"),

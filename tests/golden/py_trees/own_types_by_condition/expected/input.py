@@ -80,7 +80,7 @@ class Top(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "top",
+            self.name,
             self.invoke(Haul, who=self.ego, hands=2),
             self.invoke(Haul, who=self.other, hands=1, known_as="haul_2"),
             Wait(lambda: as_type(self.ego, LoadedLorry).weight > 7.0 and self.other.load != "full"),
@@ -103,7 +103,7 @@ class Haul(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "haul",
+            self.name,
             self.who.drive(speed(self.who.pace()), duration=1 * s),
             Wait(lambda: self.who.crew == self.hands),
         )

@@ -88,7 +88,7 @@ class Paths(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "paths",
+            self.name,
             self._ego_follow_path_then_disconnect_trailer(),
             self._other_replay_trajectory_serial(),
         )

@@ -39,7 +39,7 @@ class Reactions(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "reactions",
+            self.name,
             self._ego_drive_serial(),
             # As soon as the other one is near, whatever else happens
             On(

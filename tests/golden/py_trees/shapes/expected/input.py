@@ -126,7 +126,7 @@ class Shapes(Scenario):
 
     def behavior(self) -> Behaviour:
         return Parallel(
-            "shapes",
+            self.name,
             self._ego_drive_serial(),
             self.lead.drive(speed(self.up.compute(2 * s)), duration=20 * s),
             self.walker.walk(

@@ -41,7 +41,7 @@ class Sky(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "sky",
+            self.name,
             self.ego.drive(duration=1 * s),
             self.env.assign_celestial_position(
                 light_source=self.s, azimuth=self.dusk.azimuth, elevation=self.dusk.elevation

@@ -48,7 +48,7 @@ class Values(Scenario):
 
     def behavior(self) -> Behaviour:
         return Serial(
-            "values",
+            self.name,
             self.ego.drive(speed(self.cruise.low), duration=1 * s),
             Wait(lambda: self.ego.speed in self.cruise and self.float_doubled(self.factor) == 3.0),
             Wait(

@@ -1,0 +1,123 @@
+"""What each scenario class has itself, and the names of its members.
+
+A class inherits from that of the scenario's base what the scenario inherits, by the names that it
+has there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from osc2tx import ir
+from osc2tx.backends.py_trees.code import PyName
+from osc2tx.backends.py_trees.naming import (
+    SCENARIO_ATTRIBUTES,
+    NameTable,
+    identifier,
+    method_name,
+)
+from osc2tx.backends.py_trees.type_methods import TypeMethods
+from osc2tx_shared.classes import dataclass
+
+# Compositions nested deeper than this inside one method get a method of their own: far below
+# CPython's limits (200 brackets, 99 indents), and about what a reader can follow.
+MAX_INLINE_DEPTH = 6
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Members:
+    """The members of one scenario class.
+
+    Attributes:
+        base: The scenario that its class inherits from; `None` if that is the runtime's.
+        own: What it adds to its base; without one, all that it has.
+        names: Names of all its members.
+        constraints: Its own constraints below those of its bases, as they are checked.
+        phases: Names of the methods for the parts of its own behavior.
+        phase_names: Names of those of all parts, also of what it inherits.
+    """
+
+    base: ir.AbstractScenario | None
+    own: ir.Additions
+    names: NameTable
+    constraints: tuple[ir.Constraint, ...]
+    phases: Mapping[ir.Behavior, PyName]
+    phase_names: frozenset[str]
+
+
+def members_of(module: ir.Module, type_methods: TypeMethods) -> dict[str, Members]:
+    """Return the members of the classes of all scenarios of a module, by their keys.
+
+    Args:
+        module: The module.
+        type_methods: The methods that stand in the classes of types.
+    """
+    scenarios: dict[str, ir.AbstractScenario] = {}
+    found: dict[str, Members] = {}
+    for scenario in (*module.bases, *module.scenarios):
+        scenarios[scenario.key] = scenario
+        base = None if scenario.base is None else scenarios[scenario.base]
+        above = None if base is None else found[base.key]
+        methods = [each for each in scenario.methods if each.name not in type_methods]
+        found[scenario.key] = _members(scenario, base, above, methods)
+    return found
+
+
+def _members(
+    scenario: ir.AbstractScenario,
+    base: ir.AbstractScenario | None,
+    above: Members | None,
+    methods: Sequence[ir.Method],
+) -> Members:
+    added = None if base is None else ir.additions(scenario, base)
+    own = added or ir.Additions.all_of(scenario)
+    names = NameTable(SCENARIO_ATTRIBUTES) if above is None else above.names.copy()
+    for member in (*scenario.declarations, *methods):
+        if member.name not in names:
+            names.add(member.name, identifier(member.name))
+    inherited = frozenset[str]() if above is None else above.phase_names
+    phases = {} if own.body is None else _phase_names(own.body, names, inherited)
+    return Members(
+        base=base,
+        own=own,
+        names=names,
+        constraints=(*(() if above is None else above.constraints), *own.constraints),
+        phases=phases,
+        phase_names=inherited | {name.text for name in phases.values()},
+    )
+
+
+def _phase_names(
+    body: ir.Behavior, names: NameTable, inherited: frozenset[str]
+) -> dict[ir.Behavior, PyName]:
+    """Name the methods for the parts of a behavior; one replaces that of the base of its name."""
+    found: dict[ir.Behavior, PyName] = {}
+    wanted = set[str]()
+    for node in _phases(body, depth=0):
+        name = method_name(node)
+        if name in inherited and name not in wanted:
+            found[node] = PyName(name)
+        else:
+            suffix = "" if name in wanted else "_"  # else it is a field that has the name
+            found[node] = names.add(f"method at {node.span.start}", name, suffix)
+        wanted.add(name)
+    return found
+
+
+def _phases(node: ir.Behavior, *, depth: int) -> Iterator[ir.Composition]:
+    """Yield the compositions below a node that get methods of their own, in source order."""
+    depth += 1
+    match node:
+        case ir.Serial() | ir.Parallel() | ir.OneOf():
+            for member in node.members:
+                is_apart = isinstance(member, ir.Serial | ir.Parallel | ir.OneOf) and (
+                    member.is_phase or depth > MAX_INLINE_DEPTH
+                )
+                if is_apart:
+                    yield member  # type: ignore[misc]
+                yield from _phases(member, depth=0 if is_apart else depth)
+        case ir.On():
+            for reaction in node.reactions:
+                yield from _phases(reaction, depth=depth)
+        case _:
+            pass
