@@ -23,6 +23,11 @@ PRIMITIVES = {
 BOOL = PRIMITIVES["bool"]
 SCENARIO = ir.ValueType(ir.Kind.STRUCT, "scenario")
 
+# Sorts of values that a setting of a run can give.
+PLAIN = frozenset(
+    {ir.Kind.BOOL, ir.Kind.INTEGER, ir.Kind.FLOAT, ir.Kind.STRING, ir.Kind.QUANTITY, ir.Kind.ENUM}
+)
+
 
 def lower_type(type_: types.Type) -> ir.ValueType:
     """Return the IR's view of a type."""

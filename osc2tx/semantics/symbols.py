@@ -159,6 +159,12 @@ class TypeSymbol(Symbol):
         """Whether the library alone says what it has."""
         return self.origin == "library" and not self.is_extended
 
+    @property
+    def added(self) -> list[ast.Statement]:
+        """The statements that extensions in files of the user add to a type of the library."""
+        home = self.span.source
+        return [s for s in self.statements if s.span.source is not home] if self.is_extended else []
+
     def named(self, text: str) -> list[Member]:
         """Return the own members of a name, one for each namespace that has one."""
         first = self.members.get(text)

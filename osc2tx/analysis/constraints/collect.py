@@ -179,9 +179,7 @@ class Collector:
             # Another actor, of which its own declaration says all.
             yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
             return
-        is_ours = isinstance(type_, sym.StructSymbol | sym.ActorSymbol) and any(
-            not t.is_as_library for t in supertypes(type_)
-        )
+        is_ours = type_ is not None and any(not t.is_as_library for t in supertypes(type_))
         for element in self._model.elements.get(field, ()) if len(key) == 1 else ():
             yield from self._of_element(place, element, depth)
         if type_ is not None and is_ours and depth < DEEPEST_MEMBER:
@@ -262,6 +260,10 @@ class Collector:
                 place, owner=callee, prefix=prefix, it=it, it_type=None, handed_in=handed_in
             )
             yield from self._of_type(inner, callee, depth=1)
+        elif added := [each for t in supertypes(callee) for each in t.added]:
+            inner = replace(place, owner=callee, prefix=prefix, it=prefix, it_type=None)
+            for statement in added:
+                yield from self._of_statement(inner, callee, statement, depth=1)
         elif not _can_be_constrained(node):
             return
         for parameter, value in binding.arguments:

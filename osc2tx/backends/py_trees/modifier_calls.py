@@ -55,7 +55,7 @@ class ModifierCalls:
     def note(
         self, calls: Iterable[ir.ModifierCall], applied: set[str], called: set[str], depth: int = 0
     ) -> None:
-        """Note the keys of the modifiers that are applied, and of those whose functions fit."""
+        """Note the keys of the applied modifiers, and of the modifiers with fitting functions."""
         for application, modifier, parts in self.groups(calls, depth):
             if application is None:
                 continue

@@ -34,7 +34,7 @@ def write_types(
 
 
 class _TypeWriter:
-    """Writes a type; `later` are those whose classes come below."""
+    """Writes a type; `later` are the types with classes below it."""
 
     def __init__(
         self,

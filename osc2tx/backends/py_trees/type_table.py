@@ -181,7 +181,8 @@ class TypeTable:
 
     def fields_type(self, lineage: Sequence[str]) -> PyName | None:
         """Name the type of the keywords that the runtime takes for an actor; `None` if none."""
-        above = (CLASSES[name] for name in lineage if name in CLASSES)
+        own = {each.name for each in self._own.values() if not each.is_of_library}
+        above = (CLASSES[name] for name in lineage if name in CLASSES and name not in own)
         library = next(above, "Actor")
         if not self._own[lineage[0]].is_actor or library not in ACTOR_FIELDS:
             return None

@@ -88,12 +88,24 @@ class InvocationLowering:
     ) -> None:
         """Attach the events and reactions that `extend` adds to an action of the library."""
         for each in supertypes(callee):
-            if not each.is_extended:
+            if not (added := each.added):
                 continue
-            added = [s for s in each.statements if s.span.source is not each.span.source]
             place = Place(model=self._ctx.model, owner=callee, prefix=(node,), it=None)
             ctx = replace(self._ctx.at(place), actor=actor or self._ctx.actor)
             attached.add(attached_context(ctx, each, added, name_of_member(node)), added)
+
+    def _added_modifiers(
+        self,
+        node: ast.Invocation,
+        callee: sym.ActionSymbol,
+        actor: ir.Expression | None,
+        attached: Attached,
+    ) -> tuple[ir.ModifierCall, ...]:
+        """Return the modifiers that `extend` applies in an action of the library."""
+        added = [statement for each in supertypes(callee) for statement in each.added]
+        lowering = replace(self._modifier_lowering(node, actor, callee, attached), within=(node,))
+        members = (each for each in added if isinstance(each, ast.ModifierApplication))
+        return tuple(call for each in members for call in lowering.lower(each))
 
     def _action(
         self,
@@ -121,7 +133,10 @@ class InvocationLowering:
             owner=None if callee.actor is None else callee.actor.name,
             action=callee.name,
             arguments=tuple(a for a in arguments if a.parameter != "duration"),
-            modifiers=self._modifiers(node, actor, attached),
+            modifiers=(
+                *self._modifiers(node, actor, attached),
+                *self._added_modifiers(node, callee, actor, attached),
+            ),
             duration=next((a.value for a in arguments if a.parameter == "duration"), None),
             until=lower_until(self._ctx, node.with_members),
             is_own=is_user_defined(callee),
@@ -234,7 +249,7 @@ class InvocationLowering:
         what: str,
         attached: Attached,
     ) -> None:
-        """Report modifiers of what is no action; those that move nothing may stand."""
+        """Report modifiers of other members than actions; those that move nothing may stay."""
         lowering = self._modifier_lowering(node, actor, behavior, attached)
         for member in node.with_members:
             if not isinstance(member, ast.ModifierApplication) or is_override(self._ctx, member):

@@ -151,13 +151,15 @@ class ConstraintLowering:
 
         Arguments are constraints too; a parameter that has one is left to it.
         """
+        binding = self.ctx.model.bindings.get(node)
+        is_of_library = binding is not None and binding.callee.origin != "user"
         for key, mentioned in self.found.by_key.items():
             parameter = key[-1]
             if key[0] is not node or len(key) != 2 or not isinstance(parameter, sym.FieldSymbol):
                 continue
             if any(c.subject == key and c.origin == "argument" for c in mentioned):
                 continue
-            says_itself = any(c.subject == key for c in mentioned)
+            says_itself = not is_of_library and any(c.subject == key for c in mentioned)
             if says_itself and all(c.place.prefix[:1] == (node,) for c in mentioned):
                 continue
             setting = self.setting(key, parameter.type)
@@ -365,7 +367,7 @@ class ConstraintLowering:
         return bool(roots & (self.ctx.handed_in if is_relation else self.ctx.computed))
 
     def _checks_itself(self, invoked: ast.Invocation) -> bool:
-        """Whether an invoked behavior sees to its own constraints: all but actions of the user."""
+        """Whether an invoked behavior checks its own constraints: all but actions of the user."""
         callee = self.ctx.model.binding_of(invoked).callee
         is_action = isinstance(callee, sym.ActionSymbol) and callee.origin == "user"
         return not is_action or is_composed(callee)

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from osc2tx import ir
+from osc2tx.analysis.constraints.operation_list import Key
+from osc2tx.analysis.constraints.parameter_lookup import name_of
 from osc2tx.diagnostics import Span
+from osc2tx.lowering.behavior.composed_behaviors import is_composed
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
 from osc2tx.lowering.constraints.list_constraints import lower_list
 from osc2tx.lowering.constraints.parameter_domains import all_values
@@ -11,12 +14,13 @@ from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.declarations.combined_types import add_types, lineage
 from osc2tx.lowering.declarations.map_fields import reads_map
 from osc2tx.lowering.declarations.objects import ObjectLowering
-from osc2tx.lowering.declarations.user_fields import user_lineage
+from osc2tx.lowering.declarations.user_fields import is_plain, user_lineage
 from osc2tx.lowering.value_types import authored_unit, lower_type
 from osc2tx.lowering.values.expressions import lower_expression
 from osc2tx.lowering.values.references import other_actor
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
+from osc2tx.semantics.names.member_lookup import parameters_of
 from osc2tx.syntax import ast
 
 
@@ -77,6 +81,9 @@ class FieldLowering:
                 struct = self._objects.types_of(symbol)
                 add_types(self._ctx, struct, span)
                 return self._objects.struct(symbol, span, comments, lineage(*struct))
+            case types.BehaviorType(symbol=behavior):
+                self._parameters(symbol, behavior)
+                return None
             case types.ListType() | types.RangeType() if not self._has_value(symbol):
                 return self._described(symbol, span, comments)
             case (
@@ -92,6 +99,21 @@ class FieldLowering:
                     "OSC501", span, f"a field of type `{symbol.type}` is not supported yet"
                 )
                 return None
+
+    def _parameters(self, field: sym.FieldSymbol, behavior: sym.BehaviorSymbol) -> None:
+        """Declare the parameters of a behavior that a field stands for (§7.2.2.2).
+
+        Nothing invokes it, so all that it has are values; each is one of the scenario, `hop.n`.
+        """
+        if is_composed(behavior):
+            self._ctx.invoked.append(behavior)  # it is a part of this one, not one to run
+        for each in parameters_of(behavior):
+            key = (field, each)
+            if is_plain(each.type) and (
+                key in self._constraints.found.by_key or each.origin == "user"
+            ):
+                declared = self._parameter(each, each.span, (), key)
+                self._ctx.drawn.append(declared)
 
     def _other_actor(
         self,
@@ -193,9 +215,10 @@ class FieldLowering:
         return symbol in self._ctx.handed_in
 
     def _parameter(
-        self, field: sym.FieldSymbol, span: Span, comments: tuple[str, ...]
+        self, field: sym.FieldSymbol, span: Span, comments: tuple[str, ...], key: Key | None = None
     ) -> ir.Parameter:
-        setting = self._constraints.setting((field,), field.type)
+        key = key or (field,)
+        setting = self._constraints.setting(key, field.type)
         domain = setting.domain
         if setting.value is not None and reads_map(setting.value):
             self._ctx.unsupported(
@@ -208,7 +231,7 @@ class FieldLowering:
             domain = all_values(field.type, span)
         type_ = lower_type(field.type)
         return ir.Parameter(
-            name=field.name,
+            name=name_of(key),
             span=span,
             comments=(*comments, *setting.comments),
             type=type_,

@@ -223,6 +223,10 @@ class ObjectLowering:
                         path = tuple(name_of((part,)) for part in inner[len(_outside(inner)) :])
                         found[inner] = ir.FieldValue(path=path, value=value, span=value.span)
 
+    def _is_described(self, key: Key) -> bool:
+        """Whether a constraint speaks of a list, its size or its elements."""
+        return any(each[: len(key)] == key for each in self._constraints.found.by_key)
+
     def _has_class_default(self, key: Key, member: sym.FieldSymbol) -> bool:
         return self._is_in_force(key) and class_default(self._ctx, member) is not None
 
@@ -242,6 +246,9 @@ class ObjectLowering:
         if is_plain(member.type):
             domain = all_values(member.type, member.span)
             return self._ctx.draw(name_of(key), domain, lower_type(member.type), member.span)
+        if isinstance(member.type, types.ListType) and not self._is_described(key):
+            type_ = lower_type(member.type)  # of any size: none is the least
+            return ir.ListValue(span=member.span, type=type_, elements=())
         self._ctx.unsupported(
             "OSC501",
             key[0].span,

@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from osc2tx import ir
 from osc2tx.lowering.context import LoweringContext, Receiver
-from osc2tx.lowering.value_types import lower_type
+from osc2tx.lowering.value_types import PLAIN, lower_type
 from osc2tx.lowering.values.expressions import lower_expression
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
@@ -21,11 +21,6 @@ from osc2tx.semantics.scope import supertypes
 from osc2tx.syntax import ast
 
 TypeSymbol: TypeAlias = sym.ActorSymbol | sym.StructSymbol
-
-# Sorts of values that a setting of a run can give.
-PLAIN = frozenset(
-    {ir.Kind.BOOL, ir.Kind.INTEGER, ir.Kind.FLOAT, ir.Kind.STRING, ir.Kind.QUANTITY, ir.Kind.ENUM}
-)
 
 # Reads that exclude an expression as the default of a class.
 _OF_OBJECTS = (ir.FieldRef, ir.ParameterRef, ir.ScenarioSelf)
@@ -39,7 +34,7 @@ def mentioned_fields(model: SemanticModel) -> Mapping[sym.FieldSymbol, frozenset
     found: dict[sym.FieldSymbol, set[str]] = {}
     for node, symbol in model.references.items():
         if isinstance(symbol, sym.FieldSymbol) and isinstance(
-            node, ast.NameExpression | ast.MemberAccess
+            node, ast.NameExpression | ast.MemberAccess | ast.Name
         ):
             found.setdefault(symbol, set()).add(node.span.source.name)
     owners = (each for each in model.symbols if isinstance(each, sym.TypeSymbol))

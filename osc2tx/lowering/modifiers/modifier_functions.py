@@ -2,10 +2,9 @@
 
 Where a modifier is applied, modifiers of the library stand for it (`user_modifiers`): that is the
 meaning of the program. Here its body is lowered once, in terms of its parameters, for back ends
-that can write it as a function. No function are those whose body depends on more than their
-parameters: on the action that they modify (`it`), on its actor, on global parameters, or on a value
-that is drawn at each place of application. Nor are constraints part of one: they belong to the
-scenario.
+that can write it as a function. A modifier has no function if its body depends on more than its
+parameters: on the modified action (`it`), on its actor, on global parameters, or on a value that is
+drawn at each application. Constraints are not part of a function: they belong to the scenario.
 """
 
 from __future__ import annotations

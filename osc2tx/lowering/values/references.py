@@ -9,7 +9,7 @@ from osc2tx.lowering.behavior.composed_behaviors import is_composed
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.declarations.global_names import field_name, global_name
 from osc2tx.lowering.declarations.map_fields import is_given_by_map
-from osc2tx.lowering.value_types import SCENARIO, lower_type
+from osc2tx.lowering.value_types import PLAIN, SCENARIO, lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.scope import supertypes
@@ -99,6 +99,14 @@ def lower_member(
     if key is not None and not isinstance(key[0], sym.FieldSymbol):
         return lower_key(ctx, key, node.span)
     lowered = ctx.lower(base)
+    if isinstance(field.owner, sym.BehaviorSymbol) and type_.kind not in PLAIN:
+        ctx.unsupported(
+            "OSC501",
+            node.span,
+            f"`{node.span.text}` has no value: nothing invokes `{base.span.text}`",
+            help="read plain values of it only, or declare the object in the scenario",
+        )
+        return None
     return None if lowered is None else member_of(ctx, lowered, field, node.span)
 
 
@@ -137,6 +145,8 @@ def member_of(
         return ir.FieldRef(span=span, type=type_, name=name, is_variable=True)
     if isinstance(base, ir.ScenarioSelf):
         return ir.FieldRef(span=span, type=type_, name=field.name)
+    if isinstance(base, ir.FieldRef) and isinstance(field.owner, sym.BehaviorSymbol):
+        return ir.FieldRef(span=span, type=type_, name=f"{base.name}.{field.name}")
     return ir.Attribute(
         span=span,
         type=type_,

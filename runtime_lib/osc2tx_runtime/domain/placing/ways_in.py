@@ -74,7 +74,7 @@ class Arrival(NamedTuple):
 def way_in(
     arrival: Arrival, road_map: RoadMap, others: Boxes, dt: float, missed: float = 0.0
 ) -> WayIn:
-    """Return the first way in that the map has and nobody is in the way of.
+    """Return the first free way in that the map has.
 
     Args:
         arrival: The state to arrive in.
@@ -190,7 +190,7 @@ def _rooms(way: WayIn, arrival: Arrival, road_map: RoadMap, dt: float) -> list[B
 
 
 def _blocked(rooms: Sequence[Box], actor: str, others: Boxes, dt: float) -> str | None:
-    """Return who is in the way, and when; None if nobody is."""
+    """Return the blocking actor, and the time; None if there is none."""
     for step, (room, boxes) in enumerate(zip(rooms, others, strict=False)):
         for other, taken in boxes.items():
             if other != actor and overlapping(room, taken):

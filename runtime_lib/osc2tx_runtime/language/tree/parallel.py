@@ -209,9 +209,17 @@ class Parallel(Composition, ParallelComposite):
             return self._advance_course(failed)
         if failed:
             return FAILURE
-        if not self._active or (self._bounding and not self._left and not self._instants_run()):
+        if self._is_over():
             return RUNNING if self._stretches() else SUCCESS
         return RUNNING
+
+    def _is_over(self) -> bool:
+        """Return whether all that bounds it has ended: reactions alone bound nothing."""
+        if self._bounding:
+            return not self._active or (not self._left and not self._instants_run())
+        return all(is_service(child) for child, _ in self._active) and (
+            not self._active or len(self._services) < len(self._members)
+        )
 
     def _stretches(self) -> bool:
         """Return whether members without end of their own fill the rest of the least duration."""

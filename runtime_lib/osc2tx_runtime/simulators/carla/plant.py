@@ -87,7 +87,7 @@ class CarlaPlant:
         return wanted
 
     def _default_control(self, sensors: SensorStacks) -> ControlMode:
-        """With physics where somebody else looks at the velocities of the actors, or hits them."""
+        """With physics where other clients read the velocities of the actors, or hit them."""
         others = any(each in EXTERNAL for each in self._wanted.values()) or self._spawning.waits
         default: ControlMode = "exact-physics" if others or sensors.see_velocities else "exact"
         return self._wanted.get("", default)

@@ -39,7 +39,7 @@ class Spawning:
 
     @property
     def waits(self) -> bool:
-        """Whether somebody else spawns any actor."""
+        """Whether another client spawns any actor."""
         return bool(self._waiting)
 
     def awaited(self, actor: str) -> bool:
