@@ -73,8 +73,9 @@ class _WaysOut:
                 return True
 
     def _is_known(self, callee: sym.Symbol | None) -> bool:
-        known = isinstance(callee, sym.ScenarioSymbol | sym.ActionSymbol)
-        return not known or callee in self._found or callee.origin != "user"
+        if not isinstance(callee, sym.ScenarioSymbol | sym.ActionSymbol):
+            return True
+        return callee in self._found or callee.origin != "user"
 
     def _cut(self, behavior: Behavior) -> Iterator[Behavior]:
         """Yield what a behavior invokes and ends by an `until`."""
