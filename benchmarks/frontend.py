@@ -6,11 +6,11 @@ Prints, for generated files of 6,000, 30,000 and 150,000 lines:
 
 - lines per second of lexing, parsing, AST and model, of all from text to AST, of the stages of a
   check behind the model, and of the whole check;
-- what a check takes as a multiple of what it takes from text to model;
+- the time of a check as a multiple of the time from text to model;
 - the growth exponent of each stage, 1.00 being linear;
 - the highest memory of a process that checks the text, in KB a line.
 
-Then what it costs to start: the library from its snapshot against parsing it, and `osc2tx check` of
+Then the costs of starting: the library from its snapshot against parsing it, and `osc2tx check` of
 one scenario in a new process, for the first time and again, against `python -c "import antlr4"`.
 
 Times are CPU seconds, the least of a few runs. Ratios count, not seconds: the column `x loop`
@@ -214,7 +214,7 @@ print((peak() - before) / text.count("\\n"))
 
 
 def print_memory(sizes: list[int]) -> None:
-    """The memory of a new process each, beyond what it has before; on Linux."""
+    """The memory of a new process each, beyond its initial one; on Linux."""
     for size in sizes:
         command = [sys.executable, "-c", PEAK, str(size), str(ROOT)]
         peak = float(subprocess.run(command, stdout=subprocess.PIPE, check=True).stdout)

@@ -1,4 +1,4 @@
-"""What a run costs: one pass over the tree, one step of the world, and whole scenarios.
+"""Costs of a run: one pass over the tree, one step of the world, and whole scenarios.
 
     python benchmarks/runtime.py [--map MAP.xodr] [--largest N]
 
@@ -161,7 +161,7 @@ BUDGETS = (
 
 
 class Unwatched:
-    """Stands for the monitors of a run that nobody checks."""
+    """Stands for the monitors of a run without checks."""
 
     violations = ()
 
@@ -201,7 +201,7 @@ def print_scenarios(largest: int) -> None:
 
 def main() -> None:
     default = Path(osc2tx_runtime.__file__).parent / "maps" / "highway.xodr"
-    parser = argparse.ArgumentParser(description="What a run costs.")
+    parser = argparse.ArgumentParser(description="Costs of a run.")
     parser.add_argument("--map", type=Path, default=default, help="OpenDRIVE file for the world")
     parser.add_argument(
         "--largest", type=int, default=1000, help="leave out what has more leaves, levels or actors"

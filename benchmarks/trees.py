@@ -65,7 +65,7 @@ def waits(leaves: int) -> Behaviour:
 
 
 def branches(count: int) -> Behaviour:
-    """Branches as they stand in scenarios: race, until, duration; two leaves each."""
+    """Branches as in scenarios: race, until, duration; two leaves each."""
     return Parallel(
         "p",
         *(
@@ -84,7 +84,7 @@ def reactions(count: int) -> Behaviour:
 
 
 def instant(tree: Behaviour) -> Callable[[], object]:
-    """Make what the runner does at each step: passes until nothing is pending."""
+    """Do the work of the runner at each step: passes until nothing is pending."""
     context, started_tree = started(tree)
 
     def next_step() -> None:

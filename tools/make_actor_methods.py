@@ -41,7 +41,7 @@ GROUPS: dict[str, tuple[type, ...]] = {
 
 WIDTH = 92  # of docstrings in methods
 ENTRY = r"    (\*{0,2}\w+):"
-"""Begin of what a docstring says of an argument."""
+"""Begin of an entry for an argument in a docstring."""
 
 Imports = dict[str, set[str]]
 """Modules to the names that a file takes of them."""
@@ -73,7 +73,7 @@ def _methods_of(kind: str) -> str:
         lines.insert(1, "")
     return _formatted(
         f'"""Actions of the actor type `{kind}`; {MADE}."""\n',
-        "# The registry carries out what is only declared here.",
+        "# The registry executes these declarations.",
         '# mypy: disable-error-code="empty-body"\n',
         "from __future__ import annotations\n",
         "from typing import TYPE_CHECKING\n",
@@ -166,7 +166,7 @@ def _imported(owner: type) -> dict[str, str]:
 
 
 def _docstring(method: Method) -> Iterator[str]:
-    """Yield the docstring of the class with the section, without what the method has no word of."""
+    """Yield the docstring of the class with the section, without entries that the method lacks."""
     head, *rest = (inspect.getdoc(method.factory) or "").splitlines()
     rest = list(_without(rest, ("actor", "**options")))
     while rest and rest[-1] in ("", "Args:"):
@@ -182,7 +182,7 @@ def _docstring(method: Method) -> Iterator[str]:
 
 
 def _filled(lines: Sequence[str]) -> Iterator[str]:
-    """Yield the lines again, as long as they may be where they stand in a method."""
+    """Yield the lines again, wrapped to the width of a method."""
     paragraph: list[str] = []
     for line in lines:
         if not line or re.match(ENTRY, line) or line == "Args:":
@@ -204,7 +204,7 @@ def _fill(paragraph: Sequence[str]) -> Iterator[str]:
 
 
 def _without(lines: Sequence[str], names: tuple[str, ...]) -> Iterator[str]:
-    """Yield the lines but the entries of some arguments, with what goes on below them."""
+    """Yield the lines but the entries of some arguments, with their continuation lines."""
     skips = False
     for line in lines:
         entry = re.match(ENTRY, line)

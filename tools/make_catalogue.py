@@ -1,4 +1,4 @@
-"""Writes the catalogue: joins what the library declares, the runtime carries out and XML can say.
+"""Writes the catalogue: joins the library, the classes of the runtime and the forms of XML.
 
 An action or modifier is stated in three places: its declaration (`osc2tx/stdlib`), its class
 (`@action`, `@modifier` of the runtime) and its form in OpenSCENARIO XML, or the word that it has
@@ -48,9 +48,9 @@ class Declaration:
 
     Attributes:
         name: `vehicle.drive`, `map.start_lane`; `speed` for a modifier of actions.
-        section: Of the standard, as the comment above it says.
+        section: Of the standard, from the comment above it.
         word: One of `WORDS`, or nothing.
-        base: What it inherits from.
+        base: Its base type.
         parameters: Names.
     """
 
@@ -170,7 +170,7 @@ def _abstract(actions: Declarations, classes: Mapping[str, Any]) -> Iterator[str
 
 
 def _unmatched(what: str, found: Declarations, classes: Mapping[str, Any]) -> Iterator[str]:
-    """Yield what is declared without a class, or the other way round."""
+    """Yield items that are declared without a class, or the other way round."""
     for name, each in found.items():
         if not each.word and name not in classes:
             yield (

@@ -1,4 +1,4 @@
-"""Puts the example into README.md: a scenario and, beside it, what the compiler makes of it.
+"""Puts the example into README.md: a scenario and, beside it, the compiled module.
 
 Run it after a change of scenarios/cut_in.osc or of the backend; a test compares.
 """

@@ -1,7 +1,7 @@
 """Writes `osc2tx/xosc/schema.json`: what each version of OpenSCENARIO XML has.
 
 Read from the schemas that `asam-qc-openscenarioxml` ships (extra `test`); they end with 1.3, and
-`xosc_1_4.toml` adds what is new in 1.4. Units and defaults are in no schema: `xosc_facts.toml`.
+`xosc_1_4.toml` has the additions of 1.4. Units and defaults are in no schema: `xosc_facts.toml`.
 One type a line:
 
     "Event": {"attributes": {NAME: PART}, "children": {NAME: PART}}

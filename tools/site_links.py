@@ -1,4 +1,4 @@
-"""Hook of mkdocs: links that leave docs/ become plain words, if what they name is there."""
+"""Hook of mkdocs: links that leave docs/ become plain words, if their targets exist."""
 
 from __future__ import annotations
 

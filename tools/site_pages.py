@@ -58,8 +58,8 @@ def page_of(entry: Entry) -> str:
 
 
 def with_picture(page: str, entry: Entry) -> str:
-    """Return the page with the picture of what its example does."""
-    said = f"What its example does ({Path(entry.shown.file).name})"
+    """Return the page with the picture of its example."""
+    said = f"Effect of its example ({Path(entry.shown.file).name})"
     shown = f"![{said}](../pictures/{Path(_picture_of(entry)).name})"
     head, example, tail = page.partition("\n## Example\n")
     return f"{head}\n## Effect\n\n{shown}\n{example}{tail}"

@@ -41,10 +41,10 @@ class Chart:
     """Curves over two axes.
 
     Attributes:
-        across: What the horizontal axis shows.
-        up: What the vertical axis shows.
+        across: Quantity on the horizontal axis.
+        up: Quantity on the vertical axis.
         curves: Points by actor.
-        spans: When the action runs, on the horizontal axis.
+        spans: Times of the action, on the horizontal axis.
         shown: Values that the vertical axis has in any case.
     """
 
@@ -71,7 +71,7 @@ def picture(entry: Entry) -> str | None:
 
 
 def _controls(entry: Entry) -> tuple[str, ...]:
-    """What it controls of an actor, and `lanes` if it needs them."""
+    """The slots that it controls of an actor, and `lanes` if it needs them."""
     known, name = catalogue(), entry.declaration.name
     if entry.declaration.kind == "action":
         action = known.actions.get(name)

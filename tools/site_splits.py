@@ -62,7 +62,7 @@ def _lead_to_chapter(link: re.Match[str]) -> str:
 
 
 def _codes() -> dict[str, str]:
-    """Pages by code: heading, what is wrong, breaking text, remedy, mended text."""
+    """Pages by code: heading, error, breaking text, remedy, mended text."""
     text = (DOCS / "diagnostics.md").read_text(encoding="utf-8")
     parts = _CODE.split(text)[1:]
     triples = zip(parts[::3], parts[1::3], parts[2::3], strict=True)

@@ -45,7 +45,7 @@ class ActionLifecycle(Scenario):
             self.ego.change_speed(
                 "speed_up", target=14 * mps, rate_profile="constant", rate_peak=2 * mpss
             ),
-            # Without a goal; somebody else has to end it
+            # Without a goal; another member has to end it
             self.ego.keep_speed("cruise", duration=3 * s),
             self._ego_impossible_one_of(),
         )

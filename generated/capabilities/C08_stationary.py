@@ -1,6 +1,6 @@
 """Scenario `stationary`.
 
-C08 Stationary: one car holds its place from the start, the other one brakes to a stand first.
+C08 Stationary: one car stays in its position; the other one brakes to standstill first.
 
 Made by osc2tx from capabilities/C08_stationary.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam.

@@ -1,6 +1,6 @@
 """Scenario `assign_position`.
 
-C09 Assign position: a car is put elsewhere at once: at a point of the world, of a road and of a
+C09 Assign position: a car is teleported: to a point of the world, of a road and of a
 route, and beside another car.
 
 Made by osc2tx from capabilities/C09_assign_position.osc: edit the scenario, not this module.

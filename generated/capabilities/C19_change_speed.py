@@ -1,6 +1,6 @@
 """Scenario `relative_speed`.
 
-C19 Speed changes: so much faster than now, then the speed as it is, whatever came before.
+C19 Speed changes: a speed relative to the present one, then the present speed itself.
 
 Made by osc2tx from capabilities/C19_change_speed.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam.

@@ -1,6 +1,6 @@
 """Scenario `route_values`.
 
-C29 Route values: what the map says of the roads that were chosen, and a route made of two of them.
+C29 Route values: fields of the chosen roads of the map, and a route composed of two of them.
 
 Made by osc2tx from capabilities/C29_route_values.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam.

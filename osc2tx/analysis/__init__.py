@@ -8,10 +8,11 @@ and diagnostics OSC42x (constraints, errors) and OSC43x (warnings). `analyse` ru
    `operation_list` flattens expressions; `solver` propagates `domains` to a fixed point by
    `forward` and `backward` over `interval_arithmetic`. The result is the `ConstraintAnalysis` in
    `propagation`; `report_constraints` reports conflicts.
-2. Liveness. `termination` finds what never ends by itself, `usage` what is used; `liveness`,
-   `usage`, `recursive_scenarios` and `constant_conditions` report.
-3. Levels. `levels` says for each scenario whether it is abstract, logical or concrete, with what is
-   open; `cast_checks` judges its actors, `value_text` writes values in the units of the source.
+2. Liveness. `termination` finds members that never end by themselves, `usage` the used names;
+   `liveness`, `usage`, `recursive_scenarios` and `constant_conditions` report.
+3. Levels. `levels` finds for each scenario whether it is abstract, logical or concrete, with its
+   open values; `cast_checks` judges its actors, `value_text` writes values in the units of the
+   source.
 
 What actions and modifiers are besides their declarations says the catalogue (`library_facts`).
 `tree_walk` walks syntax trees.

@@ -14,7 +14,7 @@ from osc2tx.semantics import symbols as sym
 def fixed_values(
     model: SemanticModel, scenario: sym.ScenarioSymbol, constraints: ConstraintAnalysis
 ) -> Mapping[str, str]:
-    """Return what is fixed when compiling, by path: `about.priority`, as one would write it.
+    """Return the constants at compile time, by path: `about.priority`, as written in a scenario.
 
     Strings come without quotes.
     """

@@ -48,8 +48,8 @@ class Opening:
     """Something that is left open.
 
     Attributes:
-        text: What it is, for a list.
-        span: Where.
+        text: Description for a list.
+        span: Its position.
         level: The level that it puts the scenario on.
     """
 
@@ -60,7 +60,7 @@ class Opening:
 
 @dataclass(frozen=True, slots=True)
 class ScenarioLevel:
-    """The level of a scenario, with what is open."""
+    """The level of a scenario, with its open values."""
 
     scenario: sym.ScenarioSymbol
     level: Level
@@ -147,7 +147,7 @@ def _open_members_of_fields(
 def _open_members(
     model: SemanticModel, scenario: sym.ScenarioSymbol, is_drawn: bool
 ) -> Iterator[Opening]:
-    """Yield what the `do` tree leaves open."""
+    """Yield the open parts of the `do` tree."""
     for directive in do_directives(scenario):
         for member in do_members(directive.member):
             match member:

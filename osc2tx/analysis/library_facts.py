@@ -1,4 +1,4 @@
-"""What the catalogue says of the actions that a scenario invokes."""
+"""Facts of the catalogue about the actions that a scenario invokes."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def entry_of(action: sym.ActionSymbol) -> ActionEntry | None:
 
 
 def is_open_ended(action: sym.ActionSymbol) -> bool:
-    """Whether an action goes on until something ends it."""
+    """Whether an action continues until something ends it."""
     entry = entry_of(action)
     return entry is not None and entry.ends == "open"
 

@@ -13,7 +13,7 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(frozen=True, slots=True)
 class SameActor:
-    """What an actor is.
+    """The identity of an actor.
 
     Attributes:
         other: The actor that it is.
@@ -34,7 +34,7 @@ def same_actors(found: TypeConstraints) -> dict[sym.FieldSymbol, SameActor]:
         if not isinstance(node, ast.KeepConstraint) or constraint.is_default:
             continue
         if constraint.place.prefix:
-            continue  # it is about what an object or an invoked scenario has
+            continue  # it constrains a part of an object or of an invoked scenario
         match node.expression:
             case ast.Binary(operator=ast.BinaryOperator.EQUAL, left=left, right=right):
                 for one, other in ((left, right), (right, left)):

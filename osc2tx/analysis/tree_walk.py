@@ -59,7 +59,7 @@ def children_of(node: ast.Node) -> list[ast.Node]:
 
 
 class NodesByKind:
-    """The nodes of a tree by their classes: one walk for all who look for some of them."""
+    """The nodes of a tree by their classes: one walk for all searches."""
 
     def __init__(self, root: ast.Node, closed: tuple[type[ast.Node], ...] = ()) -> None:
         """Walk a tree.

@@ -96,7 +96,7 @@ def _with_settings(path: str) -> Iterator[str]:
 
 
 def _changed(path: str) -> int:
-    """Return when a file was changed, in nanoseconds; 0 for what is none: its name alone counts."""
+    """Return when a file was changed, in nanoseconds; 0 if there is none: its name alone counts."""
     try:
         status = os.stat(path)
     except OSError:

@@ -1,7 +1,7 @@
 """Keeps the outcomes of the rows of a campaign in one SQLite file.
 
 The driver alone writes. A row that arrives twice is stored once, and what was stored before a
-process was killed stays: SQLite's write-ahead log sees to that. The file may be a stranger's or
+process was killed stays: SQLite's write-ahead log guarantees that. The file may be a stranger's or
 damaged: all that is read is checked, and every failure names the file and what of it is kept.
 """
 

@@ -2,7 +2,7 @@
 
 Exit codes: 0 ok (warnings included), 1 outputs are stale, or warnings under --strict, 2 wrong usage
 or settings, 3 errors in a source, 4 unreadable input or unwritable output, 5 the scenario ran and
-failed, 70 a bug of ours.
+failed, 70 an internal error.
 
 `init`, `check`, `build`, `report`, `verify`, `fmt`, `map`, `config`, `reference` and `explain` hold
 the commands, each loaded on first use; `options` and `progress` are shared by them.

@@ -103,7 +103,7 @@ def _given(options: Mapping[str, object]) -> Iterator[tuple[str, object]]:
 
 
 def _processes(workers: int | None, files: int) -> list[str]:
-    """Return the options of pytest-xdist, which not everybody has."""
+    """Return the options of pytest-xdist, if it is installed."""
     from osc2tx.building.workers import processors
 
     has_processes = find_spec("xdist") is not None

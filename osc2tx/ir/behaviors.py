@@ -178,7 +178,7 @@ class ModifierCall:
     applied: tuple[Application, ...] = ()
 
     def application(self, depth: int) -> Application | None:
-        """Return the application around it that stands in so many others."""
+        """Return the application around it with this number of applications around itself."""
         return self.applied[depth] if depth < len(self.applied) else None
 
 
@@ -187,7 +187,7 @@ class Invoke(BehaviorBase):
     """An action.
 
     Attributes:
-        actor: Who acts; nobody does in an action that has no actor.
+        actor: The actor; none for an action without one.
         owner: The actor type that the action belongs to, if it has an actor.
         action: Its name.
         arguments: In source order, without `duration`.
@@ -219,7 +219,7 @@ class InvokeScenario(BehaviorBase):
     Attributes:
         scenario: Its name.
         key: Tells it apart from others of the same name, see `Scenario.key`.
-        actor: Who plays its `actor`.
+        actor: The actor for its `actor`.
         arguments: Its parameters and cast, in source order, without `duration`.
         duration: Time or range of time.
         until: Any of these ends it.

@@ -44,10 +44,10 @@ class Coverage:
         ignore: What does not count: a condition over the element of depth 0.
         illegal: What must not be, likewise.
         target: Hits that each slice should have.
-        text: What it is about.
+        text: Description.
         comments: The comment lines above it.
-        graded: Its buckets, also those by default; empty for a cross, or if nobody says where its
-            values end.
+        graded: Its buckets, also those by default; empty for a cross, or if its values have no
+            declared bounds.
         impossible: Buckets that constraints leave no values for: a position in `graded`, for a
             cross one for each item.
     """

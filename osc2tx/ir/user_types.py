@@ -19,7 +19,7 @@ class UserField:
     Attributes:
         name: Its name.
         type: Its type.
-        default: What it is if nobody says; without it must be given.
+        default: Its default value; without one it must be given.
         is_optional: An object may do without: its own file never speaks of it.
     """
 
@@ -88,7 +88,7 @@ class UserEnum:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class UserUnit:
-    """A unit that the scenario's files declare and somebody tells something about."""
+    """A unit that the scenario's files declare and use."""
 
     name: str
     span: Span

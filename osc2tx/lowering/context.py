@@ -75,13 +75,13 @@ class LoweringContext:
         actor: What `actor` is in a modifier; elsewhere it is the field of the scenario.
         expanding: Methods of modifiers that the expression is the body of, the outermost first.
         purity: Methods, and whether their results do not depend on the world.
-        mentioned: The fields that some expression of the program speaks of, and in which files.
+        mentioned: The fields that some expression of the program reads, and in which files.
         handed_in: Parameters of invoked scenarios that some invocation gives a value.
         computed: Those of them that some invocation gives no plain name.
         same_actors: The actors of the scenario that are others.
         object_types: The types of which the program may have objects.
-        constants: What constraints that set a parameter to a constant say of it, and what is left
-            of its domain then.
+        constants: Values of parameters that constraints set to a constant, with the rest of their
+            domains.
     """
 
     model: SemanticModel
@@ -180,9 +180,9 @@ class LoweringContext:
 
         Args:
             name: The name.
-            domain: What it is drawn from; `None` if settings must give it.
+            domain: The domain to draw from; `None` if settings must give it.
             type_: Its type.
-            span: Its place; without one it is the place of the domain.
+            span: Its position; without one, the position of the domain.
         """
         place = span or (domain.span if domain is not None else None)
         assert place is not None

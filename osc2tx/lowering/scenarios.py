@@ -64,7 +64,7 @@ def lower(
 ) -> ir.Module:
     """Lower the scenarios of the root file, and imported ones that they invoke or inherit.
 
-    What is refused is reported and left out.
+    Rejected scenarios are reported and left out.
     """
     lowered: dict[Composed, ir.AbstractScenario | None] = {}
     invoked: set[Composed] = set()

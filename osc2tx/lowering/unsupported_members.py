@@ -1,7 +1,7 @@
 """Reports members of types that modules do not support.
 
-What the members of a type mean is mostly said where they are used: fields and constraints by the
-objects, methods by their calls, events by those who wait for them. The rest has to be looked for.
+Members of a type are mostly reported where they are used: fields and constraints by the objects,
+methods by their calls, events by waits for them. The rest has to be searched.
 """
 
 from __future__ import annotations

@@ -77,7 +77,7 @@ def authored_unit(
     Args:
         model: Knows the units.
         type_: Type of the parameter.
-        written: What the source says of it.
+        written: The text in the source.
 
     Returns:
         `None` if it has no unit: it is no physical type, or one of the user without a literal.

@@ -45,7 +45,7 @@ class ModelBuilder:
     Attributes:
         sink: Where reports go.
         standard: `"2.1"` or `"2.2"`.
-        dialect: The dialect in force.
+        dialect: The dialect of the file.
         load: Finds and parses imported files; `None` means that there is no such file.
         import_help: Says what may help if there is no module of a name.
     """

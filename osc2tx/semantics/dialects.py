@@ -159,7 +159,7 @@ class Relaxations:
     """What one run has relaxed so far; each kind is reported once per file.
 
     Attributes:
-        dialect: The dialect in force.
+        dialect: The dialect of the file.
         reported: File, code and key of the warnings that were given.
         disputed: Units that a program declares again with another value.
     """

@@ -1,4 +1,4 @@
-"""Where the parser stopped, and what is said about it."""
+"""The position at which the parser stopped, and the message about it."""
 
 from __future__ import annotations
 

@@ -105,7 +105,7 @@ class Parser:
         context.stop = self._input.index - 1
         self.state = context.invokingState
         self._ctx = context.parentCtx
-        context.parentCtx = None  # a tree without cycles goes as soon as nobody needs it
+        context.parentCtx = None  # a tree without cycles is freed on its last use
 
     def match(self, expected: int) -> None:
         """Read a token of a type."""

@@ -293,7 +293,7 @@ class TokenSource:
         return found.end() if found else len(self._text)
 
     def _closes_brackets(self, line_start: int) -> bool:
-        """Whether the next line ends a statement whose bracket nobody closes."""
+        """Whether the next line ends a statement with an open bracket."""
         if not self._strict_layout:
             return False
         head = patterns.LINE_HEAD.match(self._text, line_start)

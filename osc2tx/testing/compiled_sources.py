@@ -27,7 +27,7 @@ __all__ = ["CompiledSources"]
 
 
 class CompiledSources:
-    """Compiles files when somebody asks for them, and imports their modules.
+    """Compiles files on first use, and imports their modules.
 
     Attributes:
         configs: The settings files.

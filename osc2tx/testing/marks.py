@@ -45,7 +45,7 @@ class MarkedRows:
         """Run the row with an index among those that keep the constraints.
 
         Raises:
-            CampaignError: There are not so many.
+            CampaignError: There are fewer rows.
         """
         if not mark.kwargs.keys() & set(TOGETHER):
             return self._plan(mark).run(index)

@@ -1,7 +1,7 @@
-"""What in a document a version of OpenSCENARIO XML does not allow, and what it discourages.
+"""Constructs of a document that a version of OpenSCENARIO XML does not allow, or discourages.
 
-The schemas cannot say all that they mean: an empty `choice` is valid up to 1.2. Held against the
-table is what they say; references and names are the affair of who reads the story.
+The schemas do not express all rules: an empty `choice` is valid up to 1.2. Documents are compared
+with the schemas; references and names are checked where the storyboard is read.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 An element keeps the texts of its attributes, so that a document is written as it was read, and
 `$name` and `${expression}` stay what they are. `node.get("value")` is such a text; `node.value` is
-what it says: a number, a truth value or a name, the default of the standard where it is left out.
+its value: a number, a truth value or a name, the default of the standard where it is left out.
 """
 
 from __future__ import annotations
@@ -224,7 +224,7 @@ class Attribute:
     """The value of an attribute, as a property of its class."""
 
     def __init__(self, name: str, part: Part) -> None:
-        """Take its name, and what the table says of it."""
+        """Take its name, and its facts in the table."""
         self._name = name
         self._part = part
 

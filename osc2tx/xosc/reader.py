@@ -102,7 +102,7 @@ class _Reading:
         except expat.ExpatError as error:
             reason = expat.ErrorString(error.code)
             raise Unreadable(reason, Place(error.lineno, error.offset + 1)) from None
-        except (LookupError, ValueError) as error:  # an encoding that nobody knows
+        except (LookupError, ValueError) as error:  # an unknown encoding
             raise Unreadable(str(error), Place(1, 1)) from None
         assert self._root is not None  # else expat has found no element
         return self._root

@@ -252,7 +252,7 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "RoutePoint",
     "Trajectory",
     "XyzPoint",
-    # road_parts, crossings: what a map fills in
+    # road_parts, crossings: values read from the map
     "CompoundLane",
     "CompoundRoute",
     "Crossing",

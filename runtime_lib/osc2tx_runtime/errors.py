@@ -29,7 +29,7 @@ __all__ = [
 ]
 
 NO_RESULT = (ArithmeticError, LookupError, RecursionError, ValueError)
-"""What an expression of a scenario raises that has no result: a division by zero, no such element,
+"""Exceptions of an expression without a result: a division by zero, no such element,
 a conversion to a type that has no such value (§7.4.2.6)."""
 
 RUN_FAILED = "OSC809"
@@ -62,11 +62,11 @@ class SourcePlace(str):
 
 
 class ScenarioError(Exception):
-    """The scenario cannot run, or cannot go on.
+    """The scenario cannot run, or cannot continue.
 
     Attributes:
-        message: What is wrong, and what to do about it where that is known.
-        source: Place in the scenario, `hello_world.osc:57`; None where unknown.
+        message: Description of the error, and its remedy where that is known.
+        source: Position in the scenario, `hello_world.osc:57`; None where unknown.
         exit_code: What `main` returns: 5 ran and failed, 4 unreadable input or no simulator, 2
             usage.
         code: What `osc2tx explain` says more about.
@@ -111,8 +111,8 @@ def coded(code: str, message: str, place: str, file: str, given: str | None = No
 
     Args:
         code: Its code.
-        message: What is wrong.
-        place: Where; empty where nothing is known.
+        message: Description of the error.
+        place: Its position; empty where unknown.
         file: The scenario file, as the module knows it.
         given: The same file, as the user has written it.
     """
@@ -140,13 +140,13 @@ class SlotConflict(ScenarioError):
 
 
 class UnsupportedError(ScenarioError):
-    """The runtime does not do what the scenario asks for."""
+    """The runtime does not support a request of the scenario."""
 
     code = "OSC804"
 
 
 class CapabilityError(ScenarioError):
-    """The chosen world cannot do what the scenario asks for."""
+    """The chosen world does not support a request of the scenario."""
 
     code = "OSC805"
 
@@ -166,7 +166,7 @@ class InputError(ScenarioError):
 
 
 class SimulatorError(ScenarioError):
-    """The simulator is not there, does not answer any more, or refuses what the run needs."""
+    """The simulator is not available, no longer answers, or refuses a request of the run."""
 
     code = "OSC808"
     exit_code = 4
@@ -178,13 +178,13 @@ class OwnCode:
         with OwnCode("ego creep raised", action.source):
             action.on_start()
 
-    Also what is no `Exception`: a `SystemExit` must not end the run as if all was well. Errors of
-    the scenario and Ctrl-C pass.
+    Also other exceptions: a `SystemExit` must not end the run like a success. Errors of the
+    scenario and Ctrl-C pass.
 
     Args:
-        what: Begins the message, which ends with what was raised.
-        source: Place in the scenario.
-        error: What it becomes.
+        what: Begin of the message, which ends with the exception.
+        source: Position in the scenario.
+        error: The class of the resulting error.
     """
 
     __slots__ = ("error", "source", "what")
@@ -207,7 +207,7 @@ class OwnCode:
 
 
 def told(error: BaseException) -> str:
-    """Return an exception in words; of one that cannot say what it is, the name."""
+    """Return an exception in words; of one without a description, the name."""
     text = ""
     with suppress(Exception):  # its `__str__` is code of the user's own
         text = str(error)
@@ -216,7 +216,7 @@ def told(error: BaseException) -> str:
 
 
 def is_own(factory: type) -> bool:
-    """Whether a class is code of the user's own, whatever it says of its module."""
+    """Whether a class is code of the user's own, whatever its module claims."""
     stated = module_of(factory)
     module = sys.modules.get(stated)
     is_ours = f"{stated}.".startswith("osc2tx_runtime.")

@@ -13,7 +13,7 @@ def to_float(text: str) -> float:
     """Return a finite number.
 
     Raises:
-        ValueError: The text is none, or one that Python alone knows.
+        ValueError: The text is no number, or one in a form of Python alone.
     """
     value = float(_plain(text))
     if not math.isfinite(value):

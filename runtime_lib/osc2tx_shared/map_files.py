@@ -20,7 +20,7 @@ def map_places(name: str, folders: Sequence[Path]) -> Iterator[Path]:
     runtime; `Town06` also finds `Town06.xodr`.
 
     Args:
-        name: What the scenario calls the map.
+        name: The name of the map in the scenario.
         folders: Folders with maps, or the map itself.
     """
     for entry in (*folders, SHIPPED):
@@ -34,7 +34,7 @@ def places_in_project(name: str | None, folders: Sequence[Path]) -> tuple[Path, 
     """Return where a map is looked for, maps of the runtime and paths to elsewhere apart.
 
     Args:
-        name: What the scenario calls the map; None for the default map.
+        name: The name of the map in the scenario; None for the default map.
         folders: Folders with maps, or the map itself.
     """
     wanted = Path(name or DEFAULT_MAP)

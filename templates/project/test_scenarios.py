@@ -1,4 +1,4 @@
-"""Generated files are up to date, and the scenarios do what they are for."""
+"""Generated files are up to date, and the scenarios fulfil their purpose."""
 
 from pathlib import Path
 

@@ -248,7 +248,7 @@ def test_nobody_takes_control(server: StandInProcess) -> None:
     settings = in_carla(
         RunSettings(expect=True), server.port, control={"ego": "external"}, wait_control=0.2
     )
-    assert "nobody controls the external actors within 0.2 s" in message_of(settings)
+    assert "the external actors are not controlled within 0.2 s" in message_of(settings)
     assert not server.ask("stand_in_synchronous")
 
 

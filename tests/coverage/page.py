@@ -42,8 +42,8 @@ XML_INTRODUCTION = """\
 
 From the [loss reports](xml-report.md) of the scenarios and golden tests of the repository: `exact`
 means the same, `approximated` nearly the same, which needs `--allow-approx`; a scenario with
-something `not expressible` has no XML. A construct with several grades depends on what is said
-with it.
+something `not expressible` has no XML. A construct with several grades depends on its arguments and
+modifiers.
 """
 
 WITH_XML_FORM = ("action", "modifier")

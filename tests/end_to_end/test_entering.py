@@ -103,6 +103,8 @@ SECOND = """
         ("400m", 1, 10, 400.0, 10.0, 350.0),
         # It stands where it has to be.
         ("300m", 1, 0, 300.0, 0.0, 300.0),
+        # The lead has passed there: it comes behind it at 15 m/s, and brakes in 15/8 s (38 steps).
+        ("30m, behind: lead", 2, 0, 95.0, 0.0, 95.0 - 15.0 * 3.1 - 7.5 * 1.9),
     ],
 )
 def test_second_phase(
@@ -235,6 +237,90 @@ def test_inside_one_of(shell: Shell, policy: str) -> None:
     if starts:
         assert run.at("npc", 3.0)["s"] == pytest.approx(125.0)
         assert run.moves_steadily("npc")
+
+
+def test_on_an_arc_beside_the_centre_of_the_lane(shell: Shell) -> None:
+    """Steps on an arc and distances along it agree: it arrives within a millimetre."""
+    run = Run(
+        shell,
+        """    do serial:
+        lead.drive(duration: 5s) with:
+            position(30m, at: start)
+            lane(1)
+            speed(15mps)
+        npc.drive(duration: 2s) with:
+            position(70m, at: start)
+            lane(1)
+            lateral(0.5m, side: left, at: start)
+            speed(12mps)
+""",
+        map_file="curve",
+    )
+    assert run.ended.code == 0, run.ended.err
+    here = run.at("npc", 5.0)
+    found = [here[key] for key in ("s", "offset", "v")]
+    assert found == pytest.approx([70.0, 0.5, 12.0], abs=1e-3)
+
+
+def test_a_lane_change_is_the_first_action(shell: Shell) -> None:
+    run = Run(
+        shell,
+        f"""    do serial:
+        {FIRST.replace("    " * 4, "    " * 3)}
+        npc.change_lane(side: left, duration: 3s) with:
+            position(30m, ahead_of: lead, at: start)
+            lane(1, at: start)
+            speed(15mps, at: start)
+""",
+    )
+    assert run.ended.code == 0, run.ended.err
+    assert run.at("npc", 5.0)["s"] == pytest.approx(155.0)
+    assert run.states("npc")[-1]["lane"] == -3
+
+
+def test_relative_in_time_and_lane(shell: Shell) -> None:
+    """1 s behind the lead at its speed is 15 m behind it."""
+    run = Run(
+        shell,
+        """    do parallel(duration: 8s):
+        lead.drive() with:
+            position(50m, at: start)
+            lane(2)
+            speed(15mps)
+        serial:
+            wait elapsed(2s)
+            emit go
+        serial:
+            wait @go
+            npc.drive() with:
+                position(time: 1s, behind: lead, at: start)
+                lane(same_as: lead, at: start)
+                speed(same_as: lead, at: start)
+""",
+    )
+    assert run.ended.code == 0, run.ended.err
+    here = run.at("npc", 2.0)
+    assert (here["s"], here["lane"], here["v"]) == (pytest.approx(65.0), -3, pytest.approx(15.0))
+
+
+def test_who_has_acted_does_not_enter(shell: Shell) -> None:
+    """What its earlier actions have not brought about fails, as before."""
+    text = SECOND.format(position="30m, ahead_of: lead", lane=1, speed="15mps")
+    later = """        npc.drive(duration: 2s) with:
+            position(60m, ahead_of: lead, at: start)
+"""
+    first = FIRST.replace("    " * 4, "    " * 3)
+    run = Run(shell, f"    do serial:\n        {first}{text}{later}")
+    assert run.ended.code == 5
+    assert "distance ahead of lead is 30.00 m, not 60.00 m" in run.ended.out
+
+
+def test_a_finished_trace_is_verified(shell: Shell) -> None:
+    text = SECOND.format(position="30m, ahead_of: lead", lane=1, speed="15mps")
+    run = Run(shell, f"    do serial:\n        {FIRST.replace('    ' * 4, '    ' * 3)}{text}")
+    assert run.ended.code == 0
+    verified = shell("verify", "trace.jsonl", "top.osc")
+    assert verified.code == 0, verified.err
 
 
 def test_relative_to_one_that_enters_too(shell: Shell) -> None:

@@ -1,5 +1,5 @@
-"""The OpenDRIVE maps that ship with the runtime library, as data, and what writes them.
+"""The OpenDRIVE maps that ship with the runtime library, as data, and their writer.
 
-`specs` says what a map consists of, `shapes` how reference lines run, `motorways` and `streets`
-have the maps, `xodr` writes them.
+`specs` are the elements of a map, `shapes` the courses of reference lines, `motorways` and
+`streets` have the maps, `xodr` writes them.
 """

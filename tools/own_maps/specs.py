@@ -1,4 +1,4 @@
-"""What a map consists of, in the terms of OpenDRIVE."""
+"""The elements of a map, in the terms of OpenDRIVE."""
 
 from __future__ import annotations
 

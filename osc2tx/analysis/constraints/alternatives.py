@@ -1,7 +1,7 @@
 """Alternatives: what holds whichever of several conditions is the true one.
 
-`x in [0..4] or x in [6..8]` says nothing of either part, but that `x` is between 0 and 8. Each
-alternative is propagated for itself; a parameter can be what it can be in any of them.
+`x in [0..4] or x in [6..8]` implies nothing about either part, but that `x` is between 0 and 8.
+Each alternative is propagated by itself; the domain of a parameter is the union over all of them.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from osc2tx.analysis.constraints.domains import (
 from osc2tx.analysis.constraints.operation_list import Key, Operation
 
 ALTERNATIVES = frozenset({"or", "and", "=>"})
-"""Operations that can be what they have to be in several ways."""
+"""Operations that can have their result in several ways."""
 
 Propagate: TypeAlias = Callable[[list[Domain], range], None]
 """Narrows the values of the operations in a range, from the last one down to the first."""
@@ -33,7 +33,7 @@ Literal: TypeAlias = tuple[int, Domain]
 def narrow_alternatives(
     items: Sequence[Operation], position: int, values: list[Domain], propagate: Propagate
 ) -> None:
-    """Narrow what is known of the parameters below an operation, one of whose operands decides.
+    """Narrow the domains of the parameters below an operation, one of whose operands decides.
 
     Args:
         items: The operations of an expression.
@@ -107,7 +107,7 @@ def _parameters(
     """Return what each parameter in a part can be.
 
     Raises:
-        EmptyDomainError: If what is said of it in two places is nothing.
+        EmptyDomainError: If two occurrences of it have no value in common.
     """
     known: dict[Key, Domain] = {}
     for each in part:

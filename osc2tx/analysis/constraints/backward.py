@@ -1,7 +1,7 @@
 """Backward propagation: domains of operands from the domain of the result.
 
-Each function returns new domains for some operands, as pairs of position and domain. What is not
-returned stays as it is.
+Each function returns new domains for some operands, as pairs of position and domain. The other
+operands are unchanged.
 """
 
 from __future__ import annotations
@@ -143,7 +143,7 @@ def _order(relation: str, left: Interval, right: Interval) -> Narrowings:
 
 
 def _side(relation: str, other: Interval) -> Interval:
-    """Return the numbers that stand in a relation to some number of an interval."""
+    """Return the numbers that have a relation to some number of an interval."""
     strict = relation in ("<", ">")
     if relation in ("<", "<="):
         if strict and isinstance(other.upper, int):

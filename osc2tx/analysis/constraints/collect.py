@@ -66,7 +66,7 @@ class Collector:
     def _of_ancestor(
         self, ancestor: sym.TypeSymbol
     ) -> tuple[list[Entry], Mapping[Key, sym.TypeSymbol]]:
-        """Return what a type states itself, and the objects in that."""
+        """Return the constraints of a type itself, and of the objects in it."""
         if ancestor not in self._shared:
             it = None if isinstance(ancestor, sym.ModifierSymbol) else ()
             place = Place(model=self._model, owner=ancestor, prefix=(), it=it)
@@ -196,7 +196,7 @@ class Collector:
         yield from self._of_with_field(replace(place, it=key, it_type=type_), node)
 
     def _of_element(self, place: Place, element: sym.FieldSymbol, depth: int) -> Iterator[Entry]:
-        """Yield what the type of an element of a list demands of it."""
+        """Yield the constraints of the type of an element on a list."""
         type_, key = symbol_of(element.type), (element,)
         if isinstance(type_, sym.StructSymbol | sym.ActorSymbol):
             self.objects[key] = type_
@@ -244,7 +244,7 @@ class Collector:
     def _of_instance(
         self, place: Place, node: Instance, arguments: tuple[ast.Argument, ...]
     ) -> Iterator[Entry]:
-        """Yield what the callee demands of its parameters, and what the arguments say."""
+        """Yield the callee's constraints on its parameters, and the values of the arguments."""
         binding = self._model.bindings.get(node)
         if binding is None or not isinstance(binding.callee, sym.BehaviorSymbol):
             return

@@ -66,7 +66,7 @@ class WithoutValueError(Exception):
 
 
 class ImpossibleConversionError(WithoutValueError):
-    """No value of the type is what is converted (§7.4.2.6)."""
+    """No value of the type equals the converted one (§7.4.2.6)."""
 
     code = "OSC426"
 

@@ -85,7 +85,7 @@ def point(value: Value) -> Domain:
 
 
 def intersect(first: Domain, second: Domain) -> Domain:
-    """Return what is in both sets.
+    """Return the intersection.
 
     Raises:
         EmptyDomainError: Nothing is.

@@ -177,7 +177,7 @@ def range_between(first: Interval, second: Interval) -> Interval:
 
 
 def exact_result(operation: Operation, operands: Sequence[Interval]) -> Number:
-    """Return what an operation on single integers would yield if it could not wrap round."""
+    """Return the result of an operation on single integers without wrap-around."""
     a, b = operands[0].lower, operands[-1].lower
     match operation.name:
         case "+":

@@ -1,9 +1,9 @@
 """Interval arithmetic, sound for IEEE 754 numbers and for 64-bit integers.
 
 Forward: rounding is monotonic, so bounds that are computed as the numbers are computed enclose all
-results. Backward (what an operand can be, given the result) the result is widened by the rounding
-error of the operation first. An integer result that may leave its type wraps round, so nothing is
-known about it.
+results. Backward (operands from the result) the result is widened by the rounding error of the
+operation first. An integer result that may leave its type wraps round, so nothing is known about
+it.
 """
 
 from __future__ import annotations
@@ -159,7 +159,7 @@ def remainder(a: Interval, b: Interval, kind: str) -> Interval:
     return wrapped(Interval(-size, size, nan=a.nan or b.nan), kind)
 
 
-# --- backward: what an operand can be, given the result `z` and the other operand ---
+# --- backward: domain of an operand, given the result `z` and the other operand ---
 
 
 def addend(z: Interval, other: Interval, kind: str) -> Interval:
@@ -198,7 +198,7 @@ def factor(z: Interval, other: Interval) -> Interval:
 
 
 def _by_touching_zero(z: Interval, other: Interval) -> Interval:
-    """Divide what is not zero by what ends at zero."""
+    """Divide a non-zero interval by one that ends at zero."""
     edge = other.upper if other.lower == 0 else other.lower
     if edge == 0:
         return ANY_FLOAT

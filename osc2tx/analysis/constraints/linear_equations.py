@@ -1,7 +1,7 @@
 """Linear equations between parameters: `a * 2 == 10`, `j + k == 10` with `j - k == 4`.
 
 Propagation looks at one occurrence of a parameter at a time; Gaussian elimination sees all. A value
-that an equation would only have because an integer wraps around is none that anybody asks for.
+that an equation would only have because an integer wraps around does not count.
 """
 
 from __future__ import annotations
@@ -120,7 +120,7 @@ def _solved(rows: list[Form]) -> Iterator[tuple[Key, Fraction]]:
                 row = _sum(row, other, -row[pivot])
         pivots = [key for key in row if key is not None]
         if not pivots:
-            continue  # said already, or a contradiction, which others report
+            continue  # reported already, or a contradiction, which others report
         own = _scaled(row, 1 / row[pivots[0]])
         for pivot, other in reduced.items():
             if pivots[0] in other:
@@ -163,7 +163,7 @@ Graph: TypeAlias = Mapping[Key, Sequence[_Edge]]
 def find_contradiction(
     expressions: Sequence[OperationList], active: Sequence[int]
 ) -> tuple[int, ...]:
-    """Return constraints that put parameters in an impossible order; empty if there are none.
+    """Return constraints that put parameters in an impossible order; empty if they do not.
 
     Args:
         expressions: All constraints; the root of each must be true.
@@ -182,8 +182,8 @@ def find_contradiction(
                 if is_strict:
                     denied.append(edge)
     for edge in denied:
-        # What may not be equal must not be tied from the larger back to the smaller one, and for
-        # `!=`, whose edges are none of the graph, in both directions.
+        # A pair that may not be equal must not be tied from the larger back to the smaller one, and
+        # for `!=`, whose edges are none of the graph, in both directions.
         way = _way(graph, edge.end, edge.start)
         if way is None:
             continue
@@ -212,7 +212,7 @@ def _comparisons(operations: OperationList) -> Iterator[tuple[str, Key, Key]]:
 
 
 def _way(graph: Graph, start: Key, end: Key) -> tuple[_Edge, ...] | None:
-    """Return the shortest way along edges; `None` if there is none."""
+    """Return the shortest path along edges; `None` if there is none."""
     reached: dict[Key, tuple[_Edge, ...]] = {start: ()}
     queue = deque([start])
     while queue:

@@ -37,10 +37,10 @@ Key: TypeAlias = tuple[sym.Symbol | ast.Node, ...]
 """A parameter: the fields that lead to it; an invocation's begin with the invocation."""
 
 SIZE = builtin_field("size", types.UINT)
-"""What the size of a list is known by: the list, and then this."""
+"""Key of the size of a list: the list, and then this."""
 
 Locate: TypeAlias = Callable[[ast.Expression], Key | None]
-"""Says which parameter a name or path stands for; `None` if it is none."""
+"""Returns the parameter of a name or path; `None` if it is not a parameter."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,9 +52,9 @@ class Operation:
             of a binary operator.
         kind: `bool`, `int`, `uint`, `float` or `choice`.
         operands: Positions of earlier operations.
-        initial: What it can be when nothing is known of the operands.
+        initial: Its domain when nothing is known of the operands.
         key: The parameter of a `var`.
-        node: Where it stands in the source.
+        node: Its position in the source.
     """
 
     name: str
@@ -71,7 +71,7 @@ class OperationList:
     def __init__(self) -> None:
         """Begin with none; all are added before the first question."""
         self.items: list[Operation] = []
-        self.alone: Domain | None = None  # what a plain one leaves of its parameter, once known
+        self.alone: Domain | None = None  # domain of its parameter under a plain one, once known
 
     @cached_property
     def keys(self) -> frozenset[Key]:
@@ -80,7 +80,7 @@ class OperationList:
 
     @cached_property
     def keys_in_order(self) -> tuple[Key, ...]:
-        """The parameters, as they stand in it: the order of a set is not the same in each run."""
+        """The parameters, in order of occurrence: the order of a set differs between runs."""
         return tuple(dict.fromkeys(o.key for o in self.items if o.key is not None))
 
     @cached_property
@@ -255,7 +255,7 @@ class OperationListBuilder:
         return None if list_ is None else (*list_, SIZE)
 
     def _computed(self, operations: OperationList, node: ast.Expression) -> int:
-        """Append what is computed by methods, conversions or of lists: a constant, or anything."""
+        """Append the result of a method, a conversion or a list: a constant, or anything."""
         try:
             value = self._constants.value(node)
         except WithoutValueError:

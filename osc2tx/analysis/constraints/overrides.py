@@ -1,4 +1,4 @@
-"""Which constraints are in force (§7.3.11).
+"""The effective constraints after overriding (§7.3.11).
 
 A later equality or range with the parameter alone on its left side replaces earlier defaults of
 that parameter; `remove_default` drops all earlier defaults that mention it. Whatever else comes

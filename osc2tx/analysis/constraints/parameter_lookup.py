@@ -34,7 +34,7 @@ class Place:
     handed_in: Mapping[Key, Key] = field(default_factory=dict)
 
     def locate(self, expression: ast.Expression) -> Key | None:
-        """Return the parameter; `None` for what is none, and for what the world changes."""
+        """Return the parameter; `None` for other names, and for values that the world changes."""
         path: list[sym.Symbol] = []
         current = expression
         while isinstance(current, ast.MemberAccess | ast.Cast | ast.Index):

@@ -9,8 +9,8 @@
         case State.DEFINED:  found.definition           # an expression to evaluate at the start
         case State.FREE:     ...                        # neither value nor finite range
 
-`definition` is also there for a `FIXED` parameter that is set by an expression, `v + 10kph`: the
-expression in force, all overriding done, so that a backend can write it as authored.
+`definition` is also set for a `FIXED` parameter with an expression, `v + 10kph`: the effective
+expression, after overriding, so that a backend can write it as authored.
 """
 
 from __future__ import annotations
@@ -55,17 +55,17 @@ class State(Enum):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ParameterDomain:
-    """What is known of one parameter.
+    """The facts about one parameter.
 
     Attributes:
         key: The fields that lead to it.
         type: Its type.
-        state: How much is known.
-        domain: The values that are left; all of its type if it is free.
-        definition: What it is set to by the equality in force.
+        state: The state of knowledge.
+        domain: The possible values; all of its type if it is free.
+        definition: Its value by the effective equality.
         range: The range or list that it must be in, as written.
-        constraints: Those in force that mention it, in the order of the text.
-        replaced: The defaults of it that are not in force any more.
+        constraints: Effective constraints that mention it, in the order of the text.
+        replaced: Its defaults that were replaced.
     """
 
     key: Key
@@ -99,7 +99,7 @@ class TypeConstraints:
     Attributes:
         owner: The type; `None` for a global parameter.
         in_force: Its constraints after overriding.
-        domains: What is left of each parameter that a constraint mentions.
+        domains: The domain of each parameter that a constraint mentions.
         conflicts: Groups of constraints that cannot hold together.
         by_key: The constraints that mention a parameter.
         special: The conditional types that objects are of.
@@ -115,7 +115,7 @@ class TypeConstraints:
     undecided: tuple[tuple[Key, Special], ...] = ()
 
     def parameter(self, key: Key, type_: types.Type) -> ParameterDomain:
-        """Return what is known of a parameter."""
+        """Return the facts about a parameter."""
         mentioned = self.by_key.get(key, ())
         settings = [c for c in mentioned if c.subject == key and c.value is not None]
         definition = next((c.value for c in reversed(settings) if not c.is_range), None)
@@ -141,10 +141,10 @@ class TypeConstraints:
         )
 
     def domains_to_set(self) -> Mapping[Key, Domain]:
-        """Return what is left of each parameter when all plain defaults may be replaced.
+        """Return the domain of each parameter when all plain defaults may be replaced.
 
-        That is what settings of a run may choose from: they come after every default. What no
-        default reaches, by way of constraints on several parameters, is as it was.
+        Settings of a run may choose from it: they come after every default. What no default
+        reaches, by way of constraints on several parameters, is as it was.
         """
         firm = self.firm
         plain = set(self.in_force.constraints).difference(firm)
@@ -181,7 +181,7 @@ class ConstraintAnalysis:
     def parameter(
         self, owner: sym.TypeSymbol, root: sym.FieldSymbol, *members: sym.FieldSymbol
     ) -> ParameterDomain:
-        """Return what is known, in a scenario or other type, of a field or a path below it."""
+        """Return the facts, in a scenario or other type, about a field or a path below it."""
         return self.types[owner].parameter((root, *members), (root, *members)[-1].type)
 
     def parameters(self, owner: sym.TypeSymbol) -> Iterator[ParameterDomain]:

@@ -38,7 +38,7 @@ def report_constraints(
     usage: Usage,
     sink: DiagnosticSink,
 ) -> None:
-    """Report what is wrong with the constraints of all types and global parameters.
+    """Report errors of the constraints of all types and global parameters.
 
     Args:
         model: The checked program.
@@ -54,7 +54,7 @@ def report_constraints(
         for conflict in found.conflicts:
             nodes = frozenset(constraint.node for constraint in conflict)
             if nodes & misfits or any(earlier <= nodes for earlier in reported):
-                continue  # said before, for the type of a member
+                continue  # reported before, for the type of a member
             reported.append(nodes)
             _report_conflict(found, conflict, sink)
         _report_arithmetic(found, misfits, sink)
@@ -229,7 +229,7 @@ def _is_zero(model: SemanticModel, expression: ast.Expression) -> bool:
 def _typed_values(
     model: SemanticModel, settings: Iterable[ast.Node]
 ) -> Iterator[tuple[ast.Expression, Type, str]]:
-    """Yield what is given to `int` and `uint` fields and parameters, with their types."""
+    """Yield the values of `int` and `uint` fields and parameters, with their types."""
     for node in settings:
         match node:
             case ast.ParameterDeclaration() | ast.VariableDeclaration():

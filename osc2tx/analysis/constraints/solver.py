@@ -28,7 +28,7 @@ LARGEST_CORE = 60  # constraints among which a smallest contradiction is looked 
 
 @dataclass(frozen=True, slots=True)
 class Solution:
-    """What is left when nothing changes any more.
+    """The state when nothing changes any more.
 
     Attributes:
         domains: What each parameter can be.
@@ -97,7 +97,7 @@ def _enqueue(queue: deque[int], waiting: set[int], users: Iterable[int]) -> None
 def smallest_conflict(
     expressions: Sequence[OperationList], conflict: Sequence[int]
 ) -> tuple[int, ...]:
-    """Drop what a contradiction does not need, the first constraints first."""
+    """Drop constraints that a contradiction does not need, the first ones first."""
     core = list(conflict)
     if len(core) > LARGEST_CORE:
         return tuple(core)

@@ -84,7 +84,7 @@ def is_certain(domain: Domain | None, value: Value) -> bool:
 def is_possible(domain: Domain | None, determinant: Determinant) -> bool:
     """Whether a field may have the value of a condition.
 
-    What nothing is said of in the library is as the world makes it, which is asked at run time.
+    Library fields without constraints are decided by the world, and tested at run time.
     """
     if not isinstance(domain, Choice):
         return determinant.field.origin == "user"

@@ -18,7 +18,7 @@ MOST_CHOICES = 6
 
 
 def format_range(model: SemanticModel, parameter: ParameterDomain) -> str:
-    """Return what a bounded parameter can be, as `in [80kph..95kph]` or `in {12m, 40m}`."""
+    """Return the domain of a bounded parameter, as `in [80kph..95kph]` or `in {12m, 40m}`."""
     unit = unit_of(model, parameter.constraints)
     listed = _listed(model, parameter, unit)
     if listed:
@@ -31,7 +31,7 @@ def _listed(
 ) -> list[str]:
     """Return the numbers of the list that a parameter is in; none if it is in no list of numbers.
 
-    The domain of such a parameter is the interval around them; what is outside of it is left out.
+    The domain of such a parameter is the interval around them; numbers outside of it are left out.
     """
     domain = parameter.domain
     if not isinstance(parameter.range, ast.ListLiteral) or not isinstance(domain, Interval):

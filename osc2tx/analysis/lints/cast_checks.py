@@ -20,7 +20,7 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(slots=True, eq=False)
 class _Part:
-    """What an actor does first.
+    """The first action of an actor.
 
     Attributes:
         has_place: Whether something says where it starts.
@@ -42,7 +42,7 @@ class _Cast:
 def openings_of_cast(
     model: SemanticModel, scenario: sym.ScenarioSymbol, constraints: ConstraintAnalysis
 ) -> Iterator[tuple[str, Span]]:
-    """Yield what is open about the actors of a scenario."""
+    """Yield the open values of the actors of a scenario."""
     if scenario.actor is not None:
         yield f"the {scenario.actor.name} that does it", scenario.node.name.span
     cast = _find_cast(model, scenario)
@@ -115,7 +115,7 @@ def _look_at_invocation(model: SemanticModel, cast: _Cast, node: ast.Invocation)
         return
     callee = binding.callee
     if not isinstance(callee, sym.ActionSymbol) or callee.origin == "user":
-        for _, value in binding.arguments:  # what it does with its actors is told there
+        for _, value in binding.arguments:  # its own members decide about its actors
             _settle(_part_of(model, cast, value))
         _settle(_part_of(model, cast, node.actor))
         return

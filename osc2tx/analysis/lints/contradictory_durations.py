@@ -60,7 +60,7 @@ def _report(
         span,
         f"this ends it after {_text(ends)}, {when}",
         labels=[] if other is None else [Label(other, "its duration")],
-        help="say only one of them, or let them agree",
+        help="state only one of them, or make them agree",
     )
 
 

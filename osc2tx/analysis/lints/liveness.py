@@ -60,7 +60,7 @@ def _report_after_endless(
                 head_span(follower),
                 "this is never reached",
                 labels=[Label(head_span(member), "this never ends by itself")],
-                help="give what is before it a `duration` or an `until`",
+                help="give the member before it a `duration` or an `until`",
             )
             return
 

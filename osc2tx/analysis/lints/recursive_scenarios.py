@@ -101,7 +101,7 @@ def _is_end(node: ast.EmitDirective) -> bool:
 
 
 def _invoked_by(model: SemanticModel, behavior: Behavior) -> Invoked:
-    """Return what a behavior invokes, with the place where it first does."""
+    """Return the behaviors that a behavior invokes, with the first position of each."""
     invoked: dict[Behavior, ast.Name] = {}
     for directive in do_directives(behavior):
         for member in do_members(directive.member):

@@ -1,4 +1,4 @@
-"""Members that begin together and control the same of one actor (§7.3.13).
+"""Members that begin together and control the same slot of one actor (§7.3.13).
 
 Only what is certain is reported: actions of the library that begin in the same instant.
 """
@@ -26,7 +26,7 @@ CHOOSE = "all members of a race run: let `--one-of first` or `seeded` choose one
 
 @dataclass(frozen=True, slots=True)
 class _Claim:
-    """What an action controls: a slot of an actor."""
+    """A claim of an action: a slot of an actor."""
 
     actor: sym.Symbol | None
     slot: str
@@ -40,8 +40,8 @@ def report_shared_slots(
 
     Args:
         model: The checked program.
-        nodes: Those of the root file.
-        sink: Where reports go.
+        nodes: The nodes of the root file.
+        sink: Receives reports.
         one_of: Which member of a `one_of` counts.
     """
     together = (Op.PARALLEL, Op.ONE_OF) if one_of == "race" else (Op.PARALLEL,)
@@ -130,7 +130,7 @@ class _Starts:
             yield _Claim(actor, slot, node)
 
     def _modified(self, node: ast.Invocation) -> Iterator[str]:
-        """Yield what the modifiers of an action control after its start."""
+        """Yield the slots that the modifiers of an action control after its start."""
         for member in node.with_members:
             if not isinstance(member, ast.ModifierApplication):
                 continue

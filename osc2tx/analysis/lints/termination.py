@@ -24,7 +24,7 @@ class Endings:
     """How the members of all `do` trees end.
 
     Attributes:
-        endless: Members that go on until something around them ends them.
+        endless: Members that continue until something around them ends them.
         endless_behaviors: Behaviors whose `do` does.
     """
 
@@ -137,7 +137,7 @@ def is_bounded(model: SemanticModel, node: ast.Composition | ast.Invocation) -> 
 
 
 def _is_goal(model: SemanticModel, member: ast.WithMember) -> bool:
-    """Whether a modifier says what is reached at the end."""
+    """Whether a modifier states a goal."""
     return isinstance(member, ast.ModifierApplication) and any(
         _bounds(modifier) or _speaks_of_end(modifier)
         for modifier in library_modifiers(model, member)
@@ -145,7 +145,7 @@ def _is_goal(model: SemanticModel, member: ast.WithMember) -> bool:
 
 
 def _bounds(modifier: ast.ModifierApplication) -> bool:
-    """Whether what a modifier says bounds an open-ended action."""
+    """Whether the state of a modifier bounds an open-ended action."""
     entry = catalogue().modifiers.get(modifier.modifier.text)
     return entry is not None and entry.bounds
 

@@ -31,12 +31,12 @@ SETTINGS: tuple[type[ast.Node], ...] = (
 DIVISIONS = frozenset({ast.BinaryOperator.DIVIDE, ast.BinaryOperator.MODULO})
 Rule: TypeAlias = ast.KeepConstraint | ast.RemoveDefault
 CONSTRAINTS = (ast.KeepConstraint, ast.RemoveDefault)
-"""What is looked at as a whole: it reads fields only where it relates several."""
+"""Types that are used as a whole: a constraint reads their fields only where it relates several."""
 
 
 @dataclass(slots=True, eq=False)
 class Usage:
-    """What the user's files use.
+    """The names that the user's files use.
 
     Attributes:
         emitted: Events that some `emit` emits.
@@ -48,7 +48,7 @@ class Usage:
         settings: What gives values to fields and parameters: declarations, calls, invocations.
         divisions: Divisions and remainders.
         demanded: Constraints and defaults.
-        evaluated: Those of scenarios: there is an instance whose values they give.
+        evaluated: Constraints and defaults of scenarios: they give values to an instance.
         casts: Conversions outside of constraints.
         declared: Events and the types that declare them, by the type at the top of the inheritance
             and their name.
@@ -69,7 +69,7 @@ class Usage:
 
 
 def find_usage(model: SemanticModel, nodes: Mapping[ast.File, NodesByKind]) -> Usage:
-    """Return what the user's files use.
+    """Return the names that the user's files use.
 
     Args:
         model: The checked program.
@@ -244,7 +244,7 @@ def _report_emits(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> N
 
 
 def _is_made_to_be_invoked(owner: sym.TypeSymbol | None) -> bool:
-    """Whether a behavior has an actor, which only an invocation names; `dut` names nobody."""
+    """Whether a behavior has an actor, which only an invocation names; `dut` has none."""
     actor = owner.actor if isinstance(owner, sym.BehaviorSymbol) else None
     return actor is not None and actor.origin != "prelude"
 

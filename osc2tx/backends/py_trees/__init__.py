@@ -1,12 +1,12 @@
 """Backend for py_trees: IR in, readable Python modules out.
 
-`support` refuses what the runtime cannot carry out; `emitter` is the entry for the rest.
+`support` rejects constructs that the runtime does not have; `emitter` is the entry for the rest.
 `sharing` decides which classes come from the modules of imported files, `own_names` names the
 others. `scenarios`, `behaviors`, `calls` and `expressions` turn the IR into the view models of
 `view`, with names from `naming` and fragments from `code` that scenario text cannot break out of;
-`uses` collects imports, `runtime_api` is what is known of the runtime. The templates
+`uses` collects imports, `runtime_api` has the facts about the runtime. The templates
 (`environment`) only place view models, in black's `layout`; where that may differ, `formatting`
-asks black. `source_map` holds the lines that the module does not cite itself.
+calls black. `source_map` holds the lines that the module does not cite itself.
 """
 
 from __future__ import annotations

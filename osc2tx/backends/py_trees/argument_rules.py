@@ -10,7 +10,7 @@ from osc2tx import ir
 from osc2tx.diagnostics import Span
 
 Given: TypeAlias = Mapping[str, ir.Argument | str | None]
-"""Arguments by name; a text for `at`, `None` for what is no argument, but counts as one."""
+"""Arguments by name; a text for `at`, `None` for an implicit argument."""
 
 
 class GivenArguments:

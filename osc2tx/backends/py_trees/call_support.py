@@ -27,7 +27,7 @@ ACTION_KEYWORDS = frozenset({"actor", "label", "modifiers", "self"})
 
 
 class CallCheck:
-    """Checks invocations and placements against what the runtime carries out.
+    """Checks invocations and placements against the runtime.
 
     Args:
         library: The catalogue.
@@ -90,7 +90,7 @@ class CallCheck:
         self._modifiers(node, key, entry.modifiers)
 
     def _user_action(self, node: ir.Invoke, key: str) -> None:
-        """Check an action that a package of the user carries out: it takes what it declares."""
+        """Check an action of a package of the user: it takes the parameters that it declares."""
         for argument in node.arguments:
             if argument.parameter in ACTION_KEYWORDS:
                 self._sink.report(

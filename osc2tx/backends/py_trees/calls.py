@@ -42,8 +42,8 @@ class CallWriter:
 
     Args:
         expressions: Writer of the scenario's expressions.
-        use_name: Told of each name needed from the runtime library.
-        use_modifier: Told of each modifier function needed.
+        use_name: Called with each name needed from the runtime library.
+        use_modifier: Called with each modifier function needed.
         functions: Modifiers of the user's own that the module has as functions.
     """
 

@@ -23,7 +23,7 @@ class PyName:
     text: str
 
     def __post_init__(self) -> None:
-        """Reject what is not an identifier.
+        """Reject texts that are no identifier.
 
         Raises:
             ValueError: The text is no identifier, or a keyword.

@@ -84,7 +84,7 @@ class CombinationCheck:
                 self._sink.report(
                     "OSC508",
                     last.span,
-                    f"`{first.name}` and `{last.name}` speak of the same thing",
+                    f"`{first.name}` and `{last.name}` constrain the same motion",
                     labels=[Label(first.span, "the other one")],
                     help="give one of them",
                 )
@@ -121,7 +121,7 @@ class CombinationCheck:
 
 
 def _timing(node: ir.Invoke) -> Timing:
-    """Return what is known of the length; without a duration the phase around may tell it."""
+    """Return facts about the length; without a duration the phase around may state it."""
     if node.duration is None:
         return Timing(has_duration=False, end_is_known=None)
     return Timing(has_duration=True, end_is_known=not isinstance(node.duration, ir.RangeValue))

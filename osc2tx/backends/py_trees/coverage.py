@@ -68,9 +68,9 @@ class CoverageWriter:
 
 
 def written_unit(calls: CallWriter, unit: ir.Unit) -> PyExpr:
-    """Write a unit: the runtime knows those of the library by name, others are objects.
+    """Write a unit: the runtime knows units of the library by name, others are objects.
 
-    A factor cannot say one with an offset, so that is written by its numbers.
+    A factor cannot express an offset, so a unit with one is written by its numbers.
     """
     if unit.is_standard:
         return literal(unit.name)
@@ -105,7 +105,7 @@ def render_coverage_model(source: str, scenarios: Sequence[ir.Scenario]) -> str 
 
 
 def _item(item: ir.Coverage) -> dict[str, Any]:
-    """Return what an item says; keys that say nothing are left out."""
+    """Return the entries of an item; empty ones are left out."""
     event = item.event.value if isinstance(item.event, ir.Moment) else item.event.name
     said: dict[str, Any] = {"name": item.name, "kind": item.kind, "group": event}
     if item.items:

@@ -56,7 +56,7 @@ ONE_OF_POLICIES = {
 
 @dataclass(frozen=True, slots=True)
 class GeneratedModule:
-    """What the backend makes of one source file.
+    """The outputs of the backend for one source file.
 
     Attributes:
         source: Name of the source.
@@ -158,7 +158,7 @@ def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
 
 
 def _all_names(module: ir.Module, sharing: Sharing) -> NameTable:
-    """Name what a module defines and imports; what its own file declares is named first."""
+    """Name the definitions and imports of a module; those of its own file are named first."""
     names = own_names(module)
     for key, home in sharing.homes.items():
         names.add(key, home.name)
@@ -244,7 +244,7 @@ def shown_scenario(module: ir.Module) -> ir.Scenario | None:
 
 
 def _is_given(declaration: ir.Declaration) -> bool:
-    """Whether only an invoker can say what an object is."""
+    """Whether only the invoker decides the type of an object."""
     return isinstance(declaration, ir.Actor) and declaration.is_given
 
 

@@ -46,12 +46,12 @@ class ExpressionWriter:
 
     Args:
         fields: Python names of the scenario's fields.
-        use_unit: Told of each unit that is written; returns the name it goes by.
-        use_name: Told of each name that must be imported from the runtime library.
+        use_unit: Called with each unit that is written; returns its name.
+        use_name: Called with each name that must be imported from the runtime library.
         class_of: Gives the class of an actor type.
-        methods: The scenario's methods; their parameters must not hide what their bodies use.
+        methods: The scenario's methods; their parameters must not hide names that their bodies use.
         member: Names a member of an object of some type.
-        type_methods: The methods of types that stand in their classes.
+        type_methods: The methods of types that are in their classes.
         receiver: The parameter that is `self`, in a method of a class.
         hidden: Names that no parameter of a function may have.
     """

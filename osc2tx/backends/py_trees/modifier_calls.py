@@ -35,7 +35,7 @@ class ModifierCalls:
 
         Args:
             application: Where it is applied.
-            calls: What is left there of what it stands for.
+            calls: The library modifiers that remain there.
         """
         modifier = self._modifiers.get(application.key)
         given = {argument.parameter: argument.value for argument in application.arguments}
@@ -55,7 +55,7 @@ class ModifierCalls:
     def note(
         self, calls: Iterable[ir.ModifierCall], applied: set[str], called: set[str], depth: int = 0
     ) -> None:
-        """Note the keys of the modifiers that are applied, and of those whose functions fit."""
+        """Note the keys of the applied modifiers, and of the modifiers with fitting functions."""
         for application, modifier, parts in self.groups(calls, depth):
             if application is None:
                 continue
@@ -82,7 +82,7 @@ class ModifierCalls:
         ]
 
     def hidden(self, modifier: ir.UserModifier) -> frozenset[str]:
-        """Return what a function speaks of, so that no parameter of it may have that name."""
+        """Return the names that a function reads, which its parameters must not have."""
         applied = [each for call in modifier.calls for each in call.applied]
         values = [argument.value for call in modifier.calls for argument in call.arguments]
         values += [argument.value for each in applied for argument in each.arguments]

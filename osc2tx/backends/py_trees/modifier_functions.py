@@ -1,9 +1,9 @@
 """Modifiers of the user's own, as functions of the module.
 
-Where one is applied, the module calls its function if what that returns is just what the program
-means there. Else the modifiers of the library that it stands for are written: some of them may say
-where the actor starts, which is said in `placement`, and a function takes no values that change
-while the scenario runs. A function that its own file could only spell out is not written.
+Where one is applied, the module calls its function if its result is exactly the meaning of the
+program there. Else the modifiers of the library that it stands for are written: some of them may
+state where the actor starts, which is written in `placement`, and a function takes no values that
+change while the scenario runs. A function that its own file could only spell out is not written.
 
 The type of a function names the modifiers that it returns, so that a type checker knows which
 actions take them.
@@ -40,8 +40,8 @@ def write_modifiers(
         functions: Calls of them, and of those that the module imports.
         names: Names of the module.
         types: All types that the module knows.
-        methods: The methods that stand in classes.
-        uses: What the module has to import.
+        methods: The methods that are in classes.
+        uses: Collects the imports of the module.
     """
 
     def write(modifier: ir.UserModifier) -> UserModifierView:

@@ -100,10 +100,10 @@ def class_name(text: str) -> str:
 
 
 class NameTable:
-    """Hands out Python names that differ from each other and from what is reserved.
+    """Hands out Python names that differ from each other and from reserved names.
 
     Attributes:
-        looked_up: Keys whose names somebody wanted to know.
+        looked_up: Keys whose names were requested.
     """
 
     def __init__(self, reserved: Iterable[str] = ()) -> None:
@@ -147,7 +147,7 @@ class InvocationName:
 
     Attributes:
         label: Its label; a number makes one for an invocation that is written like one before it.
-        known_as: Its name in settings, if that is neither its label nor that of the scenario.
+        known_as: Its name in settings, if that is neither its label nor the name of the scenario.
     """
 
     label: str | None
@@ -155,7 +155,7 @@ class InvocationName:
 
 
 def composition_names(body: ir.Behavior) -> dict[ir.Behavior, str]:
-    """Name the compositions of a scenario: label, else what it does."""
+    """Name the compositions of a scenario: label, else a description."""
     nodes = _down_the_text(body)
     taken = _labels(nodes)
     names: dict[ir.Behavior, str] = {}
@@ -190,7 +190,7 @@ def method_name(node: ir.Composition) -> str:
     """Return the name of the method for a phase.
 
     A labelled one is public, so that a subclass can override it. One without label is private and
-    called by what it holds: `_hero_and_npc`, `_hero_drive_then_change_lane`.
+    named after its content: `_hero_and_npc`, `_hero_drive_then_change_lane`.
     """
     if node.label is not None:
         return identifier(node.label)
@@ -218,7 +218,7 @@ def _actor_of(node: ir.Behavior) -> str | None:
 
 
 def _topics(node: ir.Composition, actor: str | None) -> list[str]:
-    """Say what the members of a composition are about; events only if there is nothing else."""
+    """Name the topics of the members of a composition; events only if there is nothing else."""
     telling = [each for each in node.members if not isinstance(each, ir.Wait | ir.Emit | ir.On)]
     return [_topic(each, actor) for each in telling or node.members]
 
@@ -243,7 +243,7 @@ def _topic(node: ir.Behavior, actor: str | None) -> str:
 
 
 def _acting(node: ir.InvokeScenario) -> tuple[str, ...]:
-    """Return how an invocation is written, values left out: draws depend on that."""
+    """Return the text of an invocation, values left out: draws depend on that."""
     who = "" if node.actor is None else ir.show(node.actor)
     arguments = (
         f"{a.parameter}: {ir.show(a.value)}" if a.value.type.kind is ir.Kind.ACTOR else a.parameter

@@ -35,12 +35,12 @@ class _Object:
 
 
 class ObjectCheck:
-    """Checks objects against what the runtime can make.
+    """Checks objects against the constructors of the runtime.
 
     Args:
         own: The module's own types.
-        objects: What the runtime can make.
-        sink: Where complaints go.
+        objects: The constructors of the runtime.
+        sink: Receives reports.
     """
 
     def __init__(

@@ -24,7 +24,7 @@ class ObjectWriter:
     """Writes the objects of one scenario.
 
     Args:
-        expressions: Writer of what is in them.
+        expressions: Writer of their content.
         types: All types that the module knows.
     """
 
@@ -71,7 +71,7 @@ class ObjectWriter:
         return ArgumentView(call=CallView(callee, (ArgumentView(code=written),)), comments=above)
 
     def _member_lineage(self, lineage: tuple[str, ...], member: str) -> tuple[str, ...] | None:
-        """Return the types of a member that is an object itself; `None` if it is none."""
+        """Return the types of a member that is an object itself; `None` for other members."""
         field = self._types.field(lineage, member)
         if field is not None:
             is_object = field.type.kind is ir.Kind.STRUCT
@@ -89,7 +89,7 @@ def write_elements(
 
     Args:
         class_: Class of the elements; `None` if they are plain values.
-        values: What is fixed; paths are of the list, the number and the member.
+        values: The fixed values; paths consist of the list, the number and the member.
         write: Writes an expression.
     """
     whole: dict[int, str] = {}

@@ -1,6 +1,6 @@
-"""Names of what a module defines, and keys for them.
+"""Names of the definitions of a module, and keys for them.
 
-What a file declares itself is named first, by its text alone: whatever it imports or is imported
+Definitions of its own file are named first, by its text alone: whatever it imports or is imported
 by, its classes have the same names.
 """
 
@@ -25,7 +25,7 @@ Declared: TypeAlias = (
     ir.AbstractScenario | ir.UserType | ir.UserEnum | ir.UserAction | ir.UserModifier
 )
 
-# What a module has of the runtime, of Python and of itself; none of its own names must hide it.
+# Names from the runtime, from Python and of the module; none of its own names must hide them.
 RUNTIME_CLASSES = frozenset(
     {
         *ACTOR_CLASSES.values(),
@@ -147,7 +147,7 @@ def has_module(module: ir.Module) -> bool:
 
 
 def own_names(module: ir.Module) -> NameTable:
-    """Return the names of what the file of a module declares itself."""
+    """Return the names of the definitions in the file of a module."""
     library = object_tables().enums | object_tables().units | catalogue().modifiers.keys()
     runtime = RUNTIME_CLASSES | RUNTIME_FUNCTIONS
     extended = {class_name(each.name) for each in module.types if each.is_of_library}
@@ -159,7 +159,7 @@ def own_names(module: ir.Module) -> NameTable:
 
 
 def add_name(names: NameTable, declared: Declared) -> None:
-    """Name what a module defines."""
+    """Name the definitions of a module."""
     key = key_of(declared)
     match declared:
         case ir.AbstractScenario():

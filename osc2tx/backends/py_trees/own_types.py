@@ -23,8 +23,8 @@ def write_types(
     Args:
         own: Those types, bases first.
         table: All types that the module knows.
-        methods: The methods that stand in classes.
-        uses: What the module has to import.
+        methods: The methods that are in classes.
+        uses: Collects the imports of the module.
     """
     names = [each.name for each in own]
     return tuple(
@@ -34,7 +34,7 @@ def write_types(
 
 
 class _TypeWriter:
-    """Writes a type; `later` are those whose classes come below."""
+    """Writes a type; `later` are the types with classes below it."""
 
     def __init__(
         self,

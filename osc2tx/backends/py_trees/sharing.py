@@ -1,4 +1,4 @@
-"""What a module imports of the modules of imported files, instead of holding a copy.
+"""Classes that a module imports from the modules of imported files, instead of holding a copy.
 
 A class is imported if the module of the file that declares it has the very same one: the IR of the
 declaration is the same in both programs, and so is that of all it refers to. An `extend` in the
@@ -42,8 +42,8 @@ class Sharing:
     """Where a module has its classes from.
 
     Attributes:
-        homes: Key of what it imports, or what that imports, to where it is defined.
-        copies: Key of what it defines although another file declares it, to the reason why.
+        homes: Key of each import, direct or indirect, to the module that defines it.
+        copies: Key of each definition that another file declares, to the reason for the copy.
     """
 
     homes: Mapping[str, Home] = field(default_factory=dict)
@@ -66,7 +66,7 @@ class Sibling:
 
 
 def share(module: ir.Module, siblings: Mapping[str, Sibling], apart: Mapping[str, str]) -> Sharing:
-    """Return what a module imports.
+    """Return the imports of a module.
 
     Args:
         module: The module.
@@ -100,7 +100,7 @@ def _reason(part: Declared, apart: Mapping[str, str]) -> str:
 
 
 def sibling_imports(sharing: Sharing, names: NameTable) -> tuple[ImportView, ...]:
-    """Return the import lines for what a module refers to of others.
+    """Return the import lines for the references of a module to others.
 
     Args:
         sharing: Where it may have its classes from.
@@ -133,7 +133,7 @@ def _source(part: Declared) -> str:
 
 
 class _Declarations:
-    """What a module declares, its own and that of imported files, by key."""
+    """The declarations of a module, its own and those of imported files, by key."""
 
     def __init__(self, module: ir.Module) -> None:
         unwritten = never_called(module)
@@ -147,7 +147,7 @@ class _Declarations:
         return there is not None and ir.same(self._own(self.parts[key]), other._own(there))
 
     def references(self, key: str) -> set[str]:
-        """Return the keys of what a class or function refers to, itself left out."""
+        """Return the keys of the references of a class or function, itself left out."""
         words = set(ir.words(self._own(self.parts[key])))
         found = {other for other, part in self.parts.items() if _mention(part) <= words}
         return found - {key}

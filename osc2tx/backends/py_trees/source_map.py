@@ -1,7 +1,7 @@
 """The source map: which source line each part of a generated module comes from.
 
-The module cites no line, so that an edit of the source stirs nothing but what it says. The map is
-one line of JSON with numbers only: it decides nothing, and nobody reviews it.
+The module cites no line, so that an edit of the source changes only the related code. The map is
+one line of JSON with numbers only: it decides nothing, and is not reviewed.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ Place = tuple[int, int]
 
 @dataclass(slots=True)
 class ScenarioMap:
-    """The places of one scenario in its source.
+    """The positions of one scenario in its source.
 
-    What a scenario takes from other files has no place here: it is in the map of their modules.
+    Parts from other files have no position here: they are in the map of their modules.
 
     Attributes:
         source: Name of the source.
@@ -65,7 +65,7 @@ class ScenarioMap:
                     pass
 
     def content(self) -> dict[str, object]:
-        """Return what is written down."""
+        """Return the map as text."""
         found = asdict(self)
         del found["source"]
         return found

@@ -1,4 +1,4 @@
-"""Refuses what the runtime library cannot carry out, before any module is written."""
+"""Rejects constructs that the runtime library does not have, before any module is written."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from osc2tx.catalogue import catalogue, object_tables
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.support.python_modules import is_taken
 
-# CPython gives up on expressions of about 3,000 parts; nobody reads one of this length anyway.
+# CPython gives up on expressions of about 3,000 parts; one of this length is unreadable anyway.
 MAX_PARTS = 1000
 
 # Names that `Scenario.invoke` takes for itself, so that parameters cannot be handed in by them.
@@ -35,7 +35,7 @@ def check_support(module: ir.Module, sink: DiagnosticSink) -> None:
 
 
 def has_support(method: ir.Method, types: Iterable[ir.UserType]) -> bool:
-    """Return whether a class may have a method that nobody calls."""
+    """Return whether a class may have an unused method."""
     sink = DiagnosticSink()
     _SupportCheck((), {each.name: each for each in types}, sink).method(method)
     return not sink.has_errors

@@ -17,7 +17,7 @@ OF_THE_SCENARIO = (ir.FieldRef, ir.InvokedValue, ir.EventArgument, ir.UserShape)
 
 
 class TypeMethods:
-    """The methods that stand in classes.
+    """The methods that are in classes.
 
     Args:
         types: The module's own types.
@@ -41,7 +41,7 @@ class TypeMethods:
                 del self._methods[name]
 
     def __contains__(self, name: str) -> bool:
-        """Tell whether a method of a type, `limits.middle`, stands in its class."""
+        """Tell whether a method of a type, `limits.middle`, is in its class."""
         return name in self._methods
 
     def of(self, type_: str) -> Iterator[tuple[str, ir.Method]]:

@@ -41,8 +41,8 @@ class TypeTable:
     Args:
         own: The module's own types, bases first.
         classes: Names of the module's classes.
-        uses: What the module has to import.
-        imported: Keys of what it imports of other modules.
+        uses: Collects the imports of the module.
+        imported: Keys of its imports from other modules.
     """
 
     def __init__(
@@ -88,7 +88,7 @@ class TypeTable:
         return members | {"fields", "self"}
 
     def _of_library(self, own: ir.UserType) -> str:
-        """Name the type of the library that an own type is of; empty if there is none."""
+        """Name the type of the library from which an own type derives; empty if there is none."""
         names = [name for name in self.lineage(own.name) if name in CLASSES]
         return ABSTRACT_TYPES.get(names[0], names[0]) if names else ""
 
@@ -120,8 +120,8 @@ class TypeTable:
     def member(self, owner: str, name: str) -> PyName:
         """Name a member of an object.
 
-        One of an own actor must not hide what the runtime has there, one of a struct not what the
-        body of its class reads: the fields below a field `m` would take it for the unit.
+        A member of an own actor must not hide one of the runtime, a member of a struct not a name
+        that the body of its class reads: the fields below a field `m` would take it for the unit.
         """
         wanted = identifier(name)
         own = self._own.get(owner)
@@ -130,7 +130,7 @@ class TypeTable:
         return PyName(f"{wanted}_" if wanted in self._taken[owner] else wanted)
 
     def annotation(self, type_: ir.ValueType | None, later: frozenset[str] = frozenset()) -> PyExpr:
-        """Write a type; `None` is that of what is called for what it does.
+        """Write a type; `None` is the type of a call without a result.
 
         Args:
             type_: The type.
@@ -170,7 +170,7 @@ class TypeTable:
         return next((field for field in self.fields(lineage) if field.name == name), None)
 
     def fields(self, lineage: Sequence[str]) -> Iterator[ir.UserField]:
-        """Yield the fields that own types of a lineage declare, those of bases first."""
+        """Yield the fields that own types of a lineage declare, bases first."""
         return (field for _, field in self.owned_fields(lineage))
 
     def owned_fields(self, lineage: Sequence[str]) -> Iterator[tuple[str, ir.UserField]]:
@@ -181,7 +181,8 @@ class TypeTable:
 
     def fields_type(self, lineage: Sequence[str]) -> PyName | None:
         """Name the type of the keywords that the runtime takes for an actor; `None` if none."""
-        above = (CLASSES[name] for name in lineage if name in CLASSES)
+        own = {each.name for each in self._own.values() if not each.is_of_library}
+        above = (CLASSES[name] for name in lineage if name in CLASSES and name not in own)
         library = next(above, "Actor")
         if not self._own[lineage[0]].is_actor or library not in ACTOR_FIELDS:
             return None

@@ -50,7 +50,7 @@ def write_actions(
         actions: Those actions.
         names: Names of the module.
         types: All types that the module knows.
-        uses: What the module has to import.
+        uses: Collects the imports of the module.
         write: Writes a default.
     """
     return tuple(_write(action, names, types, uses, write) for action in actions)

@@ -1,4 +1,4 @@
-"""What a module uses of the runtime library, collected while it is written."""
+"""Names of the runtime library that a module uses, collected while it is written."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""View models: what the templates place, every decision already taken."""
+"""View models: the data that the templates place, every decision already taken."""
 
 from __future__ import annotations
 
@@ -144,8 +144,8 @@ class TypeView:
 
     Attributes:
         class_name: Its name.
-        bases: What it inherits from.
-        kinds: Name of an actor in the source; of a combination also those of what it combines.
+        bases: Its base classes.
+        kinds: Name of an actor in the source; of a combination also the names of its parts.
         above: The class whose kinds follow; a struct has none.
         is_object: An object takes its fields by its constructor, a struct of values is a dataclass.
         docstring: Lines of its docstring.
@@ -248,13 +248,13 @@ class ModuleView:
     Attributes:
         docstring: Lines of its docstring.
         library: Its name for the whole of the runtime, if it needs one.
-        imports: What it takes from the runtime.
-        siblings: What it takes from the modules of imported files.
+        imports: Its imports from the runtime.
+        siblings: Its imports from the modules of imported files.
         root: The folder where those are found, if it is not that of the module.
         api_level: Level of the runtime it is made for.
         units: Units it defines.
         enums: Enums it defines.
-        standard_imports: What it takes from Python's standard library.
+        standard_imports: Its imports from Python's standard library.
         types: Classes for the types of its objects.
         actions: Actions of the user's own.
         modifiers: Modifiers of the user's own.

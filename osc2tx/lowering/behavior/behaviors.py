@@ -21,7 +21,7 @@ from osc2tx_shared.classes import replace
 
 
 class _CompositionFields(TypedDict):
-    """What the three compositions share, as keyword arguments."""
+    """The common fields of the three compositions, as keyword arguments."""
 
     span: Span
     label: str | None
@@ -40,7 +40,7 @@ class BehaviorLowering:
     def __init__(
         self, ctx: LoweringContext, constraints: ConstraintLowering, standing: StandingModifiers
     ) -> None:
-        """Take the checked program, and what the constraints and members of the scenario say."""
+        """Take the checked program, and the constraints and members of the scenario."""
         self._ctx = ctx
         self._standing = standing
         self._invocations = InvocationLowering(ctx, constraints, standing)

@@ -128,7 +128,7 @@ def _ends(node: ir.Invoke) -> str:
 
 
 def _has_goal(node: ir.Invoke) -> bool:
-    """Whether a modifier says what is to be reached, so that the action may end with it."""
+    """Whether a modifier states a goal, so that the action may end with it."""
     modifiers = catalogue().modifiers
     return any(
         call.at == "end" or (call.name in modifiers and modifiers[call.name].bounds)

@@ -56,7 +56,7 @@ class InvocationLowering:
     def __init__(
         self, ctx: LoweringContext, constraints: ConstraintLowering, standing: StandingModifiers
     ) -> None:
-        """Take the checked program, and what the constraints and members of the scenario say."""
+        """Take the checked program, and the constraints and members of the scenario."""
         self._ctx = ctx
         self._constraints = constraints
         self._standing = standing
@@ -145,9 +145,9 @@ class InvocationLowering:
         return start_on_path(with_open_duration(self._ctx, invocation, name))
 
     def _specialised(self, node: ast.Invocation, callee: Composed) -> Composed:
-        """Return the scenario that an invocation is by its values (§7.3.8.2.2).
+        """Return the special scenario that the values of an invocation select (§7.3.8.2.2).
 
-        What it is must be known when compiling.
+        It must be known at compile time.
         """
         certain: list[Composed] = []
         for symbol in self._ctx.model.symbols:
@@ -177,7 +177,7 @@ class InvocationLowering:
         return {condition.field.name for condition in found if condition is not None}
 
     def _actor(self, node: ast.Invocation, binding: Binding) -> ir.Expression | None:
-        """Return who acts; without an expression it is the actor of the scenario (§5.5)."""
+        """Return the actor; without an expression it is the actor of the scenario (§5.5)."""
         callee = binding.callee
         type_of_actor = actor_type_of(callee) if isinstance(callee, sym.BehaviorSymbol) else None
         if type_of_actor is None:
@@ -249,7 +249,7 @@ class InvocationLowering:
         what: str,
         attached: Attached,
     ) -> None:
-        """Report modifiers of what is no action; those that move nothing may stand."""
+        """Report modifiers of other members than actions; those that move nothing may stay."""
         lowering = self._modifier_lowering(node, actor, behavior, attached)
         for member in node.with_members:
             if not isinstance(member, ast.ModifierApplication) or is_override(self._ctx, member):
@@ -364,7 +364,7 @@ def _named(parameter: sym.FieldSymbol, value: ir.Expression) -> ir.Argument:
 
 
 def name_of_member(node: ast.Invocation | ast.Composition) -> str:
-    """Return what to call values that belong to a member of the tree: label, or who does what."""
+    """Return the prefix for values of a member of the tree: label, or actor and action."""
     if node.label is not None:
         return node.label.text
     if isinstance(node, ast.Composition):

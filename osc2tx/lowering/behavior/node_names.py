@@ -1,7 +1,7 @@
 """Readable names for the nodes of a behavior tree.
 
-A leaf is called what its statement says; a composition by whose it is and what it does. Names
-need not be unique: the back ends see to that.
+A leaf is named after its statement; a composition after its actor and its activity. Names need not
+be unique: the back ends see to that.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def _verb(node: ir.Behavior) -> str:
 
 
 def _occasion(trigger: ir.Trigger) -> str:
-    """Return what is waited for, in a word: an event, or what a condition is about."""
+    """Return the awaited event in a word, or the quantity of a condition."""
     match trigger.event:
         case ir.EventRef(name=name):
             return name
@@ -83,7 +83,7 @@ def _occasion(trigger: ir.Trigger) -> str:
 
 
 def _subject(condition: ir.Expression) -> str:
-    """Return `hero speed`: the first member that a condition reads, and of what it is one."""
+    """Return `hero speed`: the first member that a condition reads, and its owner."""
     for part in ir.walk(condition):
         match part:
             case ir.Attribute(base=base, name=name) | ir.MethodCall(base=base, method=name):

@@ -3,8 +3,8 @@
 The times of a tree are sums and differences: a `serial` takes what its members take together, the
 members of an `equal` parallel take the same. A duration around them is an equation or a bound.
 Times that are drawn from ranges are solved for where an equation leaves no choice, bounded or
-checked otherwise; actions whose length is free, and what goes on until something ends it, get what
-is left. What cannot hold is an error that shows both places.
+checked otherwise; actions of free length, and open-ended members, get the rest. A contradiction is
+an error that shows both positions.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class _Filling:
 
 
 _Length: TypeAlias = _Known | _Filling | None
-"""What is known of how long a member takes; `None` if only the run decides."""
+"""Facts about the length of a member; `None` if only the run decides."""
 
 INSTANT = _Known(())
 OPEN, FREE = _Filling(), _Filling()
@@ -135,7 +135,7 @@ class TimeSystem:
         return self._filled(node, filling[0], terms), None
 
     def _filled(self, node: ir.Serial, index: int, others: Terms) -> ir.Serial:
-        """Return a serial, one member of which takes what the others leave of its duration."""
+        """Return a serial, one member of which takes the rest of its duration."""
         assert node.duration is not None
         whole = node.duration
         if isinstance(whole, ir.RangeValue):
@@ -165,7 +165,7 @@ class TimeSystem:
         return self._started_together(node, lengths, lasting)
 
     def _check_offsets(self, node: ir.Parallel, lengths: list[_Length]) -> None:
-        """Report members that cannot lie as the composition asks for."""
+        """Report members whose lengths contradict the overlap of the composition."""
         kind = node.overlap or ("start" if node.start_to_start is None else "any")
         bounds = list(OFFSETS[kind])
         for index, given in enumerate((node.start_to_start, node.end_to_end)):
@@ -334,7 +334,7 @@ class TimeSystem:
         )
         return True
 
-    # --- what is known of times ---
+    # --- known times ---
 
     def _values(self) -> dict[str, ir.Expression]:
         found: dict[str, ir.Expression] = {}
@@ -373,7 +373,7 @@ class TimeSystem:
         return None
 
     def _narrow(self, terms: Terms, whole: ir.Expression) -> None:
-        """Leave drawn times what the others leave of a whole."""
+        """Leave to drawn times the rest of a whole."""
         wanted = self._bounds((whole,))
         for term in terms if wanted is not None else ():
             parameter = self._parameter(term)
@@ -398,7 +398,7 @@ class TimeSystem:
             self.ctx.drawn[position] = narrowed
 
     def _is_variable(self, terms: Terms) -> bool:
-        """Whether a sum depends on what is drawn."""
+        """Whether a sum depends on drawn values."""
         drawn = {
             each.name
             for each in (*self.ctx.drawn, *self.declared)

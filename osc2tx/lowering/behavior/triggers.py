@@ -57,7 +57,7 @@ def is_own_failure(ctx: LoweringContext, path: ast.Expression | None) -> bool:
 
 
 def _name_of(event: ir.EventRef | ir.LabelEvent | ir.InnerEvent) -> str:
-    """Return what the arguments of an occurrence are found by."""
+    """Return the key of the arguments of an occurrence."""
     match event:
         case ir.EventRef(name=name):
             return name

@@ -77,14 +77,14 @@ def default_arguments(
     actor: ir.Expression | None,
     node: ast.Invocation,
 ) -> tuple[ir.Argument, ...]:
-    """Return what an invocation leaves to the defaults of the declaration, bases first.
+    """Return the arguments that an invocation leaves to defaults of the declaration, bases first.
 
     Args:
         ctx: The checked program.
-        action: What is invoked.
+        action: The invoked action.
         given: Its arguments.
-        actor: Who acts, if somebody does: a default may be `actor`.
-        node: The invocation; its constraints may speak of the defaults from now on.
+        actor: The actor, if there is one: a default may be `actor`.
+        node: The invocation; its constraints may refer to the defaults from now on.
     """
     names = {argument.parameter for argument in given}
     place = Place(model=ctx.model, owner=action, prefix=(node,), it=(node,))

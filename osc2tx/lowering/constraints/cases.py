@@ -1,4 +1,4 @@
-"""What a parameter is in each of some cases: `wet => v == 50kph`, `v == 1mps or v == 2mps`."""
+"""Values of a parameter in each of some cases: `wet => v == 50kph`, `v == 1mps or v == 2mps`."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ NUMBERS = ("int", "uint", "float")
 ValueOf: TypeAlias = Callable[
     [LoweringContext, Constraint, ast.Expression, Key, types.Type], ir.Expression | None
 ]
-"""Returns what a part of a constraint says that a parameter is; `None` if it does not."""
+"""Returns the value that a part of a constraint gives a parameter; `None` if it gives none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +40,7 @@ class Case:
         selector: The parameter that its condition is about.
         values: For which values of that one the condition holds.
         condition: The condition.
-        value: What it sets the parameter to.
+        value: The value of the parameter.
     """
 
     constraint: Constraint
@@ -91,7 +91,7 @@ def cases_of(
 def range_by_cases(
     ctx: LoweringContext, constraints: Iterable[Constraint], key: Key, type_: types.Type
 ) -> tuple[ir.RangeValue, list[Constraint]] | None:
-    """Return what a number is drawn from that has bounds in each case, and the cases."""
+    """Return the domain of a number that has bounds in each case, and the cases."""
     cases = cases_of(ctx, constraints, key, type_, _within)
     ranges = [case.value for case in cases if isinstance(case.value, ir.RangeValue)]
     bounds = []
@@ -161,7 +161,7 @@ def _case(
 def _set_to(
     ctx: LoweringContext, constraint: Constraint, part: ast.Expression, key: Key, type_: types.Type
 ) -> ir.Expression | None:
-    """Return what an equality sets a parameter to; `None` for anything else."""
+    """Return the value that an equality gives a parameter; `None` for anything else."""
     if not isinstance(part, ast.Binary) or part.operator is not Op.EQUAL:
         return None
     for side, other in ((part.left, part.right), (part.right, part.left)):
@@ -184,7 +184,7 @@ def _within(
 def _range(
     ctx: LoweringContext, constraint: Constraint, part: ast.Expression, key: Key, type_: types.Type
 ) -> ir.Expression | None:
-    """Return the range that a number is said to lie in."""
+    """Return the range that a constraint gives a number."""
     if not isinstance(part, ast.Binary) or kind_of(type_) not in NUMBERS:
         return None
     is_range = part.operator is Op.IN and isinstance(part.right, ast.RangeLiteral)
@@ -204,7 +204,7 @@ def _mentions(constraint: Constraint, node: ast.Expression, key: Key) -> bool:
 def _held(
     ctx: LoweringContext, constraint: Constraint, node: ast.Expression
 ) -> tuple[Key, frozenset[Value], frozenset[Value]] | None:
-    """Return what a condition is about, the values for which it holds, and all there are."""
+    """Return the parameter of a condition, the values for which it holds, and all its values."""
     if isinstance(node, ast.Unary) and node.operator is ast.UnaryOperator.NOT:
         inner = _held(ctx, constraint, node.operand)
         return None if inner is None else (inner[0], inner[2] - inner[1], inner[2])

@@ -81,14 +81,14 @@ class ConstraintLowering:
         return replace(self, ctx=replace(self.ctx, actor=actor))
 
     def setting(self, key: Key, type_: types.Type) -> Setting:
-        """Return what is known of a parameter; its constraints count as written from now on."""
+        """Return the facts about a parameter; its constraints count as written from now on."""
         mentioned = tuple(c for c in self.found.by_key.get(key, ()) if is_known_here(c, key))
         if len(mentioned) == 1 and (constant := self._constant(key, type_, mentioned[0])):
             return constant
         return self._setting(key, type_, mentioned)
 
     def _constant(self, key: Key, type_: types.Type, only: Constraint) -> Setting | None:
-        """Return what the only constraint on a parameter sets it to, if that is a constant.
+        """Return the value that the only constraint on a parameter gives it, if that is a constant.
 
         It is the same in all scenarios that inherit it: each constant is lowered once.
         """
@@ -108,7 +108,7 @@ class ConstraintLowering:
     def _setting(self, key: Key, type_: types.Type, mentioned: tuple[Constraint, ...]) -> Setting:
         own = [c for c in mentioned if c.subject == key and c.value is not None]
         if isinstance(type_, types.ListType | types.RangeType):
-            own = [c for c in own if not c.is_range]  # what is in it is left to a check
+            own = [c for c in own if not c.is_range]  # the content of a range is left to a check
         definition = next((c for c in reversed(own) if not c.is_range), None)
         within = next((c for c in reversed(own) if c.is_range), None)
         hard = self._hard.get(key, domain_of_type(type_))
@@ -132,7 +132,7 @@ class ConstraintLowering:
         return Setting(value, domain, is_fixed, tuple(comments), tuple(said))
 
     def members(self, object_: Key) -> Iterator[tuple[Key, Setting]]:
-        """Yield what is known of the members of an object; any value of an enum is something."""
+        """Yield the facts about the members of an object; any value of an enum is a fact."""
         depth = len(object_)
         for key, mentioned in self.found.by_key.items():
             below = key[depth:] if key[:depth] == object_ and key[-1] is not SIZE else ()
@@ -177,7 +177,7 @@ class ConstraintLowering:
         yield from found
 
     def says_all(self, setting: Setting, key: Key) -> bool:
-        """Whether what is written of a parameter makes all constraints on it true."""
+        """Whether the written value of a parameter makes all constraints on it true."""
         return all(c in setting.constraints for c in self.found.by_key.get(key, ()))
 
     def use(self, constraint: Constraint) -> None:
@@ -197,10 +197,10 @@ class ConstraintLowering:
         return lower_expression(self.ctx.at(constraint.place), constraint.value)
 
     def _authored(self, writer: DomainWriter) -> ir.Expression | None:
-        """Return what a longer constraint sets a parameter to.
+        """Return the value that a longer constraint gives a parameter.
 
-        Objects are not set by what is set to them: `keep(it.group == street)` is about `it`. Nor
-        are members of objects by what is known from them alone: `keep(gap == ego.rear_overhang)`.
+        Objects get no value from an equality: `keep(it.group == street)` constrains `it`. Nor do
+        members of objects from facts about these alone: `keep(gap == ego.rear_overhang)`.
         """
         if isinstance(writer.type, types.StructType):
             return None
@@ -242,7 +242,7 @@ class ConstraintLowering:
         return known
 
     def _range_by_cases(self, writer: DomainWriter) -> ir.RangeValue | None:
-        """Return what a number is drawn from that constraints bound in some cases only."""
+        """Return the domain of a number that constraints bound in some cases only."""
         found = range_by_cases(self.ctx, self._earlier(writer.key), writer.key, writer.type)
         if found is None:
             return range_in_a_case(self.ctx, writer.constraints, writer.key, writer.type)
@@ -273,7 +273,7 @@ class ConstraintLowering:
         domain: ir.Domain | None,
         fixed: Domain | None,
     ) -> None:
-        """Remember what the module lets the parameter be, at least."""
+        """Remember the least domain of the parameter in the module."""
         whole = domain_of_type(type_)
         if definition is not None:
             value = self._value_of(definition) if definition.subject == key else whole
@@ -301,7 +301,7 @@ class ConstraintLowering:
         return None
 
     def _by_cases(self, key: Key, type_: types.Type) -> ir.Expression | None:
-        """Return what a parameter is in each of the cases that constraints tell apart."""
+        """Return the value of a parameter in each of the cases of its constraints."""
         constraints = self._earlier(key, among_members=True)
         cases = cases_of(self.ctx, constraints, key, type_)
         self._used.update(case.constraint for case in cases)
@@ -318,7 +318,7 @@ class ConstraintLowering:
         return None
 
     def _value_of(self, definition: Constraint) -> Domain:
-        """Return what the value that a parameter is set to can be."""
+        """Return the domain of the value that a parameter is set to."""
         values = values_on(definition.operations, self._written)
         root = definition.operations.root
         return values[root.operands[1]] if len(root.operands) > 1 else values[-1]
@@ -350,7 +350,7 @@ class ConstraintLowering:
         if prefix and isinstance(prefix[0], ast.Invocation) and self._checks_itself(prefix[0]):
             return False
         if self.found.owner is not None and constraint.place.owner is None:
-            return False  # what a global parameter says of itself
+            return False  # a constraint of a global parameter on itself
         values = (self._written.get(key) for key in constraint.operations.keys)
         is_known = all(value is not None and single_value(value) is not None for value in values)
         if is_known and all(operation.name != "any" for operation in constraint.operations.items):
@@ -358,16 +358,16 @@ class ConstraintLowering:
         return not self._holds(constraint)
 
     def _is_about_others(self, constraint: Constraint) -> bool:
-        """Whether a constraint is about objects that are made elsewhere, and not known there.
+        """Whether a constraint refers to objects that are made elsewhere, and not known there.
 
-        Known is what is said of a single member of an object that the invocation names.
+        Known are constraints on a single member of an object that the invocation names.
         """
         roots = {key[0] for key in constraint.operations.keys if len(key) > 1}
         is_relation = len(constraint.operations.keys) > 1
         return bool(roots & (self.ctx.handed_in if is_relation else self.ctx.computed))
 
     def _checks_itself(self, invoked: ast.Invocation) -> bool:
-        """Whether an invoked behavior sees to its own constraints: all but actions of the user."""
+        """Whether an invoked behavior checks its own constraints: all but actions of the user."""
         callee = self.ctx.model.binding_of(invoked).callee
         is_action = isinstance(callee, sym.ActionSymbol) and callee.origin == "user"
         return not is_action or is_composed(callee)

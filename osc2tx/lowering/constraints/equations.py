@@ -14,7 +14,7 @@ from osc2tx.syntax import ast
 
 Op = ast.BinaryOperator
 
-# Operator, with the unknown on its left: what the other side does to get it alone.
+# Operator, with the unknown on its left: the inverse operation on the other side.
 LEFT = {Op.ADD: Op.SUBTRACT, Op.SUBTRACT: Op.ADD, Op.MULTIPLY: Op.DIVIDE, Op.DIVIDE: Op.MULTIPLY}
 # The same with the unknown on its right, where that is one step: `k - x == e` is `x == k - e`.
 RIGHT = {Op.ADD: Op.SUBTRACT, Op.MULTIPLY: Op.DIVIDE}
@@ -24,7 +24,7 @@ RIGHT_SWAPPED = {Op.SUBTRACT: Op.SUBTRACT, Op.DIVIDE: Op.DIVIDE}
 def solve_for(
     ctx: LoweringContext, node: ast.Expression, constraint: Constraint, key: Key
 ) -> ir.Expression | None:
-    """Return what a parameter must be for an equality to hold; `None` if that is not plain.
+    """Return the value of a parameter for which an equality holds; `None` if that is not plain.
 
     Only reals are solved for, and only if the parameter occurs once and no operator but the four
     of arithmetic stands around it.

@@ -1,7 +1,7 @@
 """Lists that constraints describe element by element (§7.3.5.2.1).
 
-`keep(l[k] == v)` says that the list has an element `k`. Its size is what `keep(l.size() == n)`
-says, else it is just long enough; elements that nothing is said of are open.
+`keep(l[k] == v)` implies that the list has an element `k`. Its size is given by `keep(l.size() ==
+n)`, else it is just long enough; elements without constraints are open.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ def _said(
 
 
 def _alike(element: types.Type, said: dict[int, ir.Expression]) -> ir.Expression | None:
-    """Return what elements are drawn from of which nothing is said: the same as the first ones."""
+    """Return the domain of elements without constraints: the same as that of the first ones."""
     if isinstance(element, types.RangeType):
         return None
     several = (ir.RangeValue, ir.ListValue)
@@ -125,7 +125,7 @@ def fixed_elements(
 
     Args:
         ctx: The checked program.
-        constraints: Those of the scenario; the ones that are found count as written.
+        constraints: Constraints of the scenario; the ones that are found count as written.
         object_: The object.
     """
     for constraint in constraints.found.in_force.constraints:

@@ -24,7 +24,7 @@ Op = ast.BinaryOperator
 
 COMPARISONS = (Op.LESS, Op.LESS_EQUAL, Op.GREATER, Op.GREATER_EQUAL)
 NOT_STRICT = (Op.LESS_EQUAL, Op.GREATER_EQUAL)
-LARGEST_WHOLE = 2**62  # bounds of integers beyond it are those of their type
+LARGEST_WHOLE = 2**62  # larger bounds of integers are replaced by those of their type
 
 
 @dataclass(slots=True)
@@ -54,7 +54,7 @@ class DomainWriter:
         return None if value is None else self._literal(value)
 
     def equality(self, but: Sequence[Constraint] = ()) -> ir.Expression | None:
-        """Return what the parameter is set to as a part of a longer constraint, some left out."""
+        """Return the value of the parameter in a longer constraint, some left out."""
         return next(self._equalities(but), None)
 
     def domain(self, domain: Domain) -> ir.Domain | None:
@@ -171,7 +171,7 @@ class DomainWriter:
                         yield from self._lowered(constraint, other)
 
     def _bounds(self) -> Iterator[ir.Expression]:
-        """Yield what the parameter is compared with."""
+        """Yield the values that the parameter is compared with."""
         for constraint in self.constraints:
             if constraint.subject == self.key and isinstance(constraint.value, ast.RangeLiteral):
                 yield from self._lowered(constraint, constraint.value.lower)
@@ -216,7 +216,7 @@ def all_values(type_: types.Type, span: Span) -> ir.Choices | None:
 
 
 def as_type(expression: ir.Expression, type_: types.Type) -> ir.Expression:
-    """Return a value as what it is converted to (§7.4.2.6): a float, or a range of itself."""
+    """Return a converted value (§7.4.2.6): a float, or a range of itself."""
     if isinstance(type_, types.RangeType) and expression.type.kind is not ir.Kind.RANGE:
         bound, plain = as_type(expression, type_.element), lower_type(type_)
         return ir.RangeValue(span=expression.span, type=plain, lower=bound, upper=bound)
@@ -237,7 +237,7 @@ def conjuncts(expression: ast.Expression) -> tuple[ast.Expression, ...]:
 
 
 def written_domain(domain: ir.Domain, type_: types.Type, hard: Domain) -> Domain:
-    """Return what a domain of the IR lets a parameter be, at least."""
+    """Return the least domain that a domain of the IR gives a parameter."""
     whole = domain_of_type(type_)
     match domain:
         case ir.RangeValue(lower=lower, upper=upper):

@@ -16,13 +16,13 @@ Instance: TypeAlias = ast.Invocation | ast.Composition
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """What is known of one parameter.
+    """The settings of one parameter.
 
     Attributes:
         value: Its value (`is_fixed`) or default.
-        domain: What it may be.
+        domain: Its domain.
         is_fixed: Nothing can change the value.
-        comments: Comment lines of the constraints that say so.
+        comments: Comment lines of the constraints behind it.
         constraints: The constraints that say so.
     """
 

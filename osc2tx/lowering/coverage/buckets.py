@@ -49,9 +49,9 @@ class Sampled:
         item: Its declaration.
         coverage: What was made of it.
         type: Of its values.
-        unit: In which they count.
-        ignore: The condition for what does not count.
-        owner: What it is a member of.
+        unit: The unit of their bounds.
+        ignore: The condition for values that do not count.
+        owner: Its owner.
     """
 
     item: Item
@@ -102,7 +102,7 @@ class _Grading:
         self._writer = OperationListBuilder(ctx.model)
 
     def buckets(self, sampled: Sampled) -> Iterator[ir.Bucket]:
-        """Yield the buckets of an item; none if nobody says where its values end."""
+        """Yield the buckets of an item; none if its values have no declared bounds."""
         found = list(self._sliced(sampled) or self._default(sampled))
         if len(found) > MOST:
             return

@@ -156,7 +156,7 @@ class _Numbers:
         self._unit = unit
 
     def of(self, node: ast.Expression | None) -> float | None:
-        """Return a number; what is none when compiling is refused."""
+        """Return a number; rejects values that are not constant at compile time."""
         match node:
             case None:
                 return None

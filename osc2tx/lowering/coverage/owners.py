@@ -55,8 +55,8 @@ class CoverageOwner:
 def coverage_owners(ctx: LoweringContext, scenario: Composed) -> Iterator[CoverageOwner]:
     """Yield a scenario and the objects that it declares, as deep as they hold others.
 
-    Objects that somebody hands in are sampled where they are declared. Items of global actors and
-    of lists whose elements no constraint describes are reported: whose they are is not known.
+    Objects that are handed in are sampled where they are declared. Items of global actors and of
+    lists whose elements no constraint describes are reported: their owners are unknown.
     """
     lineage = tuple(supertypes(scenario))
     yield CoverageOwner(ctx, lineage, (), "")
@@ -72,7 +72,7 @@ def coverage_owners(ctx: LoweringContext, scenario: Composed) -> Iterator[Covera
 
 
 class _SampledTypes:
-    """Says which objects have items, in themselves or in what they hold: only these are visited.
+    """Finds which objects have items, in themselves or in their parts: only these are visited.
 
     Args:
         special: The conditional types that objects are of; they count for their bases.
@@ -93,7 +93,7 @@ class _SampledTypes:
         if type_.symbol not in self._known:
             reached = self._reached(type_.symbol)
             found = any(next(items_of(each), None) is not None for each in reached)
-            # All of what is reached has none, if this has none.
+            # None of the reached objects has any, if this has none.
             self._known |= {type_.symbol: True} if found else dict.fromkeys(reached, False)
         return self._known[type_.symbol]
 
@@ -153,7 +153,7 @@ def _of_object(
 
 
 def _element_type(type_: types.Type) -> types.Type:
-    """Return what is in a list, in the lists of a list; any other type itself."""
+    """Return the type of the elements of a list, also of nested lists; any other type itself."""
     while isinstance(type_, types.ListType):
         type_ = type_.element
     return type_

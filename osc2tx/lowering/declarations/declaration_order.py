@@ -23,7 +23,7 @@ def in_order_of_use(
     Args:
         ctx: The checked program.
         declarations: Of one scenario.
-        methods: What the values may call; a call needs what the body reads.
+        methods: The methods that values may call; a call needs all that the body reads.
     """
     by_name = {declaration.name: declaration for declaration in declarations}
     bodies = {method.name: method.expression for method in methods}
@@ -114,7 +114,7 @@ def _events(declaration: ir.Declaration) -> tuple[str, ...]:
 
 
 def _times(trigger: ir.Trigger) -> tuple[ir.Expression, ...]:
-    """Return what a trigger reads when it is declared; conditions on the world are read late."""
+    """Return the names a trigger reads at its declaration; world conditions are read late."""
     if isinstance(trigger.condition, ir.Elapsed | ir.Every):
         return ir.condition_expressions(trigger.condition)
     return ()

@@ -152,7 +152,7 @@ class FieldLowering:
         return constraint is not None
 
     def _is_for_caller(self, symbol: sym.FieldSymbol) -> bool:
-        """Whether nothing but an invocation says what a struct is."""
+        """Whether only an invocation decides the values of a struct."""
         assert isinstance(symbol.type, types.StructType)
         if symbol.default is not None or not self._is_given(symbol):
             return False

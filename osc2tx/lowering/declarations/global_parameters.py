@@ -24,9 +24,9 @@ class GlobalLowering:
     the program invokes has all of them.
 
     Args:
-        ctx: The checked program; what is used is noted there.
+        ctx: The checked program; used names are noted there.
         scenario: The scenario.
-        constraints: What its own constraints say: they may be about members of global objects.
+        constraints: Its own constraints: they may refer to members of global objects.
     """
 
     def __init__(

@@ -8,7 +8,7 @@ from __future__ import annotations
 from osc2tx import ir
 from osc2tx.semantics import symbols as sym
 
-# Types of what a map fills in: their fields can be read when the scenario is on its map, ...
+# Types of values read from the map: their fields can be read when the scenario is on its map, ...
 MAP_FIELDS = frozenset(
     {"compound_lane", "compound_route", "crossing", "crossing_type", "junction", "lane"}
     | {"lane_section", "map", "road", "route", "traffic_light", "traffic_light_group"}
@@ -38,6 +38,6 @@ def is_given_by_map(field: sym.FieldSymbol) -> bool:
 
 
 def reads_map(expression: ir.Expression) -> bool:
-    """Whether an expression reads what a map fills in."""
+    """Whether an expression reads values of the map."""
     attributes = (part for part in ir.walk(expression) if isinstance(part, ir.Attribute))
     return any(part.is_variable and part.owner in MAP_FIELDS for part in attributes)

@@ -84,9 +84,9 @@ class ObjectLowering:
         )
 
     def types_of(self, field: sym.FieldSymbol) -> tuple[TypeSymbol, ...]:
-        """Return the types of an object: the declared one, or special ones that it is by itself.
+        """Return the types of an object: the declared one, or special ones that its values select.
 
-        What an object is must be known when compiling, as far as that changes anything.
+        The type must be known at compile time, as far as that changes anything.
         """
         assert isinstance(field.type, types.ActorType | types.StructType)
         found = self._special((field,), field.type.symbol, field.span)
@@ -131,7 +131,7 @@ class ObjectLowering:
         return ctx.sink.has_errors or any(is_open)
 
     def values(self, field: sym.FieldSymbol) -> tuple[ir.FieldValue, ...]:
-        """Return what is known about an object; what constraints leave open can be set."""
+        """Return the facts about an object; values that constraints leave open can be set."""
         found = self._said((field,))
         object_ = self._reference(field)
         if isinstance(field.type, types.ActorType | types.StructType):

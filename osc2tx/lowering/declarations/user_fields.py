@@ -22,7 +22,7 @@ from osc2tx.syntax import ast
 
 TypeSymbol: TypeAlias = sym.ActorSymbol | sym.StructSymbol
 
-# What an expression may not read to be a default of a class.
+# Reads that exclude an expression as the default of a class.
 _OF_OBJECTS = (ir.FieldRef, ir.ParameterRef, ir.ScenarioSelf)
 
 
@@ -72,9 +72,9 @@ def unused_fields(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[sym.Fiel
 
 
 def is_optional(ctx: LoweringContext, field: sym.FieldSymbol) -> bool:
-    """Whether nothing in its own file gives a field a value or speaks of it.
+    """Whether nothing in its own file gives a field a value or reads it.
 
-    That does not depend on who imports the file.
+    That does not depend on the files that import the file.
     """
     home = field.span.source.name
     return not _has_value(field) and home not in ctx.mentioned.get(field, ())

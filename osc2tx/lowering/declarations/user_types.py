@@ -28,7 +28,7 @@ from osc2tx.syntax import ast
 
 
 def lower_enums(model: SemanticModel, module: ir.Module) -> tuple[ir.UserEnum, ...]:
-    """Return the enums of the root file, and those of imported files that a module speaks of.
+    """Return the enums of the root file, and those of imported files that a module refers to.
 
     Args:
         model: The checked program.
@@ -136,7 +136,7 @@ def _add_unused(
     symbols: dict[str, TypeSymbol],
     seen: set[TypeSymbol],
 ) -> None:
-    """Add a type and the types of fields that nobody speaks of; of those seen, that is done."""
+    """Add a type and the types of unmentioned fields; types added before are complete."""
     _add(ctx, symbol, symbols, ())
     pending = [symbol]
     while pending:

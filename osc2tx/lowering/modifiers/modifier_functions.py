@@ -1,10 +1,10 @@
 """Modifiers of the user's own as functions of their parameters.
 
-Where a modifier is applied, modifiers of the library stand for it (`user_modifiers`): that is what
-the program means. Here its body is lowered once, in terms of its parameters, for back ends that can
-say it as a function. No function are those whose body depends on more than their parameters: on
-the action that they modify (`it`), on its actor, on global parameters, or on a value that is drawn
-at each place of application. Nor are constraints part of one: they belong to the scenario.
+Where a modifier is applied, modifiers of the library stand for it (`user_modifiers`): that is the
+meaning of the program. Here its body is lowered once, in terms of its parameters, for back ends
+that can write it as a function. A modifier has no function if its body depends on more than its
+parameters: on the modified action (`it`), on its actor, on global parameters, or on a value that is
+drawn at each application. Constraints are not part of a function: they belong to the scenario.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def own_modifiers(model: SemanticModel) -> Iterator[sym.ModifierSymbol]:
 
 
 class _Functions:
-    """The functions made so far; `None` for a modifier that is none, or not yet."""
+    """The functions made so far; `None` for a modifier without one, or not yet with one."""
 
     def __init__(self, ctx: LoweringContext) -> None:
         self._ctx = ctx

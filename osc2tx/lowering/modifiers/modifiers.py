@@ -92,7 +92,7 @@ def lower_modifier(
     Args:
         ctx: The checked program.
         node: The modifier.
-        what: What it belongs to, for names of values that are drawn from ranges.
+        what: Its owner, for names of values that are drawn from ranges.
     """
     binding = ctx.model.binding_of(node)
     arguments = lower_arguments(ctx, binding, node.arguments)

@@ -40,7 +40,7 @@ def _applied(statements: Iterable[ast.Statement]) -> Iterator[Applied]:
 def _override(
     ctx: LoweringContext, node: ast.ModifierApplication, around: ast.BehaviorMember | None
 ) -> ir.Override | None:
-    """Lower one; in a `with` block it holds as long as what the block belongs to.
+    """Lower one; in a `with` block it holds as long as the owner of the block.
 
     That makes no difference if one of the two is part of it: then it runs only meanwhile.
     """

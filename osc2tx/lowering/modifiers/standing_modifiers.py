@@ -26,13 +26,13 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Standing:
-    """A modifier that stands in such a place.
+    """A modifier in such a position.
 
     Attributes:
         node: The application.
-        what: What it belongs to, for names of values that are drawn from ranges.
-        actor: Whose behavior it modifies, where it does not say that itself.
-        it: What `it` is in its body.
+        what: Its owner, for names of values that are drawn from ranges.
+        actor: The actor of the modified behavior, where the modifier does not name it.
+        it: The meaning of `it` in its body.
         within: The object of whose type it is a member.
         receiver: The same as a value.
         composition: What it stands in the `with` of.
@@ -65,7 +65,7 @@ class StandingModifiers:
 
     @contextmanager
     def inside(self, node: ast.Composition) -> Iterator[None]:
-        """Let the modifiers of a composition hold for what is lowered meanwhile."""
+        """Let the modifiers of a composition hold for its members."""
         self._around.append(node)
         yield
         self._around.pop()
@@ -85,8 +85,8 @@ class StandingModifiers:
         """Yield what modifies the invocations of an actor here.
 
         Args:
-            actor: Who acts.
-            action: What is invoked; with `None` whatever may be.
+            actor: The actor.
+            action: The invoked action; with `None` any.
         """
         for _, call in self._calls(actor, action):
             yield call
@@ -117,7 +117,7 @@ class StandingModifiers:
                 yield call
 
     def of_member(self, node: ast.ModifierApplication) -> tuple[Applied, ...]:
-        """Return what a member of the scenario stands for."""
+        """Return the meaning of a member of the scenario."""
         return self._lower(_member(node))
 
     def _standing(self, actor: ir.FieldRef) -> Iterator[Standing]:
@@ -147,7 +147,7 @@ class StandingModifiers:
                     yield Standing(statement, actor.name, actor, key or None, key, receiver)
 
     def _known(self, actor: ir.FieldRef) -> tuple[Key, sym.ActorSymbol | None]:
-        """Return what the analysis calls an actor, and its type; `actor` has no name there."""
+        """Return the name of an actor in the analysis, and its type; `actor` has no name there."""
         owner = self._constraints.found.owner
         if actor.name == "actor" and is_composed(owner):
             return (), actor_type_of(owner)

@@ -36,9 +36,9 @@ class Applied:
     """A modifier of the library, where it is applied.
 
     Attributes:
-        call: What it says.
+        call: Its call.
         target: The behavior that it is one of; `None` for modifiers of actors.
-        actor: Whose behavior it modifies; `None` if that is the actor of the scenario.
+        actor: The actor of the modified behavior; `None` if that is the actor of the scenario.
     """
 
     call: ir.ModifierCall
@@ -52,11 +52,11 @@ class ModifierLowering:
 
     Attributes:
         ctx: The checked program.
-        constraints: What the constraints of the scenario say.
-        what: What they belong to, for names of values that are drawn from ranges.
-        actor: Whose behavior is modified.
-        action: What is invoked; `None` for modifiers of a whole scenario.
-        it: What `it` is in the body: what is modified.
+        constraints: The constraints of the scenario.
+        what: Their owner, for names of values that are drawn from ranges.
+        actor: The actor of the modified behavior.
+        action: The invoked action; `None` for modifiers of a whole scenario.
+        it: The meaning of `it` in the body: the modified behavior.
         chain: The applications around this one, the outermost first.
         within: The object of whose type it is a member.
         attached: Where its reactions go: they stand beside what it modifies.
@@ -88,7 +88,7 @@ class ModifierLowering:
         if not any(isinstance(part, EFFECTIVE) for part in callee.statements):
             self._refuse(
                 node,
-                f"modifier `{callee.qualified_name}`, which says nothing of what it modifies,",
+                f"modifier `{callee.qualified_name}` without an effect on the modified behavior",
                 "apply other modifiers in it, or constrain parameters, `keep(it.parameter == …)`",
             )
             return ()
@@ -108,7 +108,7 @@ class ModifierLowering:
         return tuple(replace(p, call=call) for p, call in zip(parts, calls, strict=True))
 
     def prepare(self, node: ast.ModifierApplication) -> None:
-        """Find out what the parameters of a modifier are: arguments may depend on them."""
+        """Find the values of the parameters of a modifier: arguments may depend on them."""
         callee = self.ctx.model.binding_of(node).callee
         if isinstance(callee, sym.ModifierSymbol) and callee.origin == "user":
             self._inside(node, callee).bind(callee)
@@ -201,7 +201,7 @@ class ModifierLowering:
         )
 
     def _applies(self, node: ast.ModifierApplication, callee: sym.ModifierSymbol) -> bool:
-        """Check what only the place of application tells: who, and what is invoked."""
+        """Check the position of application: the actor, and the invoked behavior."""
         if node.actor is not None and self.action is not None:
             whose = lower_expression(self.ctx, node.actor)
             if whose is None:

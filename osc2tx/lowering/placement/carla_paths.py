@@ -1,7 +1,7 @@
 """Actors of type `Path` of the dialect `carla`, which ask for a road to begin on.
 
-A `Path` becomes one declared piece of road with everything that is asked of it, and
-`set_map` the map of the scenario. `drive(path)` places who drives: from there on the road leads.
+A `Path` becomes one declared piece of road with all constraints on it, and `set_map` the map of the
+scenario. `drive(path)` places the driving actor: from there on the road leads.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ TYPE = "Path"
 MAP_MODIFIER = "set_map"
 START = "on_path"
 
-# Modifier -> what it says about the piece of road.
+# Modifier -> its constraint on the piece of road.
 SEARCH_CRITERIA = {
     "path_different_dest": "different_dest",
     "path_different_origin": "different_origin",
@@ -50,7 +50,7 @@ def is_path(type_: types.Type) -> bool:
 def path_members(
     ctx: LoweringContext, statements: Iterable[ast.Statement]
 ) -> tuple[PathMember, ...]:
-    """Return what is asked of paths and can be carried out."""
+    """Return the supported constraints on paths."""
     members = []
     for statement in statements:
         if isinstance(statement, ast.ModifierApplication) and is_path_member(ctx, statement):

@@ -39,7 +39,7 @@ class _Found:
 
 
 class PlacementLowering:
-    """Splits a tree into initial placement and what is left of the tree."""
+    """Splits a tree into initial placement and the rest of the tree."""
 
     def __init__(self, ctx: LoweringContext) -> None:
         """Take the place for complaints."""
@@ -142,9 +142,9 @@ def can_place(modifier: ir.ModifierCall) -> bool:
 
 
 def owner_of(modifier: ir.ModifierCall) -> str:
-    """Return the actor of which a modifier is a member; empty for those of actions.
+    """Return the actor of which a modifier is a member; empty for modifiers of actions.
 
-    Members say the same for the whole of a scenario; those of `map` what its roads are like.
+    Members constrain the whole of a scenario; members of `map` constrain its roads.
     """
     entry = catalogue().modifiers.get(modifier.name)
     return "" if entry is None else entry.owner
@@ -162,7 +162,7 @@ def _places(modifier: ir.ModifierCall) -> bool:
 
 
 def _subject(modifier: ir.ModifierCall) -> str:
-    """Return what a modifier is about: a speed along the lane is another thing than one across."""
+    """Return the quantity of a modifier: lateral and longitudinal speed are different ones."""
     values = (a.value for a in modifier.arguments if a.parameter == "direction")
     across = any(isinstance(v, ir.EnumValue) and v.member == "lateral" for v in values)
     return f"{modifier.name} across" if across else modifier.name
@@ -184,14 +184,14 @@ def report_twice(ctx: LoweringContext, first: ir.ModifierCall, second: ir.Modifi
     ctx.sink.report(
         "OSC508",
         second.span,
-        f"`{second.name}` says a second time how the actor starts",
-        labels=[Label(first.span, "said here already")],
+        f"`{second.name}` states the start of the actor a second time",
+        labels=[Label(first.span, "stated here already")],
         help="leave one of them out",
     )
 
 
 def merged(ctx: LoweringContext, placements: Sequence[ir.Placement]) -> tuple[ir.Placement, ...]:
-    """Return one placement for each actor, where it first stands; those of maps stay apart."""
+    """Return one placement for each actor, at its first position; those of maps stay apart."""
     by_actor: dict[str, ir.Placement] = {}
     same = {field.name: each.other.name for field, each in ctx.same_actors.items()}
     for number, placement in enumerate(placements):
@@ -268,9 +268,9 @@ _LINES = {
 
 
 def _followed_line(node: ir.Invoke) -> Iterator[ir.ModifierCall]:
-    """Yield the line on which an actor starts that goes along it, if nothing says where it starts.
+    """Yield the line on which an actor starts that follows it, if nothing else states its start.
 
-    What is relative has its place only when the action starts.
+    A relative one has its position only when the action starts.
     """
     if any(each.name in _PLACES and each.at != "end" for each in node.modifiers):
         return
@@ -303,7 +303,7 @@ def open_start_speed(
     """Return the speed with which the actor of an action starts; empty if something says it.
 
     Args:
-        action: What it does from the start on.
+        action: Its action from the start on.
         modifiers: All of that action.
     """
     entries = catalogue().modifiers
@@ -313,7 +313,7 @@ def open_start_speed(
     positions = [each for each in modifiers if each.name == "position"]
     others = [each for each in modifiers if each not in positions]
     if not all(each.name in entries for each in others):
-        return ()  # those of a dialect
+        return ()  # actions of a dialect
     if any(entries[each.name].paces for each in others):
         return ()
     reference = _kept_reference(positions)
@@ -326,7 +326,7 @@ def open_start_speed(
 
 
 def _kept_reference(positions: Sequence[ir.ModifierCall]) -> ir.Argument | None:
-    """Return what an actor has a place relative to all the time, or at the start and the end."""
+    """Return the references of positions at all times, or at the start and the end."""
     if any(argument.parameter == "shape" for each in positions for argument in each.arguments):
         return None
     found = {at: [r for p in positions if p.at == at for r in _reference(p)] for at in _TIMES}

@@ -1,4 +1,4 @@
-"""Calls of methods (§7.3.7): the library's, the scenario's own, and those of its types."""
+"""Calls of methods (§7.3.7): of the library, of the scenario, and of its types."""
 
 from __future__ import annotations
 
@@ -137,7 +137,7 @@ def _lower_own(
 def _late_defaults(
     ctx: LoweringContext, callee: sym.MethodSymbol, given: tuple[ir.Argument, ...]
 ) -> Iterator[ir.Argument]:
-    """Yield what a call leaves out and only the call can compute (§7.3.7)."""
+    """Yield the arguments left out by a call, which only the call can compute (§7.3.7)."""
     names = {argument.parameter for argument in given}
     for parameter in callee.parameters:
         if parameter.name in names or parameter.default is None or default_of(ctx, parameter):

@@ -1,4 +1,4 @@
-"""Expressions: names become references to what they stand for, types become plain data."""
+"""Expressions: names become references to their meanings, types become plain data."""
 
 from __future__ import annotations
 

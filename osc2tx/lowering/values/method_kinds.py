@@ -80,7 +80,7 @@ def lower_external(
 
 
 def object_types(model: SemanticModel, analysis: ConstraintAnalysis) -> tuple[sym.TypeSymbol, ...]:
-    """Return the types of which a program may have objects, those of fields first."""
+    """Return the types of which a program may have objects, types of fields first."""
     owners = (symbol for symbol in model.symbols if isinstance(symbol, sym.TypeSymbol))
     fields = (member for owner in owners for member in owner.members.values())
     declared = (type_ for field in fields for type_ in _types(field))

@@ -29,7 +29,7 @@ def is_pure(ctx: LoweringContext, method: sym.MethodSymbol) -> bool:
     """Whether a method computes its result from its arguments and from constants alone."""
     if method not in ctx.purity:
         known = set(ctx.purity)
-        ctx.purity[method] = True  # one that calls itself is what the rest of it is
+        ctx.purity[method] = True  # a recursive method is as pure as the rest of it
         lowered = lower_method(ctx.quiet(), method)
         ctx.purity[method] = (
             lowered is not None
@@ -132,7 +132,7 @@ def _dispatched(
         object_: The object.
         arguments: The parameters of the method, the object first.
         overriding: The other methods, those of the most special types first.
-        body: What it is for all other objects; `None` if that is undefined.
+        body: The body for all other objects; `None` if that is undefined.
     """
     result = body
     for method in reversed(tuple(overriding)):

@@ -55,7 +55,7 @@ def lower_name(
 
 
 def alias_of(ctx: LoweringContext, field: sym.FieldSymbol) -> ast.Expression | None:
-    """Return what a field is only another name for, and is not declared itself.
+    """Return the target of a field that is only another name, and is not declared itself.
 
     That is another actor (`other: vehicle = npc`) unless an invocation hands in one, or a quantity
     that a dialect names by a text.
@@ -117,7 +117,7 @@ def _of_label(
     field: sym.FieldSymbol,
     type_: ir.ValueType,
 ) -> ir.Expression | None:
-    """Return a parameter of a labelled member: what it is given, or what it chose."""
+    """Return a parameter of a labelled member: the given value, or its choice."""
     given = ctx.given.get((label.node, field))
     if given is not None:
         return replace(given, span=node.span)
@@ -171,7 +171,7 @@ def path_of(object_: ir.Expression) -> str | None:
 
 
 def lower_key(ctx: LoweringContext, key: Key, span: Span) -> ir.Expression | None:
-    """Return what a path of the analysis stands for; an empty one is the scenario itself."""
+    """Return the meaning of a path of the analysis; an empty one is the scenario itself."""
     if not key:
         return ir.ScenarioSelf(span=span, type=SCENARIO)
     first, *rest = key

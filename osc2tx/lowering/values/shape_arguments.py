@@ -103,7 +103,7 @@ def _with_methods(ctx: LoweringContext, argument: ir.Argument, node: ast.Express
         ctx.unsupported(
             "OSC503",
             argument.span,
-            f"`{type_.name}` does not say what it computes",
+            f"`{type_.name}` does not state its computation",
             help="derive a shape from it, with `def compute(time: time) -> … is expression …`",
         )
         return argument

@@ -100,7 +100,7 @@ def lower_cast(ctx: LoweringContext, node: ast.Cast) -> ir.Expression | None:
 
 
 def lower_type_test(ctx: LoweringContext, node: ast.TypeTest) -> ir.Expression | None:
-    """Lower `.is(T)`: what is known when compiling, the conditions of `T`, or a test."""
+    """Lower `.is(T)`: a constant at compile time, the conditions of `T`, or a test."""
     operand = ctx.lower(node.base)
     given = symbol_of(ctx.model.type_of(node.base))
     wanted = symbol_of(ctx.model.types[node.type])
@@ -128,7 +128,7 @@ def _tests(
     for type_ in reversed(below):
         condition = getattr(type_, "condition", None)
         if condition is None and type_ is not plain[0]:
-            continue  # what is of the most special of them is of the others
+            continue  # values of the most special of them are values of the others
         if condition is None:
             yield ir.TypeTest(span=span, type=BOOL, operand=operand, tested=type_.name)
             continue

@@ -77,7 +77,7 @@ def check_modifier(
 
 
 def _check_override(r: Resolution, node: ast.ModifierApplication) -> None:
-    """Check that `override` is told two invocations (§7.3.12.1.1)."""
+    """Check that `override` names two invocations (§7.3.12.1.1)."""
     arguments = r.bindings[node].arguments
     given = {parameter.name for parameter, _ in arguments}
     for name in ("overridden", "by"):

@@ -45,7 +45,7 @@ class Collector:
     Attributes:
         scope: The layer to fill.
         sink: Where reports go.
-        relaxations: The dialect in force.
+        relaxations: The dialect of the file.
         origin: `"user"`, `"library"` or `"prelude"`.
         null_uses: What the null namespace uses at the start of a file (`import osc.standard`).
     """
@@ -162,7 +162,7 @@ class Collector:
             self.scope.types.setdefault(symbol.name, []).append(symbol)
 
     def _is_unique(self, symbol: Symbol, others: Sequence[Symbol]) -> bool:
-        """Report a name that its namespace has already; the first definition stays in force."""
+        """Report a name that its namespace has already; the first definition counts."""
         for other in others:
             if other.namespace == symbol.namespace:
                 if not self._repeats.physical_type(symbol, other):

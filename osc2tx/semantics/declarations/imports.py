@@ -33,7 +33,7 @@ class ImportWalk:
         load: Finds and parses a file that is imported by name; `None` if there is no such file.
         import_help: Says what may help if there is no module of a name.
         sink: Where reports go.
-        relaxations: The dialect in force.
+        relaxations: The dialect of the file.
         files: What was found, imported files before those that import them.
         modules: Parts of the library that are needed, `"types"` or `"all"`.
         is_legacy: Whether library names need no prefix in the null namespace.

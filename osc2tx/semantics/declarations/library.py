@@ -48,7 +48,7 @@ def _replace(
 
 @dataclass(frozen=True, slots=True)
 class Library:
-    """The library of one standard and dialect; nobody writes to it once it is built.
+    """The library of one standard and dialect; read-only once it is built.
 
     Attributes:
         scope: Its definitions.

@@ -67,7 +67,7 @@ def _element(field: FieldSymbol, index: int) -> FieldSymbol:
 
 
 class _Reader:
-    """Reads what a constraint says of lists.
+    """Reads the statements of a constraint about lists.
 
     Args:
         references: What names stand for.

@@ -2,9 +2,9 @@
 
 ScenarioRunner has no library, so its scenarios bring units, and actors and modifiers of which they
 only say that they exist. A unit that is declared again is the library's if it means the same. If it
-does not, nobody knows which of the two a number is meant in: its use is an error. What several
-files declare alike, because each brings its own, is one thing; within a file it is a mistake. An
-actor or modifier without base, body or target is that of the prelude; any other is a new one.
+does not, a number may be in either of the two: its use is an error. What several files declare
+alike, because each brings its own, is one thing; within a file it is a mistake. An actor or
+modifier without base, body or target is that of the prelude; any other is a new one.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Repeats:
 
     Attributes:
         sink: Where reports go.
-        relaxations: The dialect in force.
+        relaxations: The dialect of the file.
         units: The units of the library that were declared again, by name and file.
     """
 
@@ -41,7 +41,7 @@ class Repeats:
     units: dict[tuple[str, str], UnitSymbol] = field(default_factory=dict)
 
     def unit(self, symbol: UnitSymbol, dimension: Dimension, earlier: UnitSymbol) -> bool:
-        """Whether a unit may be declared again; the library's stays in force."""
+        """Whether a unit may be declared again; the library's declaration counts."""
         if symbol.origin != "user" or earlier.origin != "library" or not self._may_repeat:
             return False
         if not isinstance(earlier.type, PhysicalType) or earlier.type.dimension != dimension:

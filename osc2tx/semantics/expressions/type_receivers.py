@@ -14,7 +14,7 @@ from osc2tx.semantics.symbols import ActorSymbol, FieldSymbol, StructSymbol
 from osc2tx.semantics.types import ERROR, ActorType, Type
 from osc2tx.syntax import ast
 
-# Actors of the library of which there is one in a run, whether somebody declares it or not.
+# Actors of the library of which there is one in a run, declared or not.
 SINGLETONS = frozenset({"map", "environment"})
 
 

@@ -56,7 +56,7 @@ MODIFIERS: Mapping[str, str] = {
     "velocity": "speed",
 }
 # For a word several, of which a behavior or modifier has one.
-# What is no modifier, and how it is said.
+# Names that are no modifiers, and what to write instead.
 NO_MODIFIERS: Mapping[str, str] = {
     "duration": "how long is an argument of what is invoked: `(duration: …)`",
     "repeat": "there are no loops: write the invocation as often as it shall happen",

@@ -97,7 +97,7 @@ class Body:
             raise Unplayable(f"{self.name} is on no lane")
         return place
 
-    # --- being put somewhere ------------------------------------------------------------------
+    # --- teleports ----------------------------------------------------------------------------
 
     def put(self, road_map: RoadMap, place: LanePosition | Pose, turned: float | None) -> None:
         """Put it at a place.

@@ -110,7 +110,7 @@ def _beside(node: Element, body: Body, road_map: RoadMap) -> LanePosition:
 
 
 def beside(road_map: RoadMap, from_: LanePosition, along: int, count: int) -> LanePosition:
-    """Return the place so many lanes to the left of an entity.
+    """Return the position `count` lanes to the left of an entity.
 
     Lanes count by their numbers, of which 0 is none.
 

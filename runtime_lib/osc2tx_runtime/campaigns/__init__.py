@@ -1,8 +1,8 @@
 """Rows of a campaign: one scenario run many times, each time with other values.
 
-`points` says which values a row has, `rows` what a row asks for and gives, `modules` imports the
-module from its text, `executor` runs rows one after the other. A worker needs no more than this
-package: the compiler samples, stores and reports.
+`points` are the values of a row, `rows` its inputs and results, `modules` imports the module from
+its text, `executor` runs rows one after the other. A worker needs no more than this package: the
+compiler samples, stores and reports.
 """
 
 from __future__ import annotations

@@ -34,7 +34,7 @@ class Executor:
     """Runs rows; the module and the map are read once.
 
     Args:
-        plan: What the rows have in common.
+        plan: The common part of the rows.
 
     Raises:
         ScenarioError: The module cannot be imported, or a measure is not known.
@@ -58,7 +58,7 @@ class Executor:
         return replace(self._plan.settings, seed=row.seed, set=values, draws=draws)
 
     def values_of(self, row: Row) -> tuple[dict[str, Any], Point | None]:
-        """Return the values that a row has, without running it, and what they were drawn with.
+        """Return the values of a row, without running it, and the random numbers behind them.
 
         Raises:
             ScenarioError: There are none, or they break a constraint.
@@ -128,7 +128,7 @@ class Executor:
             status, reason = result.status, result.reason
         except ScenarioError as error:
             reason, source = error.message, error.source
-        except Exception as error:  # a bug of ours or of the user's code costs this row alone
+        except Exception as error:  # internal, or of the user's code: it affects this row alone
             reason = f"internal error: {told(error)}"
         measures = {
             name: value if value is None or math.isfinite(value) else None

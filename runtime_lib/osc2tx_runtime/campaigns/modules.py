@@ -93,11 +93,11 @@ class Modules:
 
 
 def remove_left_over() -> None:
-    """Remove the folders of processes that were killed: nobody holds them any more."""
+    """Remove the folders of processes that were killed: they are no longer locked."""
     if sys.platform == "win32":  # no locks of folders there
         return
     for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
-        with suppress(OSError):  # somebody else's, or gone meanwhile
+        with suppress(OSError):  # of another user, or removed meanwhile
             found = folder.lstat()
             if found.st_uid != os.getuid() or time.time() - found.st_mtime < FRESH:
                 continue
@@ -108,7 +108,7 @@ def remove_left_over() -> None:
 
 
 def _hold(folder: str) -> int | None:
-    """Lock a folder until the descriptor is closed; None if somebody else has, or nobody can."""
+    """Lock a folder until the descriptor is closed; None if it is locked, or cannot be."""
     if sys.platform == "win32":
         return None
     mark = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)

@@ -17,8 +17,8 @@ class Column:
 
     Attributes:
         name: As in settings: in an invoked scenario with the path before it.
-        kind: What it is drawn from: a range of real or whole numbers, or some values.
-        count: How many values those are; 0 for real numbers.
+        kind: The kind of its domain: a range of real or whole numbers, or some values.
+        count: Number of these values; 0 for real numbers.
     """
 
     name: str
@@ -29,12 +29,12 @@ class Column:
 class Point:
     """The place of a row between the first (0) and the last value (1) of each parameter.
 
-    As `RunSettings.draws` it takes the place of the seed. A bound may depend on other parameters:
-    what is drawn is a share of the range as it is then.
+    As `RunSettings.draws` it replaces the seed. A bound may depend on other parameters: the value
+    is a share of the range at that time.
 
     Args:
         shares: By name of the parameter.
-        rest: Seed of what is not among them.
+        rest: Seed of all other parameters.
 
     Attributes:
         columns: What was drawn, in order.
@@ -46,7 +46,7 @@ class Point:
         self.columns: dict[str, Column] = {}
 
     def __call__(self, name: str) -> random.Random:
-        """Return what a parameter is drawn with."""
+        """Return the random number of a parameter."""
         share = self._shares.get(name)
         if share is None:
             share = random.Random(f"{self._rest}/{name}").random()

@@ -29,7 +29,7 @@ class Parcel:
     """A plan with the files that it needs.
 
     Attributes:
-        plan: What the rows have in common; it names no files.
+        plan: The common part of the rows; it names no files.
         maps: The map, name to content; empty if it is one of this package's.
         runtime: The version of this package that the rows are for.
         digest: Of all that.
@@ -78,7 +78,7 @@ def run_rows(parcel: Parcel, rows: Sequence[Row]) -> list[RowResult] | Refused:
             executor = _HELD.executor_of(parcel)
         except ScenarioError as error:
             return Refused(error.message)
-        except Exception as error:  # whatever stands in the module
+        except Exception as error:  # any exception of the module
             return Refused(told(error))
         return [executor.run(row) for row in rows]
 

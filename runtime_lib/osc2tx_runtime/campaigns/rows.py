@@ -1,4 +1,4 @@
-"""What a campaign asks of a row, and what a row gives."""
+"""The inputs and the result of a row of a campaign."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Condition:
         """Read `min_ttc<1.5`.
 
         Raises:
-            SettingsError: It is none.
+            SettingsError: It is invalid.
         """
         for sign in _COMPARISONS:
             measure, found, bound = text.partition(sign)
@@ -75,11 +75,11 @@ class Plan:
 
     Attributes:
         files: Path of each module inside of a folder to its text, source maps among them.
-        module: That of the scenario.
+        module: Path of the module of the scenario.
         scenario: Its name in the source.
-        settings: Of each run, apart from what a row says.
-        measures: Names of what is measured.
-        fail_if: What else makes a row fail.
+        settings: Of each run, apart from the values of a row.
+        measures: Names of the measures.
+        fail_if: Further conditions of failure.
         digests: Whether the trace of each row is made, for its digest.
     """
 
@@ -97,9 +97,9 @@ class Row:
     """A row that is to be run.
 
     Attributes:
-        number: From 0; what it stands for depends on nothing else but the campaign.
+        number: From 0; its meaning depends on nothing else but the campaign.
         seed: Of the run.
-        shares: Places of parameters in their domains; None leaves them to the seed.
+        shares: Positions of parameters in their domains; None leaves them to the seed.
         set: Values of parameters.
     """
 

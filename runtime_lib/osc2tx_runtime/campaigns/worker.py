@@ -53,7 +53,7 @@ class _Teller:
             self._pipe.send(message)
 
     def beat(self, every: float) -> None:
-        """Tell `ALIVE` from now on, each so many seconds."""
+        """Send `ALIVE` from now on, in intervals of this length (s)."""
         never = Event()
 
         def beat() -> None:
@@ -80,7 +80,7 @@ def work(pipe: Connection, plan: Plan, beat: float) -> None:
         except ScenarioError as error:
             teller.send(Refused(error.message))
             return
-        except Exception as error:  # whatever stands in the module
+        except Exception as error:  # any exception of the module
             teller.send(Refused(told(error)))
             return
         teller.send(READY)

@@ -1,6 +1,6 @@
 """Measures of a run, taken in the loop of steps: how near actors came, how hard they braked.
 
-`measure` says what a measure is, `pairs` has those of two actors, `rules` collisions, lanes and
+`measure` is the base class, `pairs` has the measures of two actors, `rules` collisions, lanes and
 lights, `registry` all others; it finds them by name, those of installed packages too. `measuring`
 takes them in a run.
 """

@@ -1,4 +1,4 @@
-"""What a measure is."""
+"""The base class of measures."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ class Measuring:
         makers: Make them, when the run begins.
 
     Attributes:
-        samples: `cover` or `record`, and what the trace says of it.
+        samples: `cover` or `record`, and the fields of the value in the trace.
     """
 
     def __init__(self, makers: Iterable[Callable[[], Measure]]) -> None:

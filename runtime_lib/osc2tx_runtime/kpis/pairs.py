@@ -1,7 +1,7 @@
 """Measures of two actors at one step: gap, time to collision, time gap.
 
-Boxes are upright and seen from above. Most pairs are told apart by the circles around them: only
-who may come nearer than anybody did before is looked at closely.
+Boxes are upright and seen from above. Most pairs are distinguished by the circles around them: only
+pairs that may be nearer than any before are computed exactly.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ class MinGap(_Least):
 
 
 class MinTimeToCollision(_Least):
-    """Least time to collision (s): until two boxes touch if both go on straight at their speed.
+    """Least time to collision (s): until two boxes touch if both continue straight at their speed.
 
     No value for a pair that was never on such a course; 0 for one that touches.
     """
@@ -89,10 +89,10 @@ def _meeting(one: Moving, other: Moving, dx: float, dy: float) -> float:
 
 
 class MinTimeGap(_Least):
-    """Least time gap (s): in which one at its speed drives to where the other one's rear is now.
+    """Least time gap (s): in which one at its speed drives to the present rear of the other one.
 
-    The other one counts if its box is in the straight strip ahead, as wide as the one who follows.
-    The pair is named with who follows first.
+    The other one counts if its box is in the straight strip ahead, as wide as the follower. The
+    pair is named with the follower first.
     """
 
     name = "min_time_gap"

@@ -1,4 +1,4 @@
-"""Measures by name: those of this package, and those of installed packages."""
+"""Measures by name: of this package, and of installed packages."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ class MinEncroachment:
         self._ways: dict[str, list[tuple[float, ...]]] = {}
 
     def observe(self, scene: Scene) -> None:
-        """Note where everybody is; who stands still is there once, for as long."""
+        """Note the positions of all actors; an actor at standstill is there once, for as long."""
         for actor in scene.actors:
             box = actor.box
             half = box.half_length, box.half_width
@@ -188,7 +188,7 @@ MEASURES: Mapping[str, Callable[[], Measure]] = {
         RedLights,
     )
 }
-"""Those of this package; a campaign takes all of them where it names none."""
+"""The measures of this package; a campaign takes all of them where it names none."""
 
 
 def measures_by_name(names: Sequence[str]) -> dict[str, Callable[[], Measure]]:

@@ -79,7 +79,7 @@ class OffRoad:
 
 
 class RedLights:
-    """How often a vehicle passed the line of a light that said stop."""
+    """Number of vehicles that passed the stop line of a light showing stop."""
 
     name = "red_lights"
     worst = "max"

@@ -61,11 +61,11 @@ class Monitors(Protocol):
     """The interface of a checker of the phases of actions."""
 
     def begins(self, action: Any) -> None:
-        """Take note of the start of an action."""
+        """Note the start of an action."""
         ...
 
     def ends(self, action: Any) -> str | None:
-        """Take note of its end; return why it fails."""
+        """Note its end; return why it fails."""
         ...
 
     def leaves(self, action: Any) -> None:
@@ -81,7 +81,7 @@ class Entries(Protocol):
     """What a run needs of what brings actors in that enter later."""
 
     def begins(self, action: Any) -> None:
-        """Take note of the start of an action."""
+        """Note the start of an action."""
         ...
 
 

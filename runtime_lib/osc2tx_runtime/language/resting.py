@@ -52,7 +52,7 @@ class Resting:
     # --- time ---
 
     def begin_step(self, step: int, changed: Callable[[], Iterable[str]]) -> None:
-        """Wake those whose time has come, or of whose actors there is news."""
+        """Wake nodes whose time has come, or whose actors have changed."""
         if self._with:
             for actor_id in changed():
                 for node in self._with.pop(actor_id, ()):
@@ -63,7 +63,7 @@ class Resting:
             self._next = min(self._until.values(), default=NEVER)
 
     def begin_pass(self) -> None:
-        """Wake those whose condition is true; what has no value they find out themselves."""
+        """Wake nodes whose condition is true; conditions without a value are left to the nodes."""
         for node in [n for n, conditions in self._unless.items() if self._is_any(conditions)]:
             self.wake(node)
 
@@ -95,7 +95,7 @@ class Resting:
         self._next = NEVER
 
     def forget(self, node: Behaviour) -> None:
-        """Take note that a node is left."""
+        """Note that a node is left."""
         self.nodes.discard(node)
         self._unless.pop(node, None)
         self._until.pop(node, None)

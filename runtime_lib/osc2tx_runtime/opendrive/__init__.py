@@ -4,9 +4,9 @@ Input is a file; output is a `RoadMap`, which answers everything and never chang
 `road_map`. In order of control flow:
 
 * `xml_reader`, `reader`, `lane_reader`, `signal_reader`, `crosswalks`: text to roads, checked, or
-  a `MapError`; `unread`: what is left out; `seams`: where lanes do not go on as they end;
-  `map_snapshots`, `packed_map`: large maps are parsed once.
-* `polynomials`, `geometry`, `model`: what a road is made of.
+    a `MapError`; `unread`: unread elements; `seams`: lanes that do not continue where they end;
+    `map_snapshots`, `packed_map`: large maps are parsed once.
+  * `polynomials`, `geometry`, `model`: the parts of a road.
 * `lane_table`: lanes by id; `network`: which follows which; `lane_line`: `arc_length` along one;
   `lane_bends`: where it bends.
 * `lane_advance`: moving along lanes, `lane_cursor`: the same step by step; `lane_distances`:

@@ -33,7 +33,7 @@ class LaneLine:
         turn: Angle (rad) that the reference line turns through.
         nodes: Places (s) at which the pieces of the table begin.
         rows: Cubic polynomials of the arc length, by piece.
-        psi: Those of the angle.
+        psi: Cubic polynomials of the angle, likewise.
         offset_min: Least offset (m, +t) of a parallel line that still runs forwards.
         offset_max: Greatest such offset.
     """

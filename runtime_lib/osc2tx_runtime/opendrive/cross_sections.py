@@ -68,7 +68,7 @@ class Strip:
     on_top: bool
 
     def at(self, s: float, across: float) -> Height:
-        """Height so many metres (m) from where it begins."""
+        """Height (m) at a distance (m) from its start."""
         height = along = slope = 0.0
         for i, term in enumerate(self.terms):
             value, rate = term.value_slope(s)

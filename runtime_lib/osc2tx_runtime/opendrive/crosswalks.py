@@ -1,4 +1,4 @@
-"""Crosswalks: objects of type "crosswalk", each as the straight way of who walks over it.
+"""Crosswalks: objects of type "crosswalk", each as the straight path of a person across it.
 
 A file gives a box (`length`, `width`) or an outline, either turned by `hdg` against the road; which
 of the two axes of the box is the way and which the width is left open. People cross a road, so the
@@ -121,7 +121,7 @@ def _without_extent(element: etree._Element, attributes: Attributes) -> MapError
 def _corners(
     element: etree._Element, road: Road, frame: tuple[float, float, float], attributes: Attributes
 ) -> Iterator[Point]:
-    """Corners of the outlines in the world; `frame` is that of the object: x, y, heading."""
+    """Corners of the outlines in the world; `frame` belongs to the object: x, y, heading."""
     number = attributes.number
     x, y, h = frame
     c, n = math.cos(h), math.sin(h)

@@ -11,7 +11,7 @@ class MapError(Exception):
     Attributes:
         file: Path or name of the map.
         line: Line in the file (1-based), None where unknown.
-        message: What is wrong and what to do about it.
+        message: Description of the error and its remedy.
     """
 
     def __init__(self, file: str, message: str, line: int | None = None) -> None:

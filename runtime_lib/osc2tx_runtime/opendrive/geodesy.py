@@ -31,9 +31,9 @@ _ALPHA = (
 _ECCENTRICITY = math.sqrt(FLATTENING * (2.0 - FLATTENING))
 _WIDEST = math.radians(80.0)  # of longitude beside the central meridian
 
-# What a parameter may say of the ellipsoid so that it is that of WGS 84 (GRS 80: 0.1 mm less).
+# Values of parameters that give the ellipsoid of WGS 84 (GRS 80: 0.1 mm less).
 _ELLIPSOIDS = frozenset({"WGS84", "GRS80"})
-# Parameters that change what others mean, with what they may say.
+# Parameters that change the meaning of others, with the accepted values.
 _USUAL: Mapping[str, frozenset[str]] = {
     "a": frozenset({"6378137", "6378137.0"}),
     "rf": frozenset({"298.257223563", "298.257222101"}),
@@ -106,7 +106,7 @@ class GeoReference:
 
     Attributes:
         text: The parameters of `geoReference`, `+proj=tmerc +lat_0=...`; empty without any.
-        offset: What the map is moved by against the projection: x, y (m) and heading (rad).
+        offset: Offset of the map against the projection: x, y (m) and heading (rad).
     """
 
     text: str = ""

@@ -36,7 +36,7 @@ class _Motion:
 
 
 class Forks:
-    """Chooses the lane to go on with; choices without a route are cached."""
+    """Chooses the successor of a lane; choices without a route are cached."""
 
     __slots__ = ("_cache",)
 

@@ -1,4 +1,4 @@
-"""Bends of lanes. Curvature is taken over short stretches, so that small kinks of maps are none."""
+"""Bends of lanes. Curvature is taken over short stretches, so that small kinks do not count."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["lane_bends"]
 
 _STRETCH = 2.0  # m of a lane over which its curvature is taken
 _SHORTEST = 0.5  # m: lanes shorter than this have no bends
-_STRAIGHT = 5e-4  # 1/m: nobody slows down for less
+_STRAIGHT = 5e-4  # 1/m: a lower curvature limits no speed
 _AT_THE_END = 1e-6  # m before it
 
 

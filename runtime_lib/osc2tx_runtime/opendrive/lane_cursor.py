@@ -1,8 +1,8 @@
-"""A place that moves along a lane: lane, table, pieces are looked up once, not once per question.
+"""A position that moves along a lane: lane, table, pieces are looked up once, not in each query.
 
-Each step of each actor comes by here, so what is needed stands in two functions. They compute what
-`advance` and `lane_pose` compute, in the same order, so the results are the same to the last digit;
-what leaves the lane, and roads with a surface of their own, are left to those.
+Each step of each actor calls this code, so it consists of two functions. They compute the same as
+`advance` and `lane_pose`, in the same order, so the results are the same to the last digit;
+positions beyond the lane, and roads with a surface of their own, are left to those.
 """
 
 from __future__ import annotations
@@ -112,7 +112,7 @@ class LaneCursor:
         return True
 
     def moved(self, p: LanePosition, distance: float, offset: float) -> LanePosition | None:
-        """Place so many metres (m, finite) on along the lane, at another offset; None behind it.
+        """Position at a distance (m, finite) along the lane, at another offset; None behind it.
 
         Args:
             p: Where it starts; its offset is the one at which it moves.

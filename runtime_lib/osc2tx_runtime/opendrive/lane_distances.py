@@ -18,7 +18,7 @@ from .network import lane_order
 
 __all__ = ["LaneGroups", "Route", "RouteField", "passable"]
 
-_NARROW = 0.5  # m: what is narrower does not separate lanes
+_NARROW = 0.5  # m: a narrower lane does not separate others
 
 
 def passable(lane: Lane, s: float) -> bool:
@@ -158,7 +158,7 @@ class LaneGroups:
             total += self.length(lane.group) if is_middle else lane_length(lane)
 
     def _step(self, lane: Lane, target: int, goal: Lane, following: list[int]) -> Lane:
-        """Lane with which the way goes on: the one that needs the fewest lane changes.
+        """Next lane of the path: the one that needs the fewest lane changes.
 
         In a junction each lane often has a connecting road of its own. Those that end in the same
         group count as parallel: a car in the outer lane of a bend stays there.

@@ -46,7 +46,7 @@ def read_content_once(path: Path) -> MapContent:
         except PackingError:
             pass  # as if there were none
     content = read_content(path)
-    if _digest(path) == digest:  # nobody wrote it meanwhile
+    if _digest(path) == digest:  # unchanged meanwhile
         kept = SNAPSHOTS.save(name, digest, pack(content))
         if kept is not None:
             forget_the_oldest(kept.parent, MOST_KEPT)

@@ -1,4 +1,4 @@
-"""What a map consists of: roads, lane sections, lanes, junctions, and the public value types."""
+"""The elements of a map: roads, lane sections, lanes, junctions, and the public value types."""
 
 from __future__ import annotations
 
@@ -117,9 +117,9 @@ class Link:
 
     Attributes:
         kind: "road" or "junction".
-        id: Of what is linked.
+        id: Of the linked element.
         contact: The end of a linked road, "start" or "end".
-        s: Where it is linked within a road (m), None if at an end of it.
+        s: Position of the link within a road (m), None if at an end of it.
         with_s: Whether the own way from start to end runs on along s of that road.
     """
 

@@ -1,4 +1,4 @@
-"""What is read from a map as plain data and back, for snapshots of maps.
+"""A read map as plain data and back, for snapshots of maps.
 
 The data consist of tuples, lists, dictionaries, strings and numbers only, one column for each field
 of each class of objects. Columns are filled in by loops that run in C, so unpacking takes a
@@ -50,7 +50,7 @@ _NONE = -1  # the index that stands for `None`
 
 
 class PackingError(ValueError):
-    """The data are not those of a map."""
+    """The data are not the data of a map."""
 
 
 def pack(content: MapContent) -> Packed:

@@ -73,7 +73,7 @@ class Piecewise:
         return least, greatest
 
     def constant(self) -> float | None:
-        """The value if it is the same everywhere and said once, else None."""
+        """The value if it is constant and stated once, else None."""
         a, b, c, d = self.rows[0]
         return None if len(self.rows) > 1 or b or c or d else a
 

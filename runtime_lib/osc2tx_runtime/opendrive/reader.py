@@ -1,7 +1,7 @@
 """OpenDRIVE text to roads and junctions. Queries are elsewhere; see `road_map`.
 
-Everything the queries do not need (road marks, most objects, user data) is skipped without a look:
-real maps carry junk there. `geoReference` is kept as it is until somebody asks for it.
+Elements that no query needs (road marks, most objects, user data) are skipped unread: real maps
+carry junk there. `geoReference` is kept as text until it is used.
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ ROUNDING = 0.01
 """Metres that numbers of a file may be apart and mean the same."""
 
 LONGEST = 2e7
-"""Metres of all roads together: what is made of them has to fit into memory."""
+"""Upper limit of the total length (m) of all roads, which has to fit into memory."""
 
 __all__ = ["MapContent", "read_content", "read_content_text"]
 
 
 @dataclass(frozen=True, slots=True)
 class MapContent:
-    """All that is read from a file. Roads and junctions are in numeric order of their ids.
+    """The content of a file. Roads and junctions are in numeric order of their ids.
 
     `header` has the attributes of the element of that name. `remarks` are what is wrong with the
     file, or matters and is not read, each with its line.
@@ -202,7 +202,7 @@ def _plan_view(road: etree._Element, attributes: Attributes) -> ReferenceLine:
         attributes.remark(road, f"is {length:g} m long, its geometry {end:g} m")
     for (start, segment), (following, _) in pairwise([*kept, (length, kept[-1][1])]):
         end = start + segment.length
-        if following - end > ROUNDING:  # what a curve does beyond its end is nobody's intention
+        if following - end > ROUNDING:  # the extension of a curve beyond its end is unintended
             told = f"has no geometry from s = {end:g} m to {following:g} m: it goes straight on"
             attributes.remark(road, told)
             kept.append((end, Line(*segment.at(segment.length)[:3], following - end)))

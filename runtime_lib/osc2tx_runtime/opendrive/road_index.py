@@ -1,8 +1,8 @@
 """Which roads are near a point: tiles touched by stretches of roads, and a grid of samples in each.
 
-A tile is sampled when somebody first asks for a place in it, so that a large map costs what is used
-of it. Tiles are chosen by discs that hold a stretch of road whatever its shape: no point of a
-stretch is farther from its middle than half its length, and half the road's width.
+A tile is sampled on the first query in it, so that a large map costs only the used part of it.
+Tiles are chosen by discs that hold a stretch of road whatever its shape: no point of a stretch is
+farther from its middle than half its length, and half the road's width.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ _REACH = 4.5  # m: a point registers in every cell within this reach
 _HALF_ROAD = 500.0  # m: an absurd width must not fill the memory
 _WIDE = 2.0  # m beyond the outermost lanes
 _MOST = 64  # samples of a stretch
-_LARGEST = 1e9  # m: what no attribute of a map exceeds
-_WIDEST = 64  # tiles along the edge of the box of a stretch; what is wider counts as everywhere
+_LARGEST = 1e9  # m: upper limit of all attributes of a map
+_WIDEST = 64  # tiles along the edge of the box of a stretch; a wider one counts as everywhere
 
 _Cell = tuple[int, int]
 _Near = list[tuple[Road, float]]

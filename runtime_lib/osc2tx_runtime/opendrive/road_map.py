@@ -49,9 +49,9 @@ class RoadMap:
         name: Name of the map: file name without suffix.
         roads: Roads by id, in numeric order.
         junctions: Junctions by id, in numeric order.
-        geo_reference: Where it lies on the globe.
+        geo_reference: Its position on the globe.
         header: Attributes of the header of the file.
-        remarks: What is wrong with the file, or matters and is not read.
+        remarks: Errors of the file that do not prevent its use, and unread elements that matter.
     """
 
     def __init__(self, content: MapContent) -> None:
@@ -283,7 +283,7 @@ class RoadMap:
         return lane_outlines(self._roads.values(), bounds, step)
 
     def seams(self) -> tuple[Seam, ...]:
-        """Where lanes go on beside where they end, or in another direction."""
+        """Joints at which lanes continue beside their end, or in another direction."""
         return self._seams
 
     @cached_property

@@ -1,7 +1,7 @@
-"""Seams: where a lane goes on beside where it ends, or in another direction.
+"""Seams: joints at which a lane continues beside its end, or in another direction.
 
-Looked at are the joints of each lane that vehicles or persons use: the pieces that its road is made
-of, and the lanes that follow it.
+The joints of each lane for vehicles or persons are tested: the pieces that its road is made of, and
+the lanes that follow it.
 """
 
 from __future__ import annotations
@@ -28,17 +28,17 @@ _BEFORE = 1e-6  # m: where a piece ends, as seen from it
 
 @dataclass(frozen=True, slots=True)
 class Seam:
-    """A place where a lane does not go on as it ends.
+    """A position at which a lane does not continue as it ends.
 
     Attributes:
         road: Road id.
         lane: Lane id.
         s: Road coordinate of the joint (m).
-        onto: Road and lane that follow; those of the seam itself for a joint inside of a lane.
+        onto: Road and lane that follow; for a joint inside of a lane, that lane itself.
         gap: Distance (m) of both ends of the centre line.
         turn: Change of heading there (rad), without sign.
         jump: World x, y (m) and heading (rad) that it adds, in direction of travel.
-        begin: World x, y (m) where the lane goes on behind it.
+        begin: World x, y (m) of the start of the lane behind it.
         beyond: Roads and lanes that follow those that follow.
     """
 

@@ -25,7 +25,7 @@ READ = frozenset(
         *("junction", "connection", "laneLink", "controller", "control"),
     }
 )
-"""What the reader takes, beside crosswalks among the objects."""
+"""The types of objects that the reader takes, besides crosswalks."""
 
 
 def unread_elements(path: Path) -> tuple[tuple[str, int], ...]:

@@ -49,8 +49,8 @@ def parse_stream(
     Args:
         stream: The text.
         name: Used in messages.
-        take: Is given each road as soon as it is complete, and may remove what it has read: the
-            elements of a large map are many times larger than what is made from them.
+        take: Called with each road as soon as it is complete; may remove the elements it has read:
+            the elements of a large map are many times larger than the resulting objects.
 
     Raises:
         MapError: It is not XML, or not a map.
@@ -110,7 +110,7 @@ class Attributes:
 
     Attributes:
         file: Its name, for messages.
-        remarks: What is wrong with the file, but not so that it cannot be used.
+        remarks: Errors of the file that do not prevent its use.
     """
 
     __slots__ = ("_shared", "file", "remarks")
@@ -121,7 +121,7 @@ class Attributes:
         self._shared: dict[tuple[tuple[float, Row], ...], Piecewise] = {}
 
     def remark(self, element: etree._Element, message: str) -> None:
-        """Take down what is wrong with an element that can be used all the same."""
+        """Note an error of an element that can be used all the same."""
         name = element.get("id")
         what = f"`{element.tag}`" if name is None else f"`{element.tag}` {name}"
         self.remarks[f"line {source_line(element)}: {what} {message}"] = None
@@ -176,7 +176,7 @@ class Attributes:
             raise self.error(element, message) from None
 
     def piecewise(self, records: Iterable[tuple[float, Row]]) -> Piecewise | None:
-        """Of polynomials with their starts; what is the same is one object, as many lanes are."""
+        """Of polynomials with their starts; equal ones are one object, as they are frequent."""
         key = tuple(records)
         found = self._shared.get(key)
         if found is None:

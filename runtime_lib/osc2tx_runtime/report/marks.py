@@ -1,4 +1,4 @@
-"""What the page writes beside the mark of an instant, for each kind of line."""
+"""Texts of the page beside the mark of an instant, for each kind of line."""
 
 from __future__ import annotations
 

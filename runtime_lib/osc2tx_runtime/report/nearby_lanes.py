@@ -13,9 +13,9 @@ __all__ = ["Bounds", "LaneShape", "OutlineSource", "nearby_crosswalks", "nearby_
 MARGIN = 100.0
 """How far from a path lanes are drawn (m)."""
 
-_CELL = 25.0  # m: size of the grid cells that say what is near
-_TOLERANCE = 0.04  # m: how far a thinned edge may be off
-_STEP = 2.0  # m: distance of the points asked from the map
+_CELL = 25.0  # m: size of the grid cells that index nearby paths
+_TOLERANCE = 0.04  # m: greatest error of a thinned edge
+_STEP = 2.0  # m: distance of the sampled points of the map
 _INVISIBLE = frozenset({"none"})
 
 Point = tuple[float, float]
@@ -24,7 +24,7 @@ Bounds = tuple[float, float, float, float]
 
 
 class LaneShape(Protocol):
-    """What is read of a lane outline (`osc2tx_runtime.opendrive.LaneOutline`)."""
+    """The used part of a lane outline (`osc2tx_runtime.opendrive.LaneOutline`)."""
 
     @property
     def road(self) -> str:
@@ -52,7 +52,7 @@ class LaneShape(Protocol):
 
 
 class CrosswalkShape(Protocol):
-    """What is read of a crosswalk (`osc2tx_runtime.opendrive.Crosswalk`)."""
+    """The used part of a crosswalk (`osc2tx_runtime.opendrive.Crosswalk`)."""
 
     @property
     def x(self) -> float:

@@ -14,7 +14,7 @@ __all__ = ["SignalShape", "SignalSource", "Surroundings"]
 
 
 class SignalShape(Protocol):
-    """What is read of a signal (`osc2tx_runtime.opendrive.Signal`)."""
+    """The used part of a signal (`osc2tx_runtime.opendrive.Signal`)."""
 
     @property
     def id(self) -> str:
@@ -34,7 +34,7 @@ class SignalShape(Protocol):
 
 
 class PoseShape(Protocol):
-    """What is read of a pose."""
+    """The used part of a pose."""
 
     @property
     def x(self) -> float:
@@ -60,8 +60,8 @@ class Surroundings:
     """Changes by time, in the order of the trace.
 
     Attributes:
-        signals: Id of a light to its changes: time, what it says, what its lamps do.
-        lights: Id of an actor to its changes: time, what shines.
+        signals: Id of a light to its changes: time, meaning, states of its lamps.
+        lights: Id of an actor to its changes: time, lit lights.
         weather: Time, and the values that are new then (SI units).
     """
 
@@ -70,7 +70,7 @@ class Surroundings:
     weather: list[Json] = field(default_factory=list)
 
     def add(self, kind: str, time: float, line: Json) -> None:
-        """Take a line of the trace; those of other kinds are left out."""
+        """Take a line of the trace; lines of other kinds are left out."""
         t = short(time, 4)
         if kind == "signal":
             bulbs = line.get("bulbs")
@@ -86,7 +86,7 @@ class Surroundings:
             self.weather.append({"t": t, "values": values})
 
     def as_json(self, road_map: SignalSource | None) -> Json:
-        """What the page reads; without a map there are no places of traffic lights."""
+        """The data for the page; without a map, traffic lights have no positions."""
         return {
             "signals": [] if road_map is None else self._placed(road_map),
             "lights": self.lights,

@@ -79,7 +79,7 @@ class ActionLog:
 
 
 def node_list(value: object) -> list[Json]:
-    """Return the nodes with what can be drawn of them; what is no node is left out."""
+    """Return the nodes with their drawable data; other values are left out."""
     nodes = value if isinstance(value, list) else []
     return [_node(each) for each in nodes if isinstance(each, dict)]
 
@@ -102,7 +102,7 @@ def _span(run: list[object]) -> list[object]:
 
 
 def _violation(time: float, line: Json) -> Json:
-    """A condition that does not hold, as a bar; `time` stands in where the line has none."""
+    """A condition that does not hold, as a bar; `time` replaces a missing one."""
     words = {key: text(line.get(key)) for key in ("severity", "actor", "source", "code")}
     first, last, worst = (number(line.get(key)) for key in ("first", "last", "worst"))
     return {
@@ -138,7 +138,7 @@ _HEADER_KEYS = (
 
 @dataclass
 class Run:
-    """What a trace says, in the order of its lines.
+    """The content of a trace, in the order of its lines.
 
     Attributes:
         header: The header line, empty if there is none.
@@ -215,7 +215,7 @@ class Run:
         }
 
     def _cast(self) -> dict[str, Json]:
-        """Sizes by actor id: those of the header, then others that have states."""
+        """Sizes by actor id: from the header, then of other actors with states."""
         cast: dict[str, Json] = {}
         declared = self.header.get("actors")
         if isinstance(declared, dict):

@@ -1,4 +1,4 @@
-"""The recorded movement of one actor, reduced to what the page draws."""
+"""The recorded movement of one actor, reduced to the data that the page draws."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ class Track:
         return [(sample["x"] or 0.0, sample["y"] or 0.0) for sample in self._samples]
 
     def _kept(self) -> list[int]:
-        """Indices of the samples that go on the page; first and last are always among them."""
+        """Indices of the samples for the page; first and last are always among them."""
         count = len(self.times)
         last = count - 1
         if self._is_at_rest():

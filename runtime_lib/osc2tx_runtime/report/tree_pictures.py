@@ -33,8 +33,8 @@ def tree_text(root: Behaviour, *, columns: int | None = None, color: bool = Fals
     """Return the tree as lines of text, with the lines of the scenario in a column of their own.
 
     Args:
-        root: What `create_root` of a generated module returns.
-        columns: What the lines keep to, by cutting long texts of nodes; None if nothing is cut.
+        root: The result of `create_root` of a generated module.
+        columns: Width of the lines, to which long texts of nodes are cut; None if nothing is cut.
         color: Whether to use the colors of a terminal.
     """
     rows = _rows(root)

@@ -1,4 +1,4 @@
-"""A world of somebody else's, whose answers are checked: everything in a run computes with them."""
+"""A third-party world whose answers are checked, as all of a run computes with them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from osc2tx_runtime.world.state import ActorState
 
 __all__ = ["checked_world"]
 
-# What attributes are, and what methods return; nobody looks at what the others do.
+# Types of attributes, and of results of methods; other results are not used.
 ANSWERS: Mapping[str, Any] = {
     "actors": Sequence[str],
     "capabilities": frozenset,
@@ -60,7 +60,7 @@ class _CheckedWorld:
         self._calls = CheckedCalls("world", world)
 
     def __getattr__(self, name: str) -> Any:
-        """Return an attribute of the world; methods check what they return."""
+        """Return an attribute of the world; methods check their results."""
         if name.startswith("_"):
             raise AttributeError(name)
         found = self._calls.ask(name, lambda: getattr(self._world, name), Any)

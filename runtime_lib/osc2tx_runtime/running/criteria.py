@@ -1,8 +1,8 @@
-"""What a run must not do: the criteria of `--fail-on`.
+"""Criteria of a failed run, `--fail-on`.
 
-The tree of a scenario says whether what it asks for came about. A criterion makes a run fail
-whatever the tree says: a collision, a vehicle that leaves the lanes, one that passes a light
-which says stop.
+The tree of a scenario states whether its behavior came about. A criterion makes a run fail whatever
+the tree states: a collision, a vehicle that leaves the lanes, one that passes a light that shows
+stop.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class Criteria:
     Args:
         context: The run.
         wanted: Names of criteria; by default those of the settings.
-        is_noted: Whether the trace says what was against one.
+        is_noted: Whether violations are noted in the trace.
 
     Attributes:
         broken: What was against a criterion: `collision of a and b at 3.20 s`.
@@ -53,7 +53,7 @@ class Criteria:
         self._look()
 
     def observe(self, step: int) -> None:
-        """Look at what the way to a step has brought about."""
+        """Check the criteria after a step."""
         if not self._wanted:
             return
         self._time = step * self._context.dt
@@ -86,7 +86,7 @@ class Criteria:
         self._on_road[actor_id] = here
 
     def _look_at_lights(self, actor_id: str, state: ActorState) -> None:
-        """Note a vehicle whose front has passed the line of a light that said stop."""
+        """Note a vehicle whose front has passed the stop line of a light showing stop."""
         ahead = self._lines.pop(actor_id, None)
         if ahead is not None:
             signal, gap, before = ahead

@@ -35,13 +35,13 @@ __all__ = ["Observer", "OnProgress", "Outcome", "overloads", "run_tree", "settle
 
 
 class Observer(Protocol):
-    """Is told of a run as it goes on; what it raises ends the run."""
+    """Called during a run; its exceptions end the run."""
 
     def begin(self, context: ExecutionContext) -> None:
         """See the actors where they start, before the first step."""
 
     def observe(self, step: int) -> None:
-        """See what the way to a step has brought about."""
+        """Observe the result of a step."""
 
     def sampled(self, kind: str, values: Mapping[str, Any]) -> None:
         """Take the value of a coverage item, `cover` or `record`, as the trace has it."""
@@ -71,7 +71,7 @@ def run_tree(
     However it ends, no node is RUNNING and no slot is owned afterwards, and the trace is closed.
 
     Raises:
-        ScenarioError: If the scenario cannot go on.
+        ScenarioError: If the scenario cannot continue.
     """
     outcome = Outcome("error", "", 0)
     try:
@@ -108,7 +108,7 @@ def close(root: Behaviour, context: ExecutionContext, outcome: Outcome) -> None:
         if root.status is RUNNING:
             root.stop(INVALID)
     finally:
-        for node in root.iterate():  # what a broken `on_stop` kept from being left
+        for node in root.iterate():  # nodes that a broken `on_stop` left running
             if node.status is RUNNING:
                 node.status = INVALID
         context.clear()
@@ -119,7 +119,7 @@ def close(root: Behaviour, context: ExecutionContext, outcome: Outcome) -> None:
 
 
 def overloads(context: ExecutionContext) -> tuple[str, ...]:
-    """Return what no tyre could have done in a run that went on all the same."""
+    """Return the motions beyond the limits of tyres, in a run that continued all the same."""
     if context.settings.physics == "fail":
         return ()
     return tuple(map(str, context.world.overloads()))
@@ -187,9 +187,9 @@ def settle(
 ) -> Status:
     """Pulse the tree until nothing more happens at this instant; not at all while it rests.
 
-    Events come to rest first. Then all assignments that are pending are carried out together, and
-    with the new snapshot it goes on, until nothing more is pending. At the very start conditions
-    are asked when that has put the actors where they are to be.
+    First no event is left pending. Then all pending assignments are applied together, and the
+    evaluation continues with the new snapshot, until nothing more is pending. At the very start
+    conditions are evaluated when that has put the actors into their start positions.
 
     Signals are visible from the first pass on, so a wait that starts just now does not see them.
     Those at the very start become visible one pass later: the first waits do see them.

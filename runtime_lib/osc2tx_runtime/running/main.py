@@ -36,7 +36,7 @@ EXIT_FAILED = 5
 EXIT_BUG = 70
 
 MADE_BY = "Made by osc2tx from "
-"""What the docstring of a generated module has."""
+"""Marker in the docstring of a generated module."""
 
 
 def main(*scenarios: type[Scenario], argv: Sequence[str] | None = None) -> int:
@@ -47,9 +47,9 @@ def main(*scenarios: type[Scenario], argv: Sequence[str] | None = None) -> int:
         argv: Arguments; those of the process by default.
 
     Returns:
-        0 success, 5 ran and failed or ran out of time, 4 unreadable input or no simulator,
-        4 also for code that somebody derived by hand and that fails, 2 usage, 130 when the user
-        interrupts it, 70 a bug of ours.
+        0 success, 5 ran and failed or ran out of time, 4 unreadable input or no simulator, 4 also
+        for derived code of a user that fails, 2 usage, 130 when the user interrupts it, 70 an
+        internal error.
     """
     try:
         as_usual()
@@ -72,9 +72,9 @@ def main(*scenarios: type[Scenario], argv: Sequence[str] | None = None) -> int:
 
 
 def place_in_own_code(error: Exception, scenarios: Sequence[type[Scenario]]) -> str | None:
-    """Return where code that somebody wrote by hand fails, `FILE:LINE`; None if none of it does.
+    """Return the position at which user code fails, `FILE:LINE`; None if none of it does.
 
-    Own code are the modules of the classes and of their bases that no compiler made.
+    User code are the modules of the classes and of their bases that no compiler made.
     """
     bases = {base.__module__ for scenario in scenarios for base in scenario.__mro__}
     modules = [sys.modules[name] for name in bases if name in sys.modules]
@@ -93,7 +93,7 @@ def run(scenarios: Sequence[type[Scenario]], argv: Sequence[str]) -> int:
     """Run a scenario from a command line; return the exit code.
 
     Raises:
-        OutputError: If nobody takes what it prints.
+        OutputError: If its output cannot be written.
     """
     progress = show_progress if is_watched() else None
     try:
@@ -158,7 +158,7 @@ def chosen_world(argv: Sequence[str], default: str = EMBEDDED.name) -> WorldType
     try:
         found, _ = parser.parse_known_args(argv)
     except argparse.ArgumentError:
-        return EMBEDDED  # the whole parser says what is wrong
+        return EMBEDDED  # the whole parser reports the error
     return find_world(found.world)
 
 
@@ -169,7 +169,7 @@ class Parser(argparse.ArgumentParser):
         put(message, err=file is not sys.stdout)
 
     def error(self, message: str) -> NoReturn:
-        """Say what is wrong with the command line, and end the process."""
+        """Report the error of the command line, and end the process."""
         super().error(visible(message))
 
 

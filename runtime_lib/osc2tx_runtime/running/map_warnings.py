@@ -1,4 +1,4 @@
-"""What a run says of its map: what is wrong with it, and where its lanes do not fit together."""
+"""Warnings of a run about its map: errors of the file, and lanes that do not fit together."""
 
 from __future__ import annotations
 

@@ -50,7 +50,7 @@ def parse_destination(text: str) -> tuple[str, str]:
 
 
 def parse_set(text: str) -> tuple[str, float | str]:
-    """Read `v=12.5`; what is no number stays text: `v=60kph` is for whoever knows the unit."""
+    """Read `v=12.5`; other texts stay text: `v=60kph` is read where the unit is known."""
     name, value = parse_pair(text, "--set", "NAME=VALUE", "v=12.5")
     try:
         return name, to_float(value)
@@ -125,7 +125,7 @@ OPTIONS: tuple[Option, ...] = (
     Option(
         "control",
         "MODE[,ACTOR=MODE]",
-        "who moves the actors: exact, exact-physics, driven, external, autopilot",
+        "control mode of the actors: exact, exact-physics, driven, external, autopilot",
         parse_control,
         _merged,
     ),
@@ -140,7 +140,7 @@ OPTIONS: tuple[Option, ...] = (
     Option(
         "conduct",
         "as_told|standard",
-        "whether actors avoid collisions and obey lights unless told otherwise",
+        "whether actors avoid collisions and obey lights where the scenario leaves it open",
         parse_conduct,
         default="as_told",
     ),

@@ -1,4 +1,4 @@
-"""The files that a run writes: they replace only what a run has written, and nothing half."""
+"""The files that a run writes: they replace only files of earlier runs, and are never partial."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ BEGINS = {
     "summary": (b'{\n "format": ',),
     "junit": (b'<?xml version="1.0" encoding="UTF-8"?>\n<testsuites',),
 }
-"""How the files begin that are written; also what is to be overwritten has to."""
+"""Begins of the files that are written; a file to overwrite must have the same begin."""
 
 
 def check_outputs(settings: RunSettings) -> None:
@@ -42,14 +42,14 @@ def check_outputs(settings: RunSettings) -> None:
 
 
 def may_replace(name: str, path: Path) -> bool:
-    """Return whether a file is not there, or is what is written by this name."""
+    """Return whether a file is missing, or was written by this name."""
     begins = BEGINS[name]
     try:
         if not path.is_file() or path.stat().st_size == 0:
             return True
         with path.open("rb") as file:
             return file.read(max(map(len, begins))).startswith(begins)
-    except (OSError, ValueError):  # writing it will say what is wrong
+    except (OSError, ValueError):  # writing it will report the error
         return True
 
 

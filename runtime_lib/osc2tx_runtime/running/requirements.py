@@ -1,4 +1,4 @@
-"""What a scenario needs of its world, compared before step 0."""
+"""The requirements of a scenario on its world, checked before step 0."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["check_requirements"]
 
 
 def check_requirements(root: Behaviour, context: ExecutionContext) -> None:
-    """Compare the actions of a tree that is set up with what the world can do.
+    """Compare the actions of a tree that is set up with the capabilities of the world.
 
     Raises:
         CapabilityError: With all that cannot be, and where.

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 __all__ = ["RunResult", "run_scenario", "setup_tree"]
 
-REDRAWS = 100  # draws of one seed, where the map has no room for what is drawn
+REDRAWS = 100  # draws of one seed, where the map has no room for the drawn values
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,8 +50,8 @@ class RunResult:
         time: Simulated seconds.
         trace_lines: Lines of the trace, without line ends.
         collisions: Time in seconds and the two actors of each new contact.
-        warnings: What is wrong with a run that goes on all the same.
-        place: Place in the scenario of what failed; empty where it has none.
+        warnings: Warnings of a run that continues all the same.
+        place: Position of the failed element in the scenario; empty where it has none.
         violations: Conditions that did not hold in their phases.
     """
 
@@ -84,12 +84,12 @@ def run_scenario(
         on_progress: Called about once per simulated second with time and `max_time`, in seconds.
         world: The world to run in; by default the one of the settings, on the scenario's map. It
             is closed at the end.
-        keep_trace: Keep the lines of the trace even if no file is asked for.
-        observer: Looks at the run while it goes on.
-        read: Reads the map; who makes many runs need not read it each time.
+        keep_trace: Keep the lines of the trace even if no file is requested.
+        observer: Observes the run.
+        read: Reads the map; callers with many runs can cache it.
 
     Raises:
-        ScenarioError: If the scenario cannot start, or cannot go on.
+        ScenarioError: If the scenario cannot start, or cannot continue.
     """
     settings = settings or RunSettings()
     check_outputs(settings)
@@ -120,7 +120,7 @@ def _run(
     """Run a scenario with the values that are drawn.
 
     Raises:
-        BeyondMapError: The map surely has no room for what it asks for, unless it `is_last`.
+        BeyondMapError: The map surely has no room for the request, unless it `is_last`.
     """
     root, settings = scenario.create_tree(), scenario.settings
     world = checked_world(world or make_world(scenario, read))
@@ -186,7 +186,7 @@ def make_monitors(context: ExecutionContext) -> Monitors:
 
 
 def look_ahead(root: Behaviour) -> None:
-    """Let every action see whether the map has what it asks for."""
+    """Let every action check that the map has the elements it requires."""
     for node in root.iterate():
         if isinstance(node, BaseAction):
             node.look_ahead()
@@ -269,7 +269,7 @@ def write_header(scenario: Scenario, context: ExecutionContext) -> None:
 
 
 def _path(parameter: tuple[str, Any]) -> str:
-    """Where a parameter belongs: own ones first, those of invocations by path."""
+    """The owner of a parameter: own ones first, those of invocations by path."""
     return parameter[0].rpartition(".")[0]
 
 

@@ -23,7 +23,7 @@ class _Maps:
         folders: Where to look, before the maps of this package.
 
     Attributes:
-        warnings: What is not drawn.
+        warnings: Reasons for missing parts.
     """
 
     def __init__(self, folders: Sequence[Path]) -> None:
@@ -53,11 +53,11 @@ def trace_report(
 
     Args:
         traces: One or two files.
-        page: Where to; beside the first trace if it is None.
+        page: Path of the page; beside the first trace if it is None.
         map_path: Folders with maps, or the map itself.
 
     Returns:
-        The page, and what it does not show.
+        The page, and its missing parts.
 
     Raises:
         InputError: A trace cannot be read, or the page cannot be written.
@@ -81,7 +81,7 @@ def folder_report(
         map_path: Folders with maps, or the map itself.
 
     Returns:
-        The index, and what the pages do not show.
+        The index, and the missing parts of the pages.
 
     Raises:
         InputError: There is no trace, one cannot be read, or a page cannot be written.
@@ -116,7 +116,7 @@ def _write(page: Path, text: str) -> None:
 
 
 def _map_name(trace: Trace) -> str:
-    """The map that the header names; empty if there is none."""
+    """The map named in the header; empty without one."""
     try:
         header = json.loads(trace.lines[0]) if trace.lines else {}
     except (ValueError, RecursionError):

@@ -159,7 +159,7 @@ def verify(
 
 
 def _is_judged(run: RecordedRun, time: float, action: Action, outcome: str) -> bool:
-    """Whether the phase of an action counts: it ended, and nothing cut it short."""
+    """Whether the phase of an action counts: it ended, and was not interrupted."""
     if (time, action.name) in run.overridden:
         return False
     return outcome == "success" or (time, action.action_name) in run.failed

@@ -50,7 +50,7 @@ def check_world(
     """Compare the simulator of a world with what runs rely on.
 
     Args:
-        scenario_class: A generated class whose needs count; None: those of any run.
+        scenario_class: A generated class whose requirements count; None: those of any run.
         settings: Of a run; they choose the world.
         drives: Actors may be spawned and moved.
         fixes: What other clients have left behind is removed.
@@ -77,7 +77,7 @@ def check_world(
 def _request(
     map_file: str | None, settings: RunSettings, read: Callable[[Path], RoadMap]
 ) -> WorldRequest:
-    """Return what a run wants of its world."""
+    """Return the request of a run to its world."""
     return WorldRequest(
         map_file,
         lambda: find_map(map_file, settings.map_path),

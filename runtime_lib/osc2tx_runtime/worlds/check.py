@@ -1,4 +1,4 @@
-"""What a simulator is like, compared with what a run relies on: `osc2tx world check NAME`."""
+"""The properties of a simulator against the requirements of a run: `osc2tx world check NAME`."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ CheckStatus = Literal["ok", "differs", "unknown"]
 
 @dataclass(frozen=True, slots=True)
 class CheckRequest:
-    """What is to be checked.
+    """The task of a check.
 
     Attributes:
-        world: What a run would request of the world.
-        actors: Those of the scenario; none if no scenario is named.
+        world: The request of a run to the world.
+        actors: The actors of the scenario; none if no scenario is named.
         drives: Actors may be spawned and moved, which takes over the simulator for a while.
-        fixes: What others have left behind is removed.
+        fixes: Remnants of other clients are removed.
     """
 
     world: WorldRequest
@@ -38,9 +38,9 @@ class CheckResult:
 
     Attributes:
         number: Of the line.
-        name: What is compared.
+        name: The compared property.
         status: The result.
-        found: What was found, in one line.
+        found: The finding, in one line.
         meaning: What that means for runs; empty where there is nothing to say.
         blocks: A run cannot begin.
     """

@@ -40,7 +40,7 @@ def make(request: WorldRequest) -> EmbeddedWorld:
     for actor, control in request.control.items():
         if control == "external" and actor not in egos:
             raise SettingsError(
-                f"--control {actor}=external: nobody drives {actor or 'the others'}; name somebody,"
+                f"--control {actor}=external: no driver for {actor or 'the others'}; name one:"
                 f" --ego {actor or 'ACTOR'}=PACKAGE.MODULE:CLASS"
             )
         if control == "exact" and actor in egos:

@@ -1,4 +1,4 @@
-"""Worlds by name: that of this package, and those of installed packages."""
+"""Worlds by name: of this package, and of installed packages."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def find_world(name: str) -> WorldType:
 
 
 def _problem_of(found: Any) -> str:
-    """Return what is wrong with the fields of a world; empty if nothing is."""
+    """Return the error in the fields of a world; empty without one."""
     if not isinstance(found.name, str) or not callable(found.make):
         return "a name and a function `make` are missing"
     if problem := problem_of(found.controls, tuple[ControlMode, ...]) or (

@@ -1,4 +1,4 @@
-"""What a run wants of its world."""
+"""The request of a run to its world."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ __all__ = ["WorldRequest"]
 
 @dataclass(frozen=True, slots=True)
 class WorldRequest:
-    """What a run wants of its world.
+    """The request of a run to its world.
 
     Attributes:
         map_file: The map as the scenario names it; None if it leaves the map open.
         find_map: Returns the path of that map on this machine; InputError if it is not there.
         dt: Length of a step (s).
-        seed: Of all that is sampled.
-        control: Who moves an actor, by its id; `""` stands for all others.
+        seed: Of all random values.
+        control: Control mode of an actor, by its id; `""` stands for all others.
         options: Values of the world's own options that were given, by `Option.field`.
-        read: Reads the map; who makes many runs need not read it each time.
+        read: Reads the map; callers with many runs can cache it.
     """
 
     map_file: str | None

@@ -20,10 +20,11 @@ class WorldType:
 
     Attributes:
         name: As in `--world NAME`.
-        make: Makes it for a run. What it raises beside ScenarioError is a bug of its own.
-        controls: Who can move its actors; the first one does where nobody says otherwise.
-        options: Its own options, beside those of every run.
-        check: Compares its simulator with what runs rely on, line by line; None if it has none.
+        make: Makes it for a run. Exceptions other than ScenarioError are its internal errors.
+        controls: Control modes of its actors; the first one is the default.
+        options: Its own options, besides those of every run.
+        check: Checks its simulator against the requirements of runs, line by line; None without
+            one.
     """
 
     name: str

@@ -1,9 +1,8 @@
-"""What osc2tx and its runtime keep between two runs, in the user's cache folder.
+"""Files that osc2tx and its runtime keep between two runs, in the user's cache folder.
 
-`own_files` reads only what the user alone can have written; `snapshots` keeps what some code made
-as plain data, as long as that code is the same. What is missing, damaged or of others counts as not
-being there: nothing depends on the cache but time. The package imports nothing but the standard
-library.
+`own_files` reads only files that the user alone can have written; `snapshots` keeps plain data made
+by code, as long as that code is the same. Missing, damaged and foreign files count as missing:
+nothing depends on the cache but time. The package imports nothing but the standard library.
 """
 
 from __future__ import annotations

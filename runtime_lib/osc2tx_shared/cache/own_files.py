@@ -1,8 +1,8 @@
-"""Files in the user's cache folder, read only if nobody else can have written them.
+"""Files in the user's cache folder, read only if no other user can have written them.
 
-What is read there decides what osc2tx and its runtime make, so a folder or a file that belongs to
-somebody else, or that others may write to, is not read. `OSC2TX_NO_CACHE=1` neither reads nor
-writes any.
+Their content decides the results of osc2tx and its runtime, so a folder or a file that belongs to
+another user, or that others may write to, is not read. `OSC2TX_NO_CACHE=1` neither reads nor writes
+any.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ def write_own(path: Path, data: bytes) -> bool:
 
 
 def forget_the_oldest(folder: Path, most: int) -> None:
-    """Keep only so many files of a folder, those written last; what they are of comes and goes."""
+    """Keep only this number of files of a folder, the last ones written; their sources change."""
     try:
         files = [(entry.stat().st_mtime_ns, entry.path) for entry in os.scandir(folder)]
         for _, path in sorted(files, reverse=True)[most:]:
@@ -87,7 +87,7 @@ def forget_the_oldest(folder: Path, most: int) -> None:
 
 
 def _is_ours(status: os.stat_result, is_kind: Callable[[int], bool]) -> bool:
-    """Whether a file or folder is of a kind, belongs to the user, and nobody else may write it."""
+    """Whether a file or folder has a type, belongs to the user, and no other user may write it."""
     if not is_kind(status.st_mode):
         return False
     if sys.platform == "win32":

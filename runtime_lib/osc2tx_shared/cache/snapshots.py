@@ -1,8 +1,8 @@
-"""Snapshots: plain data that some code made, kept for the next process.
+"""Snapshots: plain data made by code, kept for the next process.
 
-A snapshot is data, not code: whoever could write one for us could at most make wrong what is read
-from it, and even that takes write access to a folder of the user's own (`own_files`). What is
-damaged, or was made of something else, by other code or by another Python, is not used either.
+A snapshot is data, not code: a forged one could at most falsify the data read from it, and even
+that takes write access to a folder of the user's own (`own_files`). A snapshot that is damaged, or
+was made from other inputs, by other code or by another Python, is not used.
 """
 
 from __future__ import annotations
@@ -27,10 +27,10 @@ class Snapshots:
     """The snapshots of one kind.
 
     Args:
-        kind: The first line of their files: what they are, the number of their form, and the
+        kind: The first line of their files: their content, the number of their format, and the
             version of the code if it has one.
         code: The folder of the code that makes them.
-        parts: The folders below it whose modules decide what is in them.
+        parts: The folders below it whose modules decide their content.
     """
 
     def __init__(self, kind: str, code: Path, parts: tuple[str, ...]) -> None:
@@ -40,7 +40,7 @@ class Snapshots:
     def path(self, name: str) -> Path | None:
         """Return the file of a snapshot, `None` if there is no cache.
 
-        Installations do not overwrite those of others.
+        Each installation has its own file.
         """
         folder = cache_folder()
         place = crc32(str(self._code).encode("utf-8", "surrogateescape"))
@@ -48,11 +48,11 @@ class Snapshots:
         return folder and folder / f"{name}-{tag}-{place:08x}.snapshot"
 
     def load(self, name: str, made_of: object) -> Any | None:
-        """Return the data of a snapshot that can be trusted, `None` if there is none.
+        """Return the data of a valid snapshot, `None` without one.
 
         Args:
             name: Of the snapshot.
-            made_of: What the data are to be made of, as plain data.
+            made_of: The inputs of the data, as plain data.
         """
         path, stamp = self.path(name), self._stamp()
         if path is None or stamp is None:
@@ -80,9 +80,9 @@ class Snapshots:
         return path if is_kept else None
 
     def _stamp(self) -> Stamp | None:
-        """Return what identifies the code: Python, and its files.
+        """Return the identity of the code: Python, and its files.
 
-        `None` if that cannot be told: the files are not there, or changed after this process began.
+        `None` if it is unknown: the files are missing, or changed after this process began.
         """
         files: list[tuple[str, int, int]] = []
         try:
@@ -100,5 +100,5 @@ class Snapshots:
 
 
 def _checksum(content: bytes) -> bytes:
-    """Against damage only; against malice stands that nobody else may write to the folder."""
+    """Detects damage; forgery is excluded by the permissions of the folder."""
     return crc32(content).to_bytes(_CHECKSUM, "big")

@@ -51,8 +51,8 @@ class Violation:
     """A broken rule.
 
     Attributes:
-        parameter: The argument that is wrong; None if one is missing.
-        text: What is wrong.
+        parameter: The invalid argument; None if one is missing.
+        text: Description of the error.
     """
 
     parameter: str | None
@@ -90,7 +90,7 @@ def violations(subject: str, rules: Iterable[Rule], given: Given) -> Iterator[Vi
     """Yield what breaks a rule, in the order of the rules.
 
     Args:
-        subject: What the call is called where a message speaks of it: `it`, "`speed`".
+        subject: The call in messages: `it`, "`speed`".
         rules: Those of the action or modifier.
         given: The arguments.
     """

@@ -1,7 +1,7 @@
 """Which modifiers of one action go together.
 
-A modifier is of a *sort* by what is said with it: a `speed` with `direction: lateral` is another
-thing than one along the road. Modifiers that speak of the same *topic* exclude each other.
+The arguments of a modifier decide its *sort*: a `speed` with `direction: lateral` is another
+quantity than one along the road. Modifiers of the same *topic* exclude each other.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ STARTING = (none_of("shape", when=["at"], values=["start"]),)
 
 @dataclass(frozen=True, slots=True)
 class Sort:
-    """What a modifier is with some arguments.
+    """The sort of a modifier with some arguments.
 
     Attributes:
         name: Of the sort.
@@ -52,11 +52,11 @@ class ModifierRules:
     """What one modifier does to others in the same action.
 
     Attributes:
-        topics: What it speaks of; an action takes one modifier of each topic.
-        excludes: Topics and modifiers for which it leaves no room besides.
-        sorts: What it is with some arguments.
-        starts: Whether `at: start` makes it a demand on the start alone.
-        no_start: Why it says nothing of a start; empty if it does.
+        topics: Its quantities; an action accepts one modifier of each topic.
+        excludes: Topics and modifiers that it excludes besides.
+        sorts: Its sorts with some arguments.
+        starts: Whether `at: start` makes it a condition on the start alone.
+        no_start: Why it has no condition on the start; empty if it has.
         lanes_only: Whether it is only for actors that follow lanes, but for the start.
         while_moving: Rules of its arguments in an action, unlike at a start.
     """
@@ -95,7 +95,7 @@ CallT = TypeVar("CallT", bound=Call)
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """What is known about the length of an action.
+    """Facts about the length of an action.
 
     Attributes:
         has_duration: Whether it has a duration of its own.
@@ -112,10 +112,10 @@ class Clash(Generic[CallT]):
 
     Attributes:
         kind: `same thing`: two modifiers, of which one may stay; `twice`; `contradiction` of two
-            arguments; `no start`: it says nothing of one; `rule`: a rule of its arguments.
+            arguments; `no start`: it has no condition on one; `rule`: a rule of its arguments.
         calls: The modifiers, the offending one last.
-        text: What is wrong, but for `same thing` and `twice`.
-        parameter: The argument that is wrong, if it is one.
+        text: Description of the error, but for `same thing` and `twice`.
+        parameter: The invalid argument, if it is one.
     """
 
     kind: Literal["same thing", "twice", "contradiction", "no start", "rule"]
@@ -125,9 +125,9 @@ class Clash(Generic[CallT]):
 
 
 def sorts_of(call: Call, known: Mapping[str, ModifierRules]) -> Mapping[str, Collection[str]]:
-    """Return the name of a modifier, or what it is instead, and its sorts.
+    """Return the name of a modifier, or of its sort, and its sorts.
 
-    Each comes with the topics and modifiers for which it leaves no room.
+    Each comes with the topics and modifiers that it excludes.
     """
     rules = known.get(call.name, ModifierRules())
     sorts = {sort.name: sort.excludes for sort in rules.sorts if sort.has(call.given)}
@@ -147,7 +147,7 @@ def clashes(
     Args:
         calls: The modifiers, in their order.
         known: Rules of all modifiers by name.
-        timing: What is known about the length of the action.
+        timing: Facts about the length of the action.
     """
     action = _Action(calls, known, timing)
     yield from action.same_things()
@@ -169,7 +169,7 @@ class _Action(Generic[CallT]):
         self.lasting = [call for call in self.calls if not self._is_start(call)]
 
     def same_things(self) -> Iterator[Clash[CallT]]:
-        """Yield pairs that speak of the same thing, each once."""
+        """Yield pairs that constrain the same motion, each once."""
         seen: set[frozenset[int]] = set()
         for pair in self._same_things():
             identity = frozenset(map(id, pair))
@@ -232,7 +232,7 @@ class _Action(Generic[CallT]):
             found.setdefault(subject, call)
 
     def starts(self) -> Iterator[Clash[CallT]]:
-        """Yield what says nothing about the start that it is said of."""
+        """Yield modifiers with `at: start` that have no condition on a start."""
         for call in self.calls:
             if call.at != "start":
                 continue

@@ -1,10 +1,10 @@
 r"""Text from files and arguments on its way out: to terminals, logs and files.
 
 Names, strings, comments, paths and values of options are untrusted text. Where they are shown,
-what steers a terminal, turns the direction of writing or begins a line of its own is written as an
-escape (`\x1b`, `\u202e`, `\n`), and what a CI server would obey (`::error::`) is broken up.
+characters that steer a terminal, turn the direction of writing or begin a line are written as
+escapes (`\x1b`, `\u202e`, `\n`), and commands of CI servers (`::error::`) are broken up.
 
-`escapes` says how a text looks in a line, in JSON and in XML. `printing` is the only place where
+`escapes` writes a text in a line, in JSON and in XML. `printing` is the only place where
 osc2tx and its runtime write to standard output and standard error, and cleans all of it. The
 package imports nothing but the standard library.
 """

@@ -1,4 +1,4 @@
-"""What is unsafe to show, and how it is written instead."""
+"""Unsafe characters, and their escapes."""
 
 from __future__ import annotations
 

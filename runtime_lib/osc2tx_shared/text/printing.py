@@ -39,8 +39,8 @@ _COLOR = re.compile("(\x1b\\[[0-9;]*m)")
 def _stand_in(name: StreamName) -> bool:
     """Put a stream in the place of one that the process was started without.
 
-    Libraries take it for granted that there is one, and a file of ours must not get its number.
-    Who closes standard error wants no messages; the exit code still says how it went.
+    Libraries rely on an open stream, and a file of ours must not get its number. A closed standard
+    error suppresses messages; the exit code still reports the result.
     """
     if getattr(sys, name) is None:
         setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
@@ -56,7 +56,7 @@ class OutputError(Exception):
     """Standard output or standard error takes no text.
 
     Attributes:
-        exit_code: What the process returns: 141 if the reader has gone, as `head` does.
+        exit_code: The exit code of the process: 141 if the reader has gone, as with `head`.
     """
 
     def __init__(self, name: str, reason: str, exit_code: int = UNWRITABLE) -> None:
@@ -65,7 +65,7 @@ class OutputError(Exception):
 
 
 def explain(error: OutputError) -> int:
-    """Say why an output failed, if somebody may still read it; return the exit code."""
+    """Report why an output failed, if it may still be read; return the exit code."""
     if error.exit_code != READER_HAS_GONE:
         with suppress(OutputError):
             complain(f"error: {error}")
@@ -78,7 +78,7 @@ def is_watched(*, err: bool = True) -> bool:
 
 
 def expect_output() -> None:
-    """Refuse to go on without standard output; for libraries that would print into nothing.
+    """Refuse to continue without standard output; for libraries that would print into nothing.
 
     Raises:
         OutputError: If the process was started without it.
@@ -111,13 +111,13 @@ def put(text: str, *, err: bool = False, colored: bool = False) -> None:
 
 
 def put_document(text: str) -> None:
-    """Print a document for programs as it is: whoever made it has escaped what stands in it."""
+    """Print a document for programs unchanged: its text is escaped already."""
     _print("stdout", text)
 
 
 @contextmanager
 def recorded() -> Iterator[list[tuple[StreamName, str]]]:
-    """Yield a list of what is printed meanwhile, without the lines of `show_status`."""
+    """Yield a list of the lines printed meanwhile, without those of `show_status`."""
     printed: list[tuple[StreamName, str]] = []
     _RECORDS.append(printed)
     try:
@@ -162,7 +162,7 @@ def _print(name: StreamName, text: str) -> None:
 
 
 def _write(name: StreamName, text: str) -> None:
-    """Write to a stream of the process; what it has no characters for is escaped.
+    """Write to a stream of the process; characters that it lacks are escaped.
 
     Raises:
         OutputError: If it is full or not read any more, or standard output is closed.
@@ -182,7 +182,7 @@ def _write(name: StreamName, text: str) -> None:
 
 
 def _abandon(stream: TextIO) -> None:
-    """Lead a stream nowhere, or the interpreter complains when it ends about what is left in it."""
+    """Lead a stream nowhere, or the interpreter complains about its unwritten rest at the end."""
     try:
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
     except (OSError, ValueError):  # a stream of a test, or of another program

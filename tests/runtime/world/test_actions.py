@@ -276,7 +276,7 @@ def test_person_walks_across(run: Run) -> None:
         (lambda s: s.a.set_lights(mode="disco"), "mode `disco` is none of off, auto"),
         (lambda s: s.a.change_speed(target=1.0, rate_profile="fast"), "`fast` is none of none"),
         (lambda s: s.a.change_speed(speed(9.0), target=5.0), "does not take the modifier Speed"),
-        (lambda s: s.a.drive(lane(1), keep_lane()), "lane and keep_lane speak of the same thing"),
+        (lambda s: s.a.drive(lane(1), keep_lane()), "lane and keep_lane constrain the same motion"),
         (
             lambda s: s.a.change_space_gap(target=1.0, direction="up", reference=s.b),
             "direction `up` is none of ahead, behind, left",

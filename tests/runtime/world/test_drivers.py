@@ -143,7 +143,7 @@ def test_a_driver_that_breaks(drivers: ModuleType, answer: Any, said: str) -> No
         ({"ego": "a=no_such_module:Nobody"}, "cannot be made: ModuleNotFoundError"),
         ({"ego": "a=builtins:range"}, "cannot be made: TypeError"),
         ({"ego": "z=drivers:Made"}, "z is no vehicle of the scenario"),
-        ({"control": "a=external"}, "nobody drives a"),
+        ({"control": "a=external"}, "no driver for a"),
         ({"control": "driven"}, "the world embedded has exact and external"),
         ({"control": "z=exact"}, "the scenario has no such actor"),
         ({"ego": "a=drivers:Made", "control": "a=exact"}, "contradicts --ego"),

@@ -115,7 +115,7 @@ def test_lateral_speed(run: Run) -> None:
 def test_what_cannot_be(run: Run) -> None:
     with pytest.raises(ScenarioError, match="`measure_by: closest` needs `side_of`"):
         run(scenario(lambda s: s.a.drive(lateral(1.0, measure_by="closest"))))
-    with pytest.raises(UnsupportedError, match="lateral and keep_lane speak of the same thing"):
+    with pytest.raises(UnsupportedError, match="lateral and keep_lane constrain the same motion"):
         run(scenario(lambda s: s.a.drive(lateral(1.0, side_of=s.b), keep_lane())))
     done = run(scenario(lambda s: s.a.keep_space_gap(reference=s.b, direction="lateral")))
     assert "a is in the lane of b, so there is no gap to keep" in done.result.reason

@@ -155,7 +155,7 @@ def test_a_position_on_the_road_ends_a_drive(run: Run) -> None:
 
 
 def test_refused_before_the_start(run: Run) -> None:
-    with pytest.raises(UnsupportedError, match="distance speak of the same thing"):
+    with pytest.raises(UnsupportedError, match="distance constrain the same motion"):
         run(scenario(lambda s: s.a.drive(distance(10.0), speed(3.0), duration=2.0)))
     with pytest.raises(ScenarioError, match="a drive has speed twice"):
         run(scenario(lambda s: s.a.drive(speed(10.0), speed(12.0, at="end"))))

@@ -1,6 +1,6 @@
 """Actions of the actor type `vehicle`; made by tools/make_actor_methods.py."""
 
-# The registry carries out what is only declared here.
+# The registry executes these declarations.
 # mypy: disable-error-code="empty-body"
 
 from __future__ import annotations

@@ -79,7 +79,7 @@ class Entries:
         self._begun: set[str] = set()
 
     def begins(self, action: BaseAction) -> None:
-        """Take note of an action that begins."""
+        """Note that an action begins."""
         if action.actor_id is not None and action.actor_id not in self._begun:
             self._begun.add(action.actor_id)
             action.context.request_pass()

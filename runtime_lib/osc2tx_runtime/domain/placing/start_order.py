@@ -77,7 +77,7 @@ def joined(first: Placement, second: Placement) -> Placement:
     """Return what two members of a scenario say together of the start of an actor.
 
     Raises:
-        PlacementError: They speak of the same thing, and differ.
+        PlacementError: They constrain the same motion, and differ.
     """
     said = {_subject(modifier): modifier for modifier in first.modifiers}
     for modifier in second.modifiers:

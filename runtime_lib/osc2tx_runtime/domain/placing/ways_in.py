@@ -24,7 +24,7 @@ Boxes = Sequence[dict[str, Box]]
 """The room that actors take, at each step from the start of the run on."""
 
 _FASTER = (5.0, 10.0, 15.0, 20.0, 25.0)  # m/s above the speed of arrival
-_EFFORTS = (COMFORT, 1.0)  # shares of the largest acceleration
+_EFFORTS = (COMFORT, 1.0)  # shares of what the actor can do at most
 _EARLIER = (0.0, 0.25, 0.5, 0.75, 1.0)  # share of the time by which it sets out earlier
 _NEAR = 1e-6  # m
 _SAME = 1e-3  # m, m/s
@@ -74,7 +74,7 @@ class Arrival(NamedTuple):
 def way_in(
     arrival: Arrival, road_map: RoadMap, others: Boxes, dt: float, missed: float = 0.0
 ) -> WayIn:
-    """Return the first way in that the map has and nobody is in the way of.
+    """Return the first free way in that the map has.
 
     Args:
         arrival: The state to arrive in.
@@ -141,10 +141,11 @@ def _speeds(arrival: Arrival, dt: float) -> Iterator[tuple[float, int, int]]:
             yield 0.0, begin, begin + steps
     if not rolls:
         yield steady
-    for more in _FASTER if arrival.follows_lanes else ():
-        steps = _steps(more, COMFORT * arrival.limits.deceleration, dt)
-        if steps <= last:
-            yield target + more, last - steps, last
+    for effort in _EFFORTS if arrival.follows_lanes else ():
+        for more in _FASTER:
+            steps = _steps(more, effort * arrival.limits.deceleration, dt)
+            if steps <= last:
+                yield target + more, last - steps, last
 
 
 def _steps(change: float, rate: float, dt: float) -> int:
@@ -189,7 +190,7 @@ def _rooms(way: WayIn, arrival: Arrival, road_map: RoadMap, dt: float) -> list[B
 
 
 def _blocked(rooms: Sequence[Box], actor: str, others: Boxes, dt: float) -> str | None:
-    """Return who is in the way, and when; None if nobody is."""
+    """Return the blocking actor, and the time; None if there is none."""
     for step, (room, boxes) in enumerate(zip(rooms, others, strict=False)):
         for other, taken in boxes.items():
             if other != actor and overlapping(room, taken):

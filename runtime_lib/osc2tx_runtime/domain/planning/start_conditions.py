@@ -43,7 +43,7 @@ _TURNED = 0.01  # rad
 
 
 def hold_or_jump(action: ModifiedMotion) -> bool:
-    """Sees to what has to hold at the start.
+    """Establishes the conditions at the start.
 
     Returns:
         True if the actor is moved, which is visible from the next pass on.

@@ -1,4 +1,4 @@
-"""Who attends a run from outside: a stack under test that needs time, somebody who looks on."""
+"""Attendance of a run from outside: a stack under test that needs time, a spectator."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ BEHIND, ABOVE, DOWN = 8.0, 4.0, math.radians(15.0)
 
 @dataclass
 class Attendance:
-    """What a run does for those outside it; nothing of it changes a trace.
+    """Actions of a run for its observers; none of them changes a trace.
 
     Attributes:
         patience: How long (s) to wait for a first control; None: not at all.
@@ -41,12 +41,12 @@ class Attendance:
     def wait_for_control(
         self, client: ClientProcess, actors: Sequence[int], *, ticks: bool
     ) -> None:
-        """Hold the scenario until somebody controls all these vehicles.
+        """Hold the scenario until all these vehicles are controlled.
 
-        Steps of the simulator go on meanwhile, for a stack may need them.
+        Steps of the simulator continue meanwhile, for a stack may need them.
 
         Raises:
-            SimulatorError: Nobody does in time.
+            SimulatorError: They are not controlled in time.
         """
         if self.patience is None or not actors:
             return
@@ -56,11 +56,11 @@ class Attendance:
             if time.monotonic() > end:
                 waited = f"{self.patience:g} s"
                 raise SimulatorError(
-                    f"--wait-control: nobody controls the external actors within {waited}"
+                    f"--wait-control: the external actors are not controlled within {waited}"
                 )
             client.ask("step", [])
             if ticks:
-                time.sleep(0.02)  # faster than real time is of no use to who attaches
+                time.sleep(0.02)  # faster than real time does not help a stack that attaches
 
     def take_camera(self, client: ClientProcess, actors: Sequence[str]) -> None:
         """Take the camera of the server's window, if it is to follow an actor."""
@@ -74,7 +74,7 @@ class Attendance:
         self._due = time.monotonic()
 
     def pause(self, dt: float) -> None:
-        """Wait until the next step of so many seconds may be made."""
+        """Wait until the next step of a length (s) may be made."""
         if self.pace is not None:
             self._due += dt / self.pace
             time.sleep(max(0.0, self._due - time.monotonic()))

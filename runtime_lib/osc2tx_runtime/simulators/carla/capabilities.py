@@ -19,7 +19,7 @@ TRAILERS = "exact only (CARLA has no couplings)"
 UNMOVED = "exact only (CARLA has no blueprints that move)"
 WALKERS = "walker control"
 HEADING = "exact; driven: transform"
-PITCH_AND_ROLL = "pitch and roll exact only (driven: what the suspension makes of it)"
+PITCH_AND_ROLL = "pitch and roll exact only (driven: by the suspension)"
 
 IN_CARLA: Mapping[str, str] = {
     "C01": RUNTIME,
@@ -30,7 +30,7 @@ IN_CARLA: Mapping[str, str] = {
     "C05": f"{MOTION}; persons by {WALKERS}; animals and movable objects {UNMOVED};"
     f" trailers {TRAILERS}",
     "C06": MOTION,
-    "C07": f"{MOTION}; driven ones follow within what the engine of the model gives",
+    "C07": f"{MOTION}; driven ones follow within the limits of the engine of the model",
     "C08": "exact; driven: brake and hand brake",
     "C09": "exact; driven: transform, then target velocity",
     "C10": f"{HEADING}; pitch and roll last until the wheels settle",
@@ -66,7 +66,7 @@ IN_CARLA: Mapping[str, str] = {
 }
 """How each row does in CARLA. `exact` and `driven` are modes of control (`--control`)."""
 
-# Actions and modifiers of which a row, or a part of one, says more than what they control and need.
+# Actions and modifiers whose row, or a part of it, states more than their slots and needs.
 _OF = {
     "animal.walk": UNMOVED,
     "assign_orientation": IN_CARLA["C10"],
@@ -94,8 +94,8 @@ def how(name: str, *, moves: bool, needs: Sequence[str]) -> str:
 
     Args:
         name: `vehicle.drive`, `speed`.
-        moves: Whether it controls how an actor moves, or lets it move.
-        needs: What it needs of a world, as in its registration.
+        moves: Whether it controls the motion of an actor, or lets it move.
+        needs: Capabilities of a world that it requires, as in its registration.
     """
     own = _OF.get(name) or _OF.get(name.rpartition(".")[2])
     of_needs = next((_NEEDING[need] for need in needs if need in _NEEDING), None)

@@ -42,16 +42,16 @@ class CastMember:
     """An actor of the scenario that is one of CARLA's.
 
     Attributes:
-        spec: What the scenario knows of it.
+        spec: Its description in the scenario.
         actor: Its number in CARLA.
-        blueprint: What it is made from.
-        control: Who moves it.
+        blueprint: Its blueprint.
+        control: Its control mode.
         ahead: Metres from its origin in CARLA forwards to its reference point.
         up: Metres from the ground to that origin.
         size: Length, width and height (m) in CARLA.
-        foreign: Somebody else spawned it.
+        foreign: Another client spawned it.
         removed: It is not in CARLA any more.
-        now: The latest measurement; None while it is exactly where it is wished.
+        now: The latest measurement; None while it is exactly as commanded.
     """
 
     spec: ActorSpec
@@ -89,7 +89,7 @@ class CastMember:
         return any(abs(theirs - ours) > SIZE_NOTED for theirs, ours in sizes)
 
     def pose(self, state: ActorState) -> Pose:
-        """Where it is: as measured, else where it is wished."""
+        """Its state: as measured, else as commanded."""
         if self.now is not None:
             return self.now.pose
         return Pose(state.x, state.y, state.z, state.h, state.pitch, state.roll)
@@ -242,7 +242,7 @@ def member_of(spec: ActorSpec, found: Mapping[str, Any], control: ControlMode) -
 
 
 def _category(spec: ActorSpec) -> str:
-    """What a vehicle drives like: by its model, else by its size and strength."""
+    """The driving characteristics of a vehicle: by its model, else by its size and strength."""
     if spec.model in MODELS:
         return MODELS[spec.model][0]
     slow = spec.limits.acceleration < SLOW_STARTER

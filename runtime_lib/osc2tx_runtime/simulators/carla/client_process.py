@@ -25,9 +25,9 @@ from client.serve import main
 del sys.path[0]
 sys.exit(main())
 """
-"""What the process does: the package on its own, since importing all of the runtime takes time.
+"""Code of the process: the package on its own, since importing all of the runtime takes time.
 
-Its folder stands first, and `-P` leaves out the working folder: a `client.py` there is not ours.
+Its folder is first, and `-P` leaves out the working folder: a `client.py` there is not ours.
 """
 
 LAST_WORDS = 3
@@ -76,7 +76,7 @@ class ClientProcess:
         Args:
             name: Of a method of `client.session.Session`.
             *arguments: For it.
-            patience: Seconds that the answer may take beside those of one call.
+            patience: Seconds that the answer may take in addition to one call.
 
         Raises:
             SimulatorError: The server refuses, is lost, or does not answer.
@@ -132,7 +132,7 @@ class ClientProcess:
         )
 
     def _last_words(self) -> str:
-        """Return the end of what the library wrote to its standard error."""
+        """Return the end of the library's output on its standard error."""
         self._errors.seek(0)
         lines = self._errors.read().decode("utf-8", "replace").split("\n")
         return " | ".join([line.strip() for line in lines if line.strip()][-LAST_WORDS:])
@@ -140,7 +140,7 @@ class ClientProcess:
     def close(self) -> None:
         """End the process; it lets go of the simulator first.
 
-        Where the server does not answer it goes on trying for a while by itself.
+        Where the server does not answer it retries for a while by itself.
         """
         assert self._process.stdin is not None and self._process.stdout is not None
         with contextlib.suppress(BrokenPipeError):  # it has ended

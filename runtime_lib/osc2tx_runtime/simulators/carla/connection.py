@@ -31,8 +31,8 @@ def connect(client: ClientProcess, request: WorldRequest, *, ticks: bool) -> str
         ticks: This run makes the steps of the simulator.
 
     Raises:
-        SimulatorError: It is not there, of another version, or its time is somebody else's.
-        SettingsError: The steps of this run are not those of the simulator.
+        SimulatorError: It is missing, of another version, or another client controls its time.
+        SettingsError: The step size of this run differs from the simulator's.
     """
     address = request.options.get("carla", DEFAULT_ADDRESS)
     timeout = request.options.get("carla_timeout", TIMEOUT)
@@ -89,7 +89,7 @@ def _without_streams(found: Mapping[str, Any], host: str, port: int) -> str:
 
 
 def _take_over(client: ClientProcess, request: WorldRequest) -> None:
-    """End a synchronous mode that nobody keeps going, if that is asked for."""
+    """End a synchronous mode without steps, if requested."""
     if not request.options.get("carla_reset", False):
         raise SimulatorError(
             "CARLA is in synchronous mode, and no client makes its steps: one that ended left it"

@@ -17,7 +17,7 @@ class Gains(NamedTuple):
         throttle: Pedal per m/s^2 that is wanted: what one unit of throttle does not give.
         brake: Pedal per m/s^2 of braking.
         look: Seconds that it looks ahead for steering.
-        wheelbases: So many wheelbases at least.
+        wheelbases: Minimum of the distance ahead, in wheelbases.
     """
 
     proportional: float
@@ -39,4 +39,4 @@ GAINS: Mapping[str, Gains] = {
     "bicycle": Gains(0.6, 0.4, 0.5, 0.125, 0.5, 3.0),
 }
 """Gains by vehicle category; the others take those of a car. Found on a kinematic single-track
-model; vehicles of a real server may want others."""
+model; vehicles of a real server may need others."""

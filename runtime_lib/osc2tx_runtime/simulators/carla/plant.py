@@ -1,4 +1,4 @@
-"""The plant: what the world wishes goes to CARLA, and what has become of it comes back."""
+"""The plant: commanded states go to CARLA, and measured states come back."""
 
 from __future__ import annotations
 
@@ -35,14 +35,14 @@ class CarlaPlant:
     Args:
         client: Connected, on the map of the run.
         version: Of the server.
-        control: Who moves an actor, by its id; `""` stands for all others.
-        waiting: Seconds to wait for actors that somebody else spawns.
+        control: Control mode of an actor, by its id; `""` stands for all others.
+        waiting: Seconds to wait for actors of other clients.
         sensors: Sensor stacks.
         ticks: We make the steps of the simulator.
         dt: Length of a step (s).
         seed: Of the Traffic Manager.
         manager_port: Of the Traffic Manager.
-        attendance: Who attends the run.
+        attendance: The attendance of the run.
     """
 
     def __init__(
@@ -72,10 +72,10 @@ class CarlaPlant:
         self._struck: set[str] = set()  # those that took part in a contact
         self._default = self._default_control(sensors)
 
-    # --- what it can --------------------------------------------------------------------------
+    # --- capabilities -------------------------------------------------------------------------
 
     def control(self, actor: str) -> ControlMode:
-        """Who moves an actor; what cannot move by itself is where it is wished."""
+        """The control mode of an actor; objects without motion of their own are exact."""
         spec = self._specs.get(actor)
         drives = spec is None or (spec.movable and spec.kind in DRIVABLE)
         wanted = self._wanted.get(actor)
@@ -87,7 +87,7 @@ class CarlaPlant:
         return wanted
 
     def _default_control(self, sensors: SensorStacks) -> ControlMode:
-        """With physics where somebody else looks at the velocities of the actors, or hits them."""
+        """With physics where other clients read the velocities of the actors, or hit them."""
         others = any(each in EXTERNAL for each in self._wanted.values()) or self._spawning.waits
         default: ControlMode = "exact-physics" if others or sensors.see_velocities else "exact"
         return self._wanted.get("", default)
@@ -97,7 +97,7 @@ class CarlaPlant:
         return FEATURES
 
     def shape(self, spec: ActorSpec) -> Shape | None:
-        """That of the scenario; sizes of CARLA are known after spawning."""
+        """The shape of the scenario; sizes of CARLA are known after spawning."""
         self._specs[spec.id] = spec
         return None
 
@@ -188,7 +188,7 @@ class CarlaPlant:
             raise SimulatorError(
                 "another client makes steps of CARLA, too: only one can (--no-tick leaves it to it)"
                 if self._ticks
-                else f"CARLA went on by {looked['skipped'] + 1} steps at once: this run is too slow"
+                else f"CARLA advanced {looked['skipped'] + 1} steps at once: this run is too slow"
                 " for the client that makes them"
             )
         if abs(looked["dt"] - self._dt) > SAME_DT:
@@ -257,7 +257,7 @@ class CarlaPlant:
             )
 
     def _note_collisions(self, scene: Scene, looked: Mapping[str, Any]) -> None:
-        """Contacts as the simulator sees them; those of the trace's own test decide."""
+        """Contacts reported by the simulator; the trace's own test decides."""
         names = {member.actor: actor for actor, member in self._members.items()}
         for time, number, other, blueprint in looked["collisions"]:
             self._struck.update(names[each] for each in (number, other) if each in names)

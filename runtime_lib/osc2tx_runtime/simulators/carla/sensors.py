@@ -36,7 +36,7 @@ SUFFIXES: Mapping[str, Sequence[str]] = {
 
 UNPUBLISHED = ("sensor.other.obstacle", "sensor.other.rss", "sensor.other.v2x")
 MISSING_TOPICS = ("odometry", "vehicle_status", "vehicle_info")
-"""What the native ROS 2 of 0.9.16 has not, though the ROS bridge had."""
+"""Topics missing in the native ROS 2 of 0.9.16, though the ROS bridge had them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +60,7 @@ def read_stack(path: Path) -> tuple[Sensor, ...]:
     """Read a sensor stack.
 
     Raises:
-        InputError: It cannot be read, or is none.
+        InputError: It cannot be read, or is invalid.
     """
     try:
         content = json.loads(path.read_text(encoding="utf-8"))

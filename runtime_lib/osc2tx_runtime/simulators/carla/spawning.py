@@ -1,4 +1,4 @@
-"""How actors come into CARLA: spawned by us, or by somebody else whom we wait for."""
+"""Actors in CARLA: spawned by us, or by another client that we wait for."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from .frames import transform_of
 __all__ = ["Spawning"]
 
 OUT_OF_THE_WAY = 50.0
-"""Metres above the ground at which others are that are put to their place afterwards."""
+"""Height (m) above the ground at which actors are spawned before they are moved."""
 
-CLOSE = 8.0  # m: who may stand in the way
+CLOSE = 8.0  # m: radius of the search for blocking actors
 
 
 class Spawning:
@@ -28,7 +28,7 @@ class Spawning:
 
     Args:
         client: A connected one.
-        waiting: Seconds to wait for actors that somebody else spawns, by id.
+        waiting: Seconds to wait for actors of other clients, by id.
     """
 
     def __init__(self, client: ClientProcess, waiting: Mapping[str, float]) -> None:
@@ -39,15 +39,15 @@ class Spawning:
 
     @property
     def waits(self) -> bool:
-        """Whether somebody else spawns any actor."""
+        """Whether another client spawns any actor."""
         return bool(self._waiting)
 
     def awaited(self, actor: str) -> bool:
-        """Whether somebody else spawns an actor."""
+        """Whether another client spawns an actor."""
         return actor in self._waiting
 
     def wait(self, setpoint: Setpoint, control: ControlMode) -> CastMember:
-        """Return an actor that somebody else spawns.
+        """Return an actor that another client spawns.
 
         Raises:
             SimulatorError: It does not come in time.
@@ -97,7 +97,7 @@ class Spawning:
         return member_of(spec, found, control)
 
     def _refused(self, setpoint: Setpoint, blueprint: str, error: SimulatorError) -> SimulatorError:
-        """Say who stands in the way, if somebody does."""
+        """Name the actors that block a position, if there are any."""
         state = setpoint.state
         x, y, *_ = transform_of(Pose(state.x, state.y, state.z, state.h))
         near: list[Any] = self._client.ask("nearby", x, y, CLOSE)

@@ -31,7 +31,7 @@ def state_for(lamps: Sequence[Lamp], shown: Sequence[BulbState]) -> str:
 
 
 def lamps_for(lamps: Sequence[Lamp], state: str) -> tuple[BulbState, ...] | None:
-    """Return what the lamps of a light do in a state; None if nobody knows."""
+    """Return the lamps of a light in a state; None if they are unknown."""
     if state == "Unknown":
         return None
     color = dict(STATES).get(state)
@@ -94,7 +94,7 @@ MISSING: Mapping[str, str] = {
     "relative_humidity": "CARLA has no humidity",
     "wind_direction": "wind has no direction in CARLA",
 }
-"""What is only heard of in the scenario: its effects and conditions hold, nobody sees it."""
+"""Quantities of the scenario alone: their effects and conditions hold, but are not visible."""
 
 
 def losses_of(environment: Mapping[str, float]) -> tuple[str, ...]:
@@ -117,7 +117,7 @@ TYRE_FRICTION = 3.5
 
 
 class CarlaSurroundings:
-    """What is around the actors, and what shines on them.
+    """The surroundings of the actors, and their lights.
 
     Args:
         client: A connected one.
@@ -180,7 +180,7 @@ class CarlaSurroundings:
                 self._client.ask("set_light", name, state)
 
     def observe(self, scene: Scene, states: Mapping[str, Any]) -> None:
-        """Tell the scenario what the lights show that it has not switched."""
+        """Report to the scenario the states of lights that it has not switched."""
         signals = scene.signals
         for name, state in states.items():
             if name in self._shown or name not in self._signals:

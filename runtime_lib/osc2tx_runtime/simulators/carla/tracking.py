@@ -47,7 +47,7 @@ class SpeedControl:
     _sum: float = 0.0
 
     def reset(self) -> None:
-        """Forget the past: the vehicle was put somewhere, or its speed was set."""
+        """Forget the past: the vehicle was teleported, or its speed was set."""
         self._sum = 0.0
 
     def pedals(self, wanted: float, acceleration: float, speed: float, dt: float) -> Pedals:

@@ -22,7 +22,7 @@ from .sensors import SensorStacks
 __all__ = ["OPTIONS", "PATIENCE", "TRAFFIC_MANAGER_PORT", "WORLD"]
 
 PATIENCE = 60.0
-"""How long (s) to wait for an actor that somebody else spawns."""
+"""Time (s) to wait for an actor of another client."""
 
 TRAFFIC_MANAGER_PORT = 8000
 
@@ -90,7 +90,7 @@ OPTIONS: tuple[Option, ...] = (
     Option(
         "wait-for",
         "ACTOR[=SECONDS]",
-        "take this actor from whom spawns it, and leave it in the end",
+        "take over this actor from another client, and leave it in the end",
         parse_wait,
         dict,
     ),
@@ -101,7 +101,7 @@ OPTIONS: tuple[Option, ...] = (
     Option(
         "wait-control",
         "SECONDS",
-        "hold the scenario until somebody controls its external actors, for so long at most",
+        "hold the scenario until its external actors are controlled, for at most this time",
         lambda text: parse_seconds(text, "--wait-control 30s"),
     ),
     Option(

@@ -69,7 +69,7 @@ def _error(action: str, clash: _Clash) -> ScenarioError:
     match clash.kind:
         case "same thing":
             both = " and ".join(call.name for call in clash.calls)
-            return UnsupportedError(f"{action}: {both} speak of the same thing; give one")
+            return UnsupportedError(f"{action}: {both} constrain the same motion; give one")
         case "twice":
             return ScenarioError(f"{action} has {last.name} twice")
         case "no start":

@@ -17,7 +17,7 @@ def library(probe: Probe) -> Finding:
 
 @line(2, "port of the calls", blocks=True)
 def calls(probe: Probe) -> Finding:
-    """Somebody listens; what answers is looked at in the next line."""
+    """A process listens; its answers are checked in the next line."""
     where = ":".join(map(str, probe.address))
     try:
         probe.contact = probe.connect(probe.client)
@@ -62,7 +62,7 @@ def streams(probe: Probe) -> Finding:
 
 @line(6, "time", blocks=True)
 def time(probe: Probe) -> Finding:
-    """Nobody else makes the steps."""
+    """No other client makes the steps."""
     if not probe.contact["synchronous"]:
         return ok("free")
     if probe.contact["ticks"]:
@@ -70,4 +70,4 @@ def time(probe: Probe) -> Finding:
     if probe.request.fixes:
         probe.client.ask("free_time")
         return ok("free; a synchronous mode that a client had left behind was ended")
-    return differs("synchronous, and nobody makes the steps", "--fix or --carla-reset ends that")
+    return differs("synchronous, without steps", "--fix or --carla-reset ends that")

@@ -206,7 +206,7 @@ def rates(probe: Probe) -> Finding:
 
 @line(19, "walkers", drives=True)
 def walkers(probe: Probe) -> Finding:
-    """A walker walks at the speed that it is told, and its origin is in its middle."""
+    """A walker walks at the commanded speed, and its origin is in its middle."""
     driver, dt = probe.driving(), probe.request.world.dt
     x, y, z, _, yaw, _ = _start(probe)
     ahead = (math.cos(math.radians(yaw)), math.sin(math.radians(yaw)))

@@ -1,4 +1,4 @@
-"""What the lines of a check look with, and how one is declared."""
+"""The connections of the lines of a check, and their declaration."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = ["Finding", "Line", "Probe", "differs", "line", "ok", "unknown"]
 
 
 class Finding(NamedTuple):
-    """What a line has found; see `CheckResult`."""
+    """The finding of a line; see `CheckResult`."""
 
     status: CheckStatus
     found: str
@@ -41,14 +41,14 @@ def unknown(found: str, meaning: str = "") -> Finding:
 
 @dataclass
 class Probe:
-    """Connections and what they have told.
+    """Connections and their answers.
 
     Attributes:
-        request: What is to be checked.
-        client: Looks on, and changes nothing but what `fixes` asks for.
-        contact: What the first contact has found.
-        level: Of the server.
-        road_map: Of that level.
+        request: The task of the check.
+        client: An observer that changes nothing but what `fixes` requests.
+        contact: The result of the first contact.
+        level: The level of the server.
+        road_map: The map of that level.
         driver: A second connection, which makes steps; there from the first line that drives on.
         before: The situation before that.
     """
@@ -73,7 +73,7 @@ class Probe:
         return float(self.request.world.options.get("carla_timeout", TIMEOUT))
 
     def connect(self, client: ClientProcess) -> Mapping[str, Any]:
-        """Connect a process to the server, and return what it finds."""
+        """Connect a process to the server, and return its findings."""
         found: Mapping[str, Any] = client.ask(
             "connect", *self.address, self.timeout, patience=LOOKING
         )
@@ -101,8 +101,8 @@ class Line:
 
     Attributes:
         number: Its number.
-        name: What is compared.
-        look: Finds it out.
+        name: The compared property.
+        look: Compares it.
         drives: It takes the server over.
         blocks: A run cannot begin where it differs.
     """

@@ -36,7 +36,7 @@ def level(probe: Probe) -> Finding:
     except InputError as error:
         stem = request.map_file.rpartition("/")[2].removesuffix(".xodr")
         if stem == plain_name(name):
-            return ok(f"{name}; the file is not on this machine, that of the server is taken")
+            return ok(f"{name}; the file is not on this machine, the server's is used")
         return differs(error.message, "--map-path FOLDER, or --carla-load if the server has it")
     difference = difference_of(wanted, probe.road_map)
     if difference is None:
@@ -48,7 +48,7 @@ def level(probe: Probe) -> Finding:
 
 @line(10, "ground")
 def ground(probe: Probe) -> Finding:
-    """What is below the lanes is where OpenDRIVE has them."""
+    """The ground below the lanes is at the height of OpenDRIVE."""
     assert probe.road_map is not None
     places = []
     for road in sorted(probe.road_map.roads)[:POINTS]:
@@ -72,7 +72,7 @@ def ground(probe: Probe) -> Finding:
 
 @line(11, "size of the level")
 def size(probe: Probe) -> Finding:
-    """A level that is streamed needs somebody to stream it for."""
+    """A streamed level needs an actor to stream it for."""
     name = plain_name(probe.level["name"])
     roles = [each.role or each.id for each in probe.request.actors]
     if name not in LARGE or any("hero" in role for role in roles):
@@ -85,7 +85,7 @@ def size(probe: Probe) -> Finding:
 
 @line(12, "actors of others")
 def left_overs(probe: Probe) -> Finding:
-    """Nobody has the role names of the scenario already."""
+    """No other actor has the role names of the scenario."""
     there = probe.client.ask("situation")["actors"]
     roles = {each.role or each.id for each in probe.request.actors}
     taken = [(number, kind, role) for number, kind, role in there if role in roles]

@@ -1,4 +1,4 @@
-"""Requests about actors: own ones are gone in the end, those of others are as before."""
+"""Requests about actors: own ones are removed in the end, foreign ones are as before."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ import carla
 from .commands import transform
 from .session import Session
 
-POLL = 0.1  # s between two looks for an actor of somebody else
-ROLLING = 0.1  # m/s of a vehicle that somebody controls
+POLL = 0.1  # s between two looks for a foreign actor
+ROLLING = 0.1  # m/s of a controlled vehicle
 
 
 class Actors:
@@ -39,7 +39,7 @@ class Actors:
     def spawn(
         self, blueprint: str, attributes: Mapping[str, str], pose: Sequence[float], parent: int = 0
     ) -> Mapping[str, Any]:
-        """Make an actor that goes with the session, and return what it is like."""
+        """Make an actor of the session, and return its description."""
         description = self._session.world.get_blueprint_library().find(blueprint)
         for name, value in attributes.items():
             description.set_attribute(name, value)
@@ -77,7 +77,7 @@ class Actors:
             time.sleep(POLL)
 
     def borrow(self, actor_id: int) -> None:
-        """Take an actor of somebody else, which gets its physics and its pedals back in the end."""
+        """Take over a foreign actor, which gets its physics and its pedals back in the end."""
         actor = self._session.world.get_actor(actor_id)
         control = actor.get_control() if isinstance(actor, carla.Vehicle) else None
 
@@ -105,7 +105,7 @@ class Actors:
         return found
 
     def controlled(self, actors: Sequence[int]) -> bool:
-        """Return whether somebody has all these vehicles move."""
+        """Return whether all these vehicles are controlled."""
         return all(
             actor.get_control().throttle > 0.0 or actor.get_velocity().length() > ROLLING
             for actor in self._session.world.get_actors(list(actors))
@@ -113,7 +113,7 @@ class Actors:
         )
 
     def describe(self, actor: int) -> Mapping[str, Any]:
-        """Return what an actor is like."""
+        """Return the description of an actor."""
         return self._described(self._session.world.get_actor(actor))
 
     def nearby(self, x: float, y: float, radius: float) -> Sequence[Sequence[Any]]:
@@ -137,7 +137,7 @@ class Actors:
         self._session.undo.append(sensor.stop)
 
     def enable_for_ros(self, sensor: int) -> None:
-        """Have the server publish what a sensor sees, by its native ROS 2."""
+        """Have the server publish the data of a sensor, by its native ROS 2."""
         self._session.world.get_actor(sensor).enable_for_ros()
 
     def begin_autopilot(self, port: int, seed: int) -> int:

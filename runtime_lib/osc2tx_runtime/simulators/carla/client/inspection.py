@@ -1,4 +1,4 @@
-"""Requests of `osc2tx world check`: what a session would find, and would have to restore."""
+"""Requests of `osc2tx world check`: findings of a session, and values it would have to restore."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Inspection:
         return {"version": client.get_client_version(), "file": carla.__file__}
 
     def situation(self) -> Mapping[str, Any]:
-        """Return what a session may change: settings, weather, actors, camera, frozen lights."""
+        """Return what a session may change: settings, weather, actors, camera, lights."""
         world = self._session.world
         settings, weather, actors = world.get_settings(), world.get_weather(), world.get_actors()
         spawned = [each for each in actors if each.type_id.startswith(SPAWNED)]
@@ -58,7 +58,7 @@ class Inspection:
         self._session.client.apply_batch_sync(destroy, False)
 
     def ground(self, points: Sequence[Sequence[float]]) -> Sequence[float | None]:
-        """Return the height (m) of what is below each point; None where nothing is."""
+        """Return the height (m) of the ground below each point; None where there is none."""
         world = self._session.world
         found = [world.ground_projection(carla.Location(*point), REACH) for point in points]
         return [None if each is None else each.location.z for each in found]

@@ -22,7 +22,7 @@ def requests_of(holder: object) -> Iterator[tuple[str, Callable[..., Any]]]:
 
 def main() -> int:
     """Serve a session."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # who started it decides
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent process decides
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)  # the library prints warnings
     try:
@@ -43,14 +43,14 @@ def main() -> int:
             number, name, arguments = json.loads(line)
             try:
                 answer = [number, "value", requests[name](*arguments)]
-            except RuntimeError as error:  # all that the library raises
+            except RuntimeError as error:  # the only exception of the library
                 answer = [number, "error", str(error)]
-            except Exception:  # goes on, on the other side
+            except Exception:  # reported to the parent process
                 answer = [number, "bug", traceback.format_exc()]
             answers.write(json.dumps(answer) + "\n")
             answers.flush()
     except BrokenPipeError:
-        pass  # nobody is there any more to be answered
+        pass  # the parent process is gone
     finally:
         signal.alarm(LETTING_GO)
         session.close()

@@ -1,4 +1,4 @@
-"""A session with a server: what it changes it undoes in the end."""
+"""A session with a server: it undoes its changes in the end."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from . import release_of
 from .commands import command_of
 from .snapshots import Collisions, actor_state, light_states
 
-GLANCE = 0.5  # s to wait for a step of somebody else before it is looked for
+GLANCE = 0.5  # s to wait for a step of another client before it is looked for
 SUBSTEP, MOST_SUBSTEPS = 0.01, 16
 """s, and how many of them the server makes in a step at most."""
 
 LISTENS = 2.0  # s that a port has to take a connection
-TICKS = 2.0  # s without a step after which nobody makes them
+TICKS = 2.0  # s without a step after which no client counts as making them
 
 
 class Session:
@@ -34,7 +34,7 @@ class Session:
         undo: What undoes its changes, from the last one on.
         watched: Actors whose states a look returns.
         lights: Traffic lights, whose states it returns, too.
-        collisions: What sensors have told.
+        collisions: Reports of sensors.
     """
 
     def __init__(self) -> None:
@@ -51,7 +51,7 @@ class Session:
     # --- connection and map -------------------------------------------------------------------
 
     def connect(self, host: str, port: int, timeout: float) -> Mapping[str, Any]:
-        """Return what a first contact finds, up to the first thing that is missing.
+        """Return the findings of a first contact, up to the first missing part.
 
         Returns:
             `listens`: a port answers. `server`, `client`: versions; they have to be of one release,
@@ -109,7 +109,7 @@ class Session:
         return [each.rpartition("/")[2] for each in self.client.get_available_maps()]
 
     def load(self, name: str, patience: float) -> None:
-        """Load a map of the server, which may take so many seconds."""
+        """Load a map of the server, which may take a time (s)."""
         with self._patient(patience):
             self.world = self.client.load_world(name)
 
@@ -126,7 +126,7 @@ class Session:
 
     @contextmanager
     def _patient(self, seconds: float) -> Iterator[None]:
-        """Give calls more time: the library goes on trying for as long as one call may take."""
+        """Give calls more time: the library retries for as long as one call may take."""
         self.client.set_timeout(max(seconds, self.timeout))
         try:
             yield
@@ -136,7 +136,7 @@ class Session:
     # --- time ---------------------------------------------------------------------------------
 
     def own_time(self, dt: float) -> None:
-        """Take the time into our hands: steps of so many seconds, made by us."""
+        """Take over the time: steps of a length (s), made by us."""
         before = self.world.get_settings()
         self.undo.append(lambda: self.world.apply_settings(before))
         settings = self.world.get_settings()
@@ -148,7 +148,7 @@ class Session:
         self.world.apply_settings(settings)
 
     def step(self, commands: Sequence[Sequence[Any]]) -> Mapping[str, Any]:
-        """Carry out commands, go on by a step, and return how things are then."""
+        """Execute commands, make a step, and return the new state."""
         if self.ticks:
             self.apply(commands)
             self.world.tick(self.timeout)
@@ -216,8 +216,8 @@ class Session:
     def close(self) -> None:
         """Undo what the session changed.
 
-        A server that does not answer may come to itself again: this goes on until somebody ends
-        the process, or the server is gone.
+        A server that does not answer may recover: this continues until the process is ended, or the
+        server is gone.
         """
         while self.undo:
             try:

@@ -12,7 +12,7 @@ from .session import Session
 
 
 class Surroundings:
-    """Changes what is around the actors; its methods are requests.
+    """Changes the surroundings of the actors; its methods are requests.
 
     Args:
         session: A connected one.
@@ -24,7 +24,7 @@ class Surroundings:
         self._weather: Any = None  # before the first change
 
     def set_weather(self, values: Mapping[str, float]) -> None:
-        """Change the weather; what is not named stays."""
+        """Change the weather; values left out stay."""
         if self._weather is None:
             self._weather = self._session.world.get_weather()
             self._session.undo.append(lambda: self._session.world.set_weather(self._weather))
@@ -34,7 +34,7 @@ class Surroundings:
         self._session.world.set_weather(weather)
 
     def set_friction(self, friction: float | None) -> None:
-        """Have all tyres hold so much everywhere; None: as they do by themselves."""
+        """Set the friction of all tyres everywhere; None: the friction of the models."""
         own = self._session.world.get_actors(self._actors.own)
         for actor in own.filter("static.trigger.friction"):
             actor.destroy()
