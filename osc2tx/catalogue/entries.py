@@ -21,6 +21,8 @@ class ActionEntry:
         arguments: Parameters that the runtime takes.
         required: Those it cannot do without.
         modifiers: Modifiers that it honours.
+        modifiers_with: Which of them it honours with a value of a parameter, by that parameter;
+            `""`: without a value.
         moves: Whether it moves as its modifiers state, so that they must go together.
         physical: Whether it cannot let the actor jump.
         slots: The slots of the actor that it controls: `longitudinal`, `lateral`.
@@ -37,6 +39,7 @@ class ActionEntry:
     arguments: frozenset[str]
     required: frozenset[str]
     modifiers: frozenset[str]
+    modifiers_with: Mapping[str, Mapping[str, frozenset[str]]]
     moves: bool
     physical: bool
     slots: tuple[str, ...]
@@ -126,7 +129,12 @@ def catalogue() -> Catalogue:
 def _action(entry: Mapping[str, Any]) -> ActionEntry:
     sets = {name: frozenset(entry[name]) for name in ("arguments", "required", "modifiers")}
     tuples = {name: tuple(entry[name]) for name in ("slots", "needs")}
-    return ActionEntry(**{**entry, **sets, **tuples, "rules": _rules(entry["rules"])})
+    narrowed = {
+        parameter: {value: frozenset(names) for value, names in values.items()}
+        for parameter, values in entry["modifiers_with"].items()
+    }
+    rules = _rules(entry["rules"])
+    return ActionEntry(**{**entry, **sets, **tuples, "modifiers_with": narrowed, "rules": rules})
 
 
 def _modifier(entry: Mapping[str, Any]) -> ModifierEntry:

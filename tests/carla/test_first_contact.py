@@ -304,3 +304,16 @@ def test_actors_that_a_large_level_does_not_stream() -> None:
         said = message_of(in_carla(RunSettings(), server.port))
         assert "ego is dormant in CARLA" in said and "--carla-view ego" in said
         assert run(in_carla(RunSettings(), server.port, carla_view="ego")).status == "success"
+
+
+# --- speeds at the start ---------------------------------------------------------------------
+
+
+def test_driven_actors_start_at_their_speed() -> None:
+    """A speed that is given once sags; given for half a second it stays."""
+    with StandInProcess([OWN_MAPS], "highway", "--fault", "sagging") as server:
+        result = run(in_carla(RunSettings(max_time=2.0), server.port, control={"": "driven"}))
+    lines = [json.loads(each) for each in result.trace_lines]
+    speeds = [each["v"] for each in lines if each["kind"] == "state" and each["actor"] == "ego"]
+    settled = speeds[6:]  # 0.3 s
+    assert settled == pytest.approx([speeds[0]] * len(settled), abs=0.5)

@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterable, Sequence
 from types import MappingProxyType
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.argument_rules import Given, GivenArguments, by_name
+from osc2tx.backends.py_trees.argument_rules import Given, GivenArguments, by_name, word
 from osc2tx.backends.py_trees.combinations import CombinationCheck
-from osc2tx.catalogue import Catalogue, ModifierEntry, ObjectTables
+from osc2tx.catalogue import ActionEntry, Catalogue, ModifierEntry, ObjectTables
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx_shared.rules import Rule, violations
 
@@ -88,6 +88,7 @@ class CallCheck:
         if entry.moves:
             self._combinations.check(node, physical=entry.physical)
         self._modifiers(node, key, entry.modifiers)
+        self._narrowed(node, key, entry)
 
     def _user_action(self, node: ir.Invoke, key: str) -> None:
         """Check an action of a package of the user: it takes the parameters that it declares."""
@@ -110,6 +111,22 @@ class CallCheck:
         for modifier in node.modifiers:
             self._modifier(modifier, key, accepted)
         self._combinations.twice(node)
+
+    def _narrowed(self, node: ir.Invoke, key: str, entry: ActionEntry) -> None:
+        """Report modifiers that an action honours, but not with the arguments that it has."""
+        words = {argument.parameter: word(argument) for argument in node.arguments}
+        for parameter, values in entry.modifiers_with.items():
+            value = words.get(parameter, "")
+            honoured = entry.modifiers if value is None else values.get(value, entry.modifiers)
+            said = f" with `{parameter}: {value}`" if value else ""
+            for modifier in node.modifiers:
+                if modifier.name in entry.modifiers - honoured:
+                    self._sink.report(
+                        "OSC508",
+                        modifier.span,
+                        f"action `{key}`{said} cannot honour modifier `{modifier.name}`",
+                        help="it controls the same direction of motion itself",
+                    )
 
     def _modifier(self, modifier: ir.ModifierCall, action: str, accepted: frozenset[str]) -> None:
         entry = self._library.modifiers.get(modifier.name)

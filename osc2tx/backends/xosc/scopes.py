@@ -49,6 +49,19 @@ class Scope:
     own: list[CastMember] = field(default_factory=list)
     is_first: bool = True
 
+    def of(self, node: ir.InvokeScenario) -> Scope:
+        """Return the scope of an invoked scenario.
+
+        Raises:
+            Inexpressible: It is a scenario around it.
+        """
+        if node.span not in self.inner:
+            raise Inexpressible(
+                f"`{node.scenario}` invokes itself, and OpenSCENARIO XML has no recursion",
+                node.span,
+            )
+        return self.inner[node.span]
+
     def all(self) -> list[Scope]:
         """Return this scope and those below it, outer ones first."""
         return [self, *(scope for inner in self.inner.values() for scope in inner.all())]
@@ -104,7 +117,7 @@ def open_scopes(
         module: Where it stands.
         chosen: Values of open parameters, by their keys.
     """
-    return _Opener(module, chosen or {}).open(scenario, {}, {}, _Place("", ""))
+    return _Opener(module, chosen or {}).open(scenario, {}, {}, _Place("", "", (scenario.key,)))
 
 
 def key_of(path: str, parameter: ir.Parameter) -> str:
@@ -115,10 +128,11 @@ def key_of(path: str, parameter: ir.Parameter) -> str:
 
 
 class _Place(NamedTuple):
-    """Where a scenario is invoked: see `Scope`."""
+    """Where a scenario is invoked: see `Scope`, and the keys of it and those around it."""
 
     prefix: str
     path: str
+    around: tuple[str, ...]
 
 
 class _Opener:
@@ -163,8 +177,8 @@ class _Opener:
                 self._join(declaration, scope)
         first = _first_invocations(scenario.body)
         for node in ir.walk_behaviors(scenario.body):
-            if isinstance(node, ir.InvokeScenario):
-                inner = self._invoke(node, scope)
+            if isinstance(node, ir.InvokeScenario) and node.key not in place.around:
+                inner = self._invoke(node, scope, place.around)
                 inner.is_first = scope.is_first and node.span in first
         return scope
 
@@ -183,7 +197,7 @@ class _Opener:
         scope.cast[actor.name] = member
         scope.values.know(actor.name, member.sizes)
 
-    def _invoke(self, node: ir.InvokeScenario, scope: Scope) -> Scope:
+    def _invoke(self, node: ir.InvokeScenario, scope: Scope, around: tuple[str, ...]) -> Scope:
         given: dict[str, Constant] = {}
         unknown: dict[str, Inexpressible] = {}
         handed_in: dict[str, CastMember] = {}
@@ -203,7 +217,7 @@ class _Opener:
         callee = self._by_key[node.key]
         label = node.label or callee.name.rpartition(".")[2]
         path = self._paths.new(f"{scope.path}_{label}" if scope.path else label)
-        place = _Place(f"{scope.prefix}{label}_", path)
+        place = _Place(f"{scope.prefix}{label}_", path, (*around, callee.key))
         inner = self.open(callee, given, handed_in, place, unknown)
         scope.inner[node.span] = inner
         if node.label is not None:

@@ -89,6 +89,8 @@ def _chain(b: Builder, children: list[Tree]) -> ast.Expression:
         position += 1
         while position < size and b.types[children[position]] not in _OPERATORS:
             node, position = _postfix(b, node, start, children, position)
+        if position == size and not pending:
+            return node
         last = children[position - 1]
         end = b.ends[last if isinstance(last, int) else last.stop]
         operands.append(_Operand(node, start, end))

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from types import FunctionType
 from typing import Any, get_args, get_type_hints
 
@@ -28,10 +28,11 @@ def actions() -> dict[str, dict[str, Any]]:
     """List the registered actions of actors, `vehicle.drive`, in sorted order.
 
     Returns:
-        For each its `arguments`, which of them are `required`, the `modifiers` that it accepts, its
-        `slots`, how it `ends`, whether it `moves` as its modifiers state and whether that has to be
-        `physical`, whether it `places` and `paces`, what it `needs` of a world, the
-        `rules` of its arguments and why it is `undeclared`.
+        For each its `arguments`, which of them are `required`, the `modifiers` that it accepts, and
+        which of these `modifiers_with` values of a parameter, its `slots`, how it `ends`, whether
+        it `moves` as its modifiers state and whether that has to be `physical`, whether it
+        `places` and `paces`, what it `needs` of a world, the `rules` of its arguments and why it
+        is `undeclared`.
     """
     return {
         method.qualified_name: _action(method, method.factory)
@@ -87,11 +88,14 @@ def _is_unit(name: str, value: object) -> bool:
 
 
 def _action(method: RegisteredMethod, factory: type[Action]) -> dict[str, Any]:
-    accepted = [kind.name for kind in factory.accepts if issubclass(kind, Modifier)]
     return {
         "arguments": _arguments(factory.__init__),
         "required": _required(factory.__init__),
-        "modifiers": sorted(accepted),
+        "modifiers": _names(factory.accepts),
+        "modifiers_with": {
+            parameter: {value: _names(kinds) for value, kinds in values.items()}
+            for parameter, values in factory.accepts_with.items()
+        },
         "moves": issubclass(factory, ModifiableAction) and not factory.stands,
         "physical": factory.physical,
         "slots": list(method.slots),
@@ -102,6 +106,11 @@ def _action(method: RegisteredMethod, factory: type[Action]) -> dict[str, Any]:
         "rules": _rules(factory.rules),
         "undeclared": method.undeclared,
     }
+
+
+def _names(kinds: Iterable[type]) -> list[str]:
+    """Return modifiers by name, each once."""
+    return sorted({kind.name for kind in kinds if issubclass(kind, Modifier)})
 
 
 def _modifier(kind: type[Modifier]) -> dict[str, Any]:

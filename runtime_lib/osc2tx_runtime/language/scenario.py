@@ -18,11 +18,11 @@ from osc2tx_runtime.language.tree.duration_limits import Duration
 from osc2tx_runtime.language.tree.events import Event, Guard, Trigger
 from osc2tx_runtime.language.tree.invocation import (
     Invocation,
-    check_recursion,
     draw_key,
     unique_name,
 )
 from osc2tx_runtime.language.tree.override import Mode
+from osc2tx_runtime.language.tree.recursion import Recursion, is_recursive
 from osc2tx_runtime.language.tree.variables import MISSING, Boundary, Sampled
 from osc2tx_runtime.language.values.broken_values import not_computed
 
@@ -189,20 +189,23 @@ class BaseScenario(ScenarioParts):
             **arguments: Its parameters (a range is drawn from) and actors.
 
         Raises:
-            ScenarioError: If it invokes itself, or does not take the arguments.
+            ScenarioError: If it does not take the arguments.
         """
         label, (scenario,) = split_label(label_and_scenario)
-        check_recursion(self, scenario)
         given = arguments if actor is None else {"actor": actor, **arguments}
         name = unique_name(label or known_as or scenario.name.rpartition(".")[2], self._invoked)
         path = f"{self._path}.{name}" if self._path else name
+        who = label or (f"{actor.id} {name}" if actor is not None else name)
         key = label or draw_key(self, scenario, actor, arguments)
         key = unique_name(key if self._caller is None else f"{self._caller.key}/{key}", self._keys)
         self._keys[key] = None
-        invoked = scenario(self.settings, caller=Caller(self, path, key, given), **given)
-        self._invoked[name] = invoked
-        who = f"{actor.id} {name}" if actor is not None else name
-        return Invocation(label or who, invoked, invoked.create_tree(), duration)
+
+        def made() -> Invocation:
+            invoked = scenario(self.settings, caller=Caller(self, path, key, given), **given)
+            self._invoked[name] = invoked
+            return Invocation(who, invoked, invoked.create_tree(), duration)
+
+        return Recursion(who, self, scenario, made) if is_recursive(self, scenario) else made()
 
     def override(self, overridden: str, by: str, mode: Mode = "on_start") -> None:
         """Let a behavior end another when it starts; call it in `behavior`.

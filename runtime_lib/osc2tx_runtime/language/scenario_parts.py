@@ -77,6 +77,7 @@ class ScenarioParts(ScenarioValues):
         self._keys: dict[str, None] = {}
         self._inner_events: dict[str, Event] = {}
         self._overrides: list[tuple[str, str, Mode]] = []
+        self._recursions = 0
 
     @property
     def short_name(self) -> str:

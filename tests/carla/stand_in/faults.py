@@ -12,6 +12,7 @@ from .blueprints import BLUEPRINTS, VEHICLES
 from .simulation import Simulation
 
 LIFE_SPAN = 20  # steps that a walker that was hit is still there
+SPIN_UP, SLIP = 0.3, 0.12  # shares of a step
 STREAMED = 100.0  # m around what a large level shows
 Calls = dict[str, Callable[..., Any]]
 
@@ -76,16 +77,26 @@ def loose(simulation: Simulation, calls: Calls) -> None:
 
 
 def sagging(simulation: Simulation, calls: Calls) -> None:
-    """A body that is given a speed loses it: wheels and gear were not told (carla issue 3710)."""
-    batch = calls["apply_batch"]
+    """A body that is given a speed loses it: wheels and gear were not told (carla issue 3710).
 
-    def slower(commands: list[Any], tick: bool = False) -> list[Any]:
-        for ((number, fields),) in commands:
-            if number == 8:
-                fields[1] = [0.7 * each for each in fields[1]]
-        return list(batch(commands, tick))
+    Wheels come up to the speed of the body by a share of the difference in each step, and slow it
+    down by another one.
+    """
+    tick = calls["tick_cue"]
+    wheels: dict[int, float] = {}
 
-    calls["apply_batch"] = slower
+    def slipping() -> int:
+        for actor in simulation.actors.values():
+            if actor.kind != "vehicle" or not actor.gravity:
+                continue
+            speed = math.hypot(*actor.velocity[:2])
+            slip = max(speed - wheels.get(actor.id, 0.0), 0.0)
+            wheels[actor.id] = speed - (1.0 - SPIN_UP) * slip
+            if speed > 0.0:
+                actor.velocity = [v * (1.0 - SLIP * slip / speed) for v in actor.velocity]
+        return int(tick())
+
+    calls["tick_cue"] = slipping
 
 
 def weak(simulation: Simulation, calls: Calls) -> None:

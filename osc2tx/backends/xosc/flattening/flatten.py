@@ -244,7 +244,7 @@ class Flattener:
 
     def _scenario(self, node: ir.InvokeScenario, start: Flow) -> Flow:
         """Write down an invoked scenario in place."""
-        inner = self._ctx.scope.inner[node.span]
+        inner = self._ctx.scope.of(node)
         with self._ctx.within(inner):
             end = self._member(inner.scenario.body, start)
         self._ctx.report.exact("scenario invocation", node.span)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, TypedDict
 
 from osc2tx_runtime.errors import UnsupportedError
@@ -41,6 +42,7 @@ class Action(BaseAction):
 
     Attributes:
         accepts: Types of modifiers the action takes; others are an `UnsupportedError` at setup.
+        accepts_with: Which of these it takes with a value of a parameter; `""`: without a value.
         physical: It moves the actor, and cannot let it jump (`prefer_non_physical`).
         actor: The actor.
         modifiers: As given.
@@ -48,6 +50,7 @@ class Action(BaseAction):
     """
 
     accepts: ClassVar[tuple[type, ...]] = ()
+    accepts_with: ClassVar[Mapping[str, Mapping[str, tuple[type, ...]]]] = MappingProxyType({})
     physical: ClassVar[bool] = False
 
     def __init__(

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.declared import BaseActor
 from osc2tx_runtime.language.tree.base import Behaviour, Node
 from osc2tx_runtime.language.tree.compositions import OneOf, Serial, is_service
@@ -17,7 +16,6 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Invocation",
-    "check_recursion",
     "draw_key",
     "own_nodes",
     "started_at_once",
@@ -42,20 +40,6 @@ class Invocation(Serial):
     ) -> None:
         super().__init__(name, body, duration=duration)
         self.scenario = scenario
-
-
-def check_recursion(scenario: ScenarioParts, invoked: type[ScenarioParts]) -> None:
-    """Refuse a scenario that invokes itself, directly or through others.
-
-    Raises:
-        ScenarioError: If it does.
-    """
-    chain = [scenario]
-    while chain[-1]._caller is not None:
-        chain.append(chain[-1]._caller.scenario)
-    if any(type(one) is invoked for one in chain):
-        names = [one.name for one in reversed(chain)] + [invoked.name]
-        raise ScenarioError(f"scenarios invoke themselves: {' -> '.join(names)}", scenario.source)
 
 
 def draw_key(

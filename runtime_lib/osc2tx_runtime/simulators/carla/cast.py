@@ -32,6 +32,10 @@ DISPLACED = 0.05
 
 SIZE_NOTED = 0.1  # m between the sizes of scenario and simulator that are worth a line
 STILL = 0.05  # m/s
+KICKING = 0.5
+"""Seconds for which a body that was given a speed gets it in each step: gear and wheels, which no
+call reaches, come up to it meanwhile (carla issues 3710 and 4839)."""
+
 NO_WAY = 1e-3  # m: less than that does not have a walker set a foot before the other
 LEAST_SIZE = 0.3  # m of a vehicle or walker
 KPH = 3.6  # km/h in a m/s
@@ -70,6 +74,7 @@ class CastMember:
     _gravity: bool = True
     _placed: Sequence[float] | None = None
     _found: Sequence[float] = ()
+    _kicking: float = 0.0
 
     @property
     def is_vehicle(self) -> bool:
@@ -128,6 +133,7 @@ class CastMember:
         state = setpoint.state
         if setpoint.towed or self.control in EXACT or self.foreign:
             return []
+        self._kicking = KICKING
         return [self._velocity(state)]
 
     def commands(self, setpoint: Setpoint, dt: float) -> list[Command]:
@@ -143,9 +149,13 @@ class CastMember:
             commands.append(("place", self.actor, *self.transform(setpoint.state)))
         if setpoint.jumps or setpoint.kicked:
             self.speed.reset()
+            self._kicking = KICKING
             return [*commands, self._velocity(setpoint.state)]
         if self.control == "driven" and self.now is not None:
+            if self._kicking > 0.0 and self.is_vehicle and setpoint.state.v:
+                commands.append(self._velocity(setpoint.state))
             commands.append(self._driven(setpoint, self.now, dt))
+        self._kicking -= dt
         return commands
 
     def _velocity(self, state: ActorState) -> Command:

@@ -276,7 +276,7 @@ class StoryboardBuilder:
         found = [cast[name].name for name in actors_of(member) if name in cast]
         for node in ir.walk_behaviors(member):
             if isinstance(node, ir.InvokeScenario):
-                with self.ctx.within(self.ctx.scope.inner[node.span]):
+                with self.ctx.within(self.ctx.scope.of(node)):
                     found.extend(self.acting(self.ctx.scope.scenario.body))
         return list(dict.fromkeys(found))
 

@@ -7,6 +7,7 @@ front. A gap in time across the road is the gap over the lateral speed towards t
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, Unpack, get_args
 
 from osc2tx_runtime.domain.modifiers import Modifier, Value, value_of
@@ -49,6 +50,7 @@ class _OneAxis(ModifiableAction):
 
     accepts: ClassVar[tuple[type, ...]] = (*SIDE_FREE, *SPEED_FREE)
     physical = True
+    direction: str
     measure: Literal["gap", "headway"] = "gap"
     timed = False
 
@@ -81,7 +83,7 @@ class _OneAxis(ModifiableAction):
 
     def takes(self, modifier: Modifier) -> bool:
         """Whether the action can carry out a modifier."""
-        free = SPEED_FREE if LATERAL in self.own else SIDE_FREE
+        free = self.accepts_with.get("direction", {}).get(self.direction, self.accepts)
         return super().takes(modifier) and isinstance(modifier, free)
 
     def setup(self, **kwargs: Any) -> None:
@@ -97,6 +99,12 @@ class _OneAxis(ModifiableAction):
 
 class _ChangeGap(_OneAxis):
     """Reaches a distance or time to another actor, at the end of its duration if it has one."""
+
+    accepts_with: ClassVar[Mapping[str, Mapping[str, tuple[type, ...]]]] = {
+        "direction": {
+            each: SIDE_FREE if each in ("ahead", "behind") else SPEED_FREE for each in _DIRECTIONS
+        }
+    }
 
     def __init__(
         self,
@@ -201,6 +209,10 @@ class ChangeTimeHeadway(_ChangeHeadway):
 
 class _KeepGap(_OneAxis):
     """Holds the distance or time to another actor that there is at the start."""
+
+    accepts_with: ClassVar[Mapping[str, Mapping[str, tuple[type, ...]]]] = {
+        "direction": {"": SIDE_FREE, "longitudinal": SIDE_FREE, "lateral": SPEED_FREE}
+    }
 
     def __init__(
         self,

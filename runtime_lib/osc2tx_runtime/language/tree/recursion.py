@@ -1,0 +1,116 @@
+"""Scenarios that invoke themselves: what leads back is made when it starts.
+
+A tree that held itself would have no end, so an invocation of a scenario that runs around it stands
+for one that is made at its start. How deep and how often is bounded: beyond that it fails, which
+ends an alternative of a `one_of` and leaves the others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from osc2tx_runtime.errors import UnsupportedError
+from osc2tx_runtime.language.tree.base import RUNNING, Behaviour, Node, Status, ended_late, pulse_of
+
+if TYPE_CHECKING:
+    from osc2tx_runtime.language.scenario_parts import ScenarioParts
+    from osc2tx_runtime.language.tree.invocation import Invocation
+
+__all__ = ["MOST_INVOCATIONS", "MOST_LEVELS", "Recursion", "is_recursive"]
+
+MOST_LEVELS = 30
+"""Levels of one scenario within itself."""
+
+MOST_INVOCATIONS = 1000
+"""Invocations of all scenarios within themselves, in one run."""
+
+
+def is_recursive(scenario: ScenarioParts, invoked: type[ScenarioParts]) -> bool:
+    """Return whether a scenario is invoked by itself, directly or through others."""
+    return levels(scenario, invoked) > 0
+
+
+def levels(scenario: ScenarioParts, invoked: type[ScenarioParts]) -> int:
+    """Return how many scenarios of a class a scenario runs in."""
+    found, current = 0, scenario
+    while True:
+        found += type(current) is invoked
+        if current._caller is None:
+            return found
+        current = current._caller.scenario
+
+
+class Recursion(Node):
+    """An invocation that is made when it starts.
+
+    Args:
+        name: As of the invocation.
+        caller: The scenario that invokes.
+        invoked: The class of the scenario.
+        make: Makes the invocation.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        caller: ScenarioParts,
+        invoked: type[ScenarioParts],
+        make: Callable[[], Invocation],
+    ) -> None:
+        super().__init__(name)
+        self._caller_scenario = caller
+        self._invoked = invoked
+        self._make = make
+        self._pulse_child: Callable[[], Status] | None = None
+
+    def length(self) -> int | None:
+        """Return nothing: only the run can tell."""
+        return None
+
+    def initialise(self) -> None:
+        """Make the invocation, unless there are too many already."""
+        self.children, self._pulse_child = [], None
+        root = self._caller_scenario._root
+        root._recursions += 1
+        is_deep = levels(self._caller_scenario, self._invoked) > MOST_LEVELS
+        if is_deep or root._recursions > MOST_INVOCATIONS:
+            return
+        known = set(root.actors)
+        made = self._make()
+        if set(root.actors) != known or made.scenario.placements:
+            raise UnsupportedError(
+                f"{self._invoked.name} declares or places actors of its own in an invocation within"
+                " itself: hand them in",
+                self.source or None,
+            )
+        self.children = [made]
+        made.parent = self
+        for node in made.iterate():
+            node.setup(context=self.context)
+            if isinstance(node, Node):
+                node.position = self.position
+        self._pulse_child = pulse_of(made)
+
+    def lateness(self) -> float:
+        """Return that of the invocation."""
+        return ended_late(self.children[0]) if self.children else 0.0
+
+    def pulse(self) -> Status:
+        """Run the invocation for one pass."""
+        if self.status is not RUNNING:
+            self._begin()
+        resting = self.context.resting.nodes
+        if self._pulse_child is None:
+            status = self.fail(
+                f"{self._invoked.name} invokes itself more than {MOST_LEVELS} levels deep, or more"
+                f" than {MOST_INVOCATIONS} times in all"
+            )
+        else:
+            child: Behaviour = self.children[0]
+            status = RUNNING if child in resting else self._pulse_child()
+            if child in resting:
+                resting.add(self)
+        if status is not RUNNING:
+            self.stop(status)
+        return self.status
