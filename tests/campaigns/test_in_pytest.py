@@ -160,5 +160,5 @@ def test_rows_that_are_run_together(pytester: pytest.Pytester, how: str) -> None
 
 @pytest.mark.slow
 def test_a_campaign_that_nothing_ends_is_refused(scenario: Path) -> None:
-    with pytest.raises(CampaignError, match="say how many rows"):
+    with pytest.raises(CampaignError, match="state the number of rows"):
         run_campaign(scenario)
