@@ -9,7 +9,7 @@ ifneq ($(wildcard ../shared),)
 export OSC2TX_TEST_DATA ?= $(abspath ../shared)
 endif
 
-.PHONY: coverage docs docs-diagnostics docs-config demo demo-carla dist compiled test test-carla test-cluster test-slow lint goldens parser tables clean
+.PHONY: coverage docs docs-diagnostics docs-config demo demo-carla dist compiled fuzz test test-carla test-cluster test-slow lint goldens parser tables clean
 
 demo: $(STAMP)
 	$(BIN)/osc2tx build scenarios/ -o generated/ --quiet
@@ -67,6 +67,12 @@ compiled: $(STAMP)
 	rm -rf build/runtime_lib && mkdir -p build dist && cp -r runtime_lib build/runtime_lib
 	HATCH_BUILD_HOOK_ENABLE_MYPYC=1 $(BIN)/python -m pip wheel --quiet --no-deps -w dist build/runtime_lib
 	OSC2TX_COMPILED=$(abspath dist) $(BIN)/pytest -q tests/packaging/test_compiled.py
+
+# Random inputs of all kinds until the time is up; findings, cut down, are in out/fuzz.
+SECONDS ?= 600
+SEED ?= 1
+fuzz: $(STAMP)
+	$(BIN)/python tests/fuzz/run.py --quick --seconds $(SECONDS) --seed $(SEED)
 
 lint: $(STAMP)
 	$(BIN)/ruff check .

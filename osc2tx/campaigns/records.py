@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from math import isfinite
 from types import NoneType
 from typing import Any
 
@@ -125,11 +126,22 @@ def decoded(values: Sequence[Any]) -> dict[str, Any]:
     found = dict(zip(COLUMNS, values, strict=True))
     for name in ("shares", "given", "parameters", "measures", "violations"):
         found[name] = None if found[name] is None else json.loads(found[name])
+    if not all(map(_is_finite, found.values())):
+        raise ValueError("a number is not finite")
     require_types(found, ROW_TYPES)
     require_types(found["measures"], dict.fromkeys(found["measures"], (*_NUMBER, NoneType)))
     if not all(isinstance(each, str) for each in found["violations"]):
         raise ValueError("`violations` are no texts")
     return found
+
+
+def _is_finite(value: Any) -> bool:
+    """Whether all numbers of a decoded value are finite; it is flat, or damaged."""
+    if isinstance(value, dict):
+        return all(map(_is_finite, value.values()))
+    if isinstance(value, list):
+        return all(map(_is_finite, value))
+    return not isinstance(value, float) or isfinite(value)
 
 
 def require_types(values: Mapping[str, Any], types: Mapping[str, Any]) -> None:

@@ -27,7 +27,7 @@ from osc2tx.campaigns.records import (
     require_types,
 )
 from osc2tx_runtime.campaigns import RowResult
-from osc2tx_runtime.errors import told
+from osc2tx_runtime.errors import NO_RESULT, told
 from osc2tx_shared.links import target_outside
 
 __all__ = ["CampaignError", "Store"]
@@ -91,7 +91,7 @@ class _Database:
     def _failures(self) -> Iterator[None]:
         try:
             yield
-        except sqlite3.Error as error:
+        except (sqlite3.Error, UnicodeDecodeError) as error:
             raise CampaignError(
                 f"{self._path}: {error}; the rows that were stored before are kept, as far as the"
                 " file can be read"
@@ -214,7 +214,7 @@ class Store:
         """
         try:
             yield
-        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+        except (*NO_RESULT, AttributeError, TypeError) as error:
             raise CampaignError(
                 f"{self.path}: {what} is damaged ({told(error)}); nothing was changed"
             ) from error

@@ -22,6 +22,10 @@ if TYPE_CHECKING:
     import pint
 
 
+LARGEST, SMALLEST = 1e15, 1e-30
+"""Sizes of a quantity in SI units: products and quotients of several stay numbers."""
+
+
 def constant_number(r: Resolution, expression: ast.Expression) -> float | None:
     """Return the value of a number, in SI if it has a unit; `None` for anything else."""
     sign = 1
@@ -73,8 +77,8 @@ def _define(
 ) -> str:
     """Define a unit under a name of our own: authored names need not suit pint."""
     powers = zip(SI_BASES, dimension.exponents, strict=True)
-    product = " * ".join(f"{_BASES[base]} ** {power}" for base, power in powers if power)
+    product = "".join(f" * {_BASES[base]} ** {power}" for base, power in powers if power)
     name = f"osc_unit_{_define.cache_info().currsize}"
     shift = f"; offset: {offset!r}" if offset else ""
-    registry.define(f"{name} = {factor!r} * {product or 'dimensionless'}{shift}")
+    registry.define(f"{name} = {factor!r}{product}{shift}")
     return name

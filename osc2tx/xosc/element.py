@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from math import isfinite
 from typing import Any, NamedTuple, Self, TypeAlias, TypeVar
 
 from osc2tx.xosc.expressions import Symbol
@@ -268,10 +269,13 @@ def text_of(value: Value) -> str:
     """Return the text of a value; numbers are as short as possible, without exponent.
 
     Raises:
-        Unwritable: It is a text that XML cannot hold, or that readers take for a parameter.
+        Unwritable: It is a text that XML cannot hold, or that readers take for a parameter, or a
+            number beyond any world.
     """
     if isinstance(value, bool):
         return "true" if value else "false"
+    if isinstance(value, float) and not isfinite(value):
+        raise Unwritable(f"a number in it is {value:g}, which no world has")
     if isinstance(value, Symbol):
         return value.attribute
     if isinstance(value, float):

@@ -18,6 +18,7 @@ from lxml import etree
 
 from osc2tx.building.ownership import stated_source
 from osc2tx.building.written_digests import DIGESTS_NAME, read_digests
+from osc2tx.campaigns import CampaignError
 from osc2tx.config import ConfigError, ConfigFiles, GivenOptions
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.language.source_map import parse_source_map
@@ -26,6 +27,7 @@ from osc2tx_runtime.report.page import render_report
 from osc2tx_runtime.running.options import OPTIONS, read_options
 from osc2tx_shared.text import visible
 from tests.fuzz.mutations import SPICE
+from tests.fuzz.stores import read_store, write_damage
 
 MAPS = Path(__file__).parents[2] / "runtime_lib/osc2tx_runtime/maps"
 NUMBERS = (
@@ -330,5 +332,6 @@ INPUTS = {
         Input("digests", _json(DIGESTS), read_some_digests),
         Input("settings", write_settings, read_settings, (ConfigError,)),
         Input("options", write_options, read_some_options, (ScenarioError,)),
+        Input("stores", write_damage, read_store, (CampaignError, ScenarioError)),
     )
 }

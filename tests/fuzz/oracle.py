@@ -26,6 +26,7 @@ from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.diagnostics.render import render_all
 from osc2tx.options import PRODUCT_NAMES, CompileOptions
 from osc2tx_runtime import RunSettings, ScenarioError, run_scenario
+from osc2tx_runtime.report.page import render_report
 from tests.fuzz.inputs import Input
 
 Look = Literal["whole", "quick"]
@@ -59,7 +60,13 @@ class Hangs(BaseException):
 
 
 def try_text(
-    text: str, options: CompileOptions, *, execute: bool = False, look: Look = "whole"
+    text: str,
+    options: CompileOptions,
+    *,
+    execute: bool = False,
+    look: Look = "whole",
+    place: Path | None = None,
+    simulated: float = SIMULATED_SECONDS,
 ) -> Finding | None:
     """Compile a text through all stages and return what went wrong.
 
@@ -69,14 +76,21 @@ def try_text(
         execute: Import the module, if there is one, and run its scenarios for a moment.
         look: A quick look prints no products and does without black and the second compilation,
             which take most of the time.
+        place: The file that has the text; a file of its own if left out.
+        simulated: Seconds that its scenarios run.
     """
 
     def attempt(folder: Path) -> None:
-        path = folder / "fuzzed.osc"
-        path.write_bytes(text.encode("utf-8", "surrogateescape"))
-        module = _compile(path, options) if look == "whole" else _compile_quickly(path, options)
+        path = place or folder / "fuzzed.osc"
+        if place is None:
+            path.write_bytes(text.encode("utf-8", "surrogateescape"))
+
+        def compilation() -> Compilation:
+            return Compilation(path, path.name, options, text=text if place else None)
+
+        module = _compile(compilation) if look == "whole" else _compile_quickly(compilation)
         if module is not None and execute:
-            _execute(module)
+            _execute(module, path.parent, simulated)
 
     return _tried(attempt, SECONDS + SECONDS_OF_A_LINE * text.count("\n"))
 
@@ -127,12 +141,12 @@ def is_built(text: str, options: CompileOptions) -> bool:
         return Compilation(path, path.name, options).module is not None
 
 
-def _compile(path: Path, options: CompileOptions) -> GeneratedModule | None:
-    compilation = Compilation(path, path.name, options)
+def _compile(compilation_of: Callable[[], Compilation]) -> GeneratedModule | None:
+    compilation = compilation_of()
     for product in PRODUCT_NAMES:
         dump_product(compilation, product)
     diagnostics = compilation.diagnostics
-    render_all(diagnostics, color=False, folder=path.parent)
+    render_all(diagnostics, color=False, folder=compilation.path.parent)
     for diagnostic in diagnostics:
         span = diagnostic.primary
         if span and not 0 <= span.start <= span.end <= len(span.source.text):
@@ -144,30 +158,31 @@ def _compile(path: Path, options: CompileOptions) -> GeneratedModule | None:
         raise Refuted("a module although there are errors")
     ast.parse(module.python)
     compile(module.python, "fuzzed.py", "exec")
-    again = Compilation(path, path.name, options).module
+    again = compilation_of().module
     if again is None or again.python != module.python:
         raise Refuted("another module the second time")
     return module
 
 
-def _compile_quickly(path: Path, options: CompileOptions) -> GeneratedModule | None:
-    compilation = Compilation(path, path.name, options)
+def _compile_quickly(compilation_of: Callable[[], Compilation]) -> GeneratedModule | None:
+    compilation = compilation_of()
     _ = compilation.xml
     if not compilation.has_module or compilation.ir is None:
-        render_all(compilation.diagnostics, color=False, folder=path.parent)
+        render_all(compilation.diagnostics, color=False, folder=compilation.path.parent)
         return None
     module = emit(compilation.ir, compilation.sharing)
     compile(module.python, "fuzzed.py", "exec")
     return module
 
 
-def _execute(module: GeneratedModule) -> None:
+def _execute(module: GeneratedModule, maps: Path, simulated: float) -> None:
     """Run the scenarios of a module: to a verdict, or to an error that the runtime explains."""
-    settings = RunSettings(max_time=SIMULATED_SECONDS)
+    settings = RunSettings(max_time=simulated, map_path=(maps,))
     with ExitStack() as imported, explained():
         for scenario in imported.enter_context(scenarios_of_module(module)).values():
             with explained():
-                run_scenario(scenario, settings, keep_trace=False)
+                result = run_scenario(scenario, settings)
+                render_report(result.trace_lines)
 
 
 @contextmanager

@@ -8,11 +8,13 @@ It makes texts by
 - `mutations` of scenarios, goldens and the library (tests/fuzz/mutations.py);
 - `grammar`: from grammar/OpenSCENARIO2.g4, every rule but no types (tests/fuzz/grammar.py);
 - `tokens`: words and signs of the language in any order;
+- `extremes`: a number of a scenario of the repository, or of `$OSC2TX_TEST_DATA/corpus`, replaced
+  by one that nobody would write (tests/fuzz/extremes.py);
 
 and compiles each through all stages, imports the module if there is one, and runs its scenarios
 for a moment. What must not happen is in tests/fuzz/oracle.py: an exception, a module that Python
 does not take or that differs the second time, a diagnostic that points nowhere, slowness. Other
-inputs (maps, traces, settings, ...: tests/fuzz/inputs.py) are read by what reads them.
+inputs (maps, traces, settings, stores, ...: tests/fuzz/inputs.py) are read by what reads them.
 
 Each gets its share of a round (`SHARES`). With `--quick` only one text of fifty gets the whole
 look, so that a million inputs are some hours of a processor.
@@ -27,6 +29,7 @@ from __future__ import annotations
 
 import argparse
 import gc
+import os
 import sys
 import time
 from collections import Counter
@@ -40,19 +43,20 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT), str(ROOT / "runtime_lib")]
 
 from osc2tx.options import DIALECTS, STANDARDS, CompileOptions  # noqa: E402
+from tests.fuzz.extremes import SECONDS, write_extreme  # noqa: E402
 from tests.fuzz.grammar import write_text  # noqa: E402
 from tests.fuzz.inputs import INPUTS  # noqa: E402
 from tests.fuzz.mutations import any_tokens, mutate, seed_texts  # noqa: E402
-from tests.fuzz.oracle import Finding, Look, try_input, try_text  # noqa: E402
+from tests.fuzz.oracle import SIMULATED_SECONDS, Finding, Look, try_input, try_text  # noqa: E402
 from tests.fuzz.programs import write_program  # noqa: E402
 
 ATTEMPTS = 400  # compilations to cut one finding down
 WHOLE = 50  # of so many texts of a quick run one gets the whole look
 
 SHARES = {
-    **{"programs": 1, "grammar": 2, "mutations": 8, "tokens": 40},
+    **{"programs": 1, "grammar": 2, "mutations": 8, "tokens": 40, "extremes": 3},
     **{"maps": 15, "traces": 5, "source_maps": 5, "reports": 5, "digests": 4},
-    **{"settings": 10, "options": 25},
+    **{"settings": 10, "options": 25, "stores": 5},
 }
 """How many texts of each kind a round has: of those that take longer there are fewer."""
 
@@ -66,13 +70,22 @@ class Case:
     text: str
     options: CompileOptions
     is_whole: bool = True
+    place: Path | None = None
 
     def attempt(self, text: str, execute: bool) -> Finding | None:
         """Try a text as this one is tried."""
         if self.maker in INPUTS:
             return try_input(INPUTS[self.maker], text)
         look: Look = "whole" if self.is_whole else "quick"
-        return try_text(text, self.options, execute=execute, look=look)
+        simulated = SECONDS if self.place else SIMULATED_SECONDS
+        return try_text(
+            text,
+            self.options,
+            execute=execute,
+            look=look,
+            place=self.place,
+            simulated=simulated,
+        )
 
 
 def cases(seed: int, makers: list[str], quick: bool = False) -> Iterator[Case]:
@@ -84,7 +97,11 @@ def cases(seed: int, makers: list[str], quick: bool = False) -> Iterator[Case]:
                 name = f"{seed}/{maker}/{number}"
                 random = Random(name)
                 options = CompileOptions(random.choice(STANDARDS), random.choice(DIALECTS))
-                if maker in INPUTS:
+                place = None
+                if maker == "extremes":
+                    scenario, text = write_extreme(random, random.choice(folders()))
+                    options, place = scenario.options, scenario.path
+                elif maker in INPUTS:
                     text = INPUTS[maker].write(random)
                 elif maker == "programs":
                     text = write_program(random, options.standard, options.dialect)
@@ -95,7 +112,13 @@ def cases(seed: int, makers: list[str], quick: bool = False) -> Iterator[Case]:
                 else:
                     text = write_text(random)
                 is_whole = not quick or number % WHOLE == 0
-                yield Case(maker, name, text, options, is_whole)
+                yield Case(maker, name, text, options, is_whole, place)
+
+
+def folders() -> list[Path]:
+    """Return the folders of scenarios whose numbers are replaced."""
+    data = os.environ.get("OSC2TX_TEST_DATA")
+    return [ROOT / "scenarios", *([Path(data, "corpus")] if data else ())]
 
 
 def cut_down(text: str, still_fails: Callable[[str], bool]) -> str:

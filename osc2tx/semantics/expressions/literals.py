@@ -12,11 +12,8 @@ from osc2tx.semantics.names.unknown_names import report_unimported
 from osc2tx.semantics.resolution import Environment, Resolution
 from osc2tx.semantics.symbols import UnitSymbol
 from osc2tx.semantics.types import ERROR, ListType, RangeType, Type
-from osc2tx.semantics.units import constant_number
+from osc2tx.semantics.units import LARGEST, SMALLEST, constant_number
 from osc2tx.syntax import ast
-
-LARGEST, SMALLEST = 1e15, 1e-30
-"""Sizes of a quantity in SI units: products and quotients of several stay numbers."""
 
 
 def infer_physical(r: Resolution, node: ast.PhysicalLiteral) -> Type:

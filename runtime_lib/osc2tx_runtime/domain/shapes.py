@@ -14,6 +14,7 @@ from typing import Any, ClassVar, Generic, TypeVar
 
 from osc2tx_runtime.enums import DynamicProfile
 from osc2tx_runtime.errors import NO_RESULT, ScenarioError, why_no_result
+from osc2tx_runtime.world.checks.values import LARGEST
 from osc2tx_runtime.world.geometry.function_profiles import Computed
 from osc2tx_runtime.world.geometry.profiles import (
     QUINTIC_PEAK,
@@ -186,7 +187,13 @@ class OwnShape(Generic[ShapeT]):
         length = math.inf if self._duration is None else self._asked(self._duration)
         if not length >= 0.0:
             raise ScenarioError(f"the duration of the shape is {length:g} s")
-        return Computed(lambda t: self._asked(self._compute, t), length)
+        return Computed(self._value, length)
+
+    def _value(self, time: float) -> float:
+        value = self._asked(self._compute, time)
+        if not abs(value) <= LARGEST:
+            raise ScenarioError(f"`compute` of the shape is {value:g}, which no world has")
+        return value
 
     def _asked(self, method: Callable[..., float], *arguments: float) -> float:
         try:

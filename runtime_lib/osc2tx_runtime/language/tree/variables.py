@@ -84,6 +84,7 @@ class Sampling(Leaf):
 
     def initialise(self) -> None:
         """Start watching."""
+        self.context.samplers.append(self._sample_at_events)
         watched = ((v.trigger, v.condition) for v in self._variables)
         self._watches = [
             watch(trigger, condition, self.context)
@@ -92,7 +93,6 @@ class Sampling(Leaf):
         ]
         self._sampled = {}
         self._is_over = False
-        self.context.samplers.append(self._sample_at_events)
 
     def terminate(self, new_status: Status) -> None:
         """Sample no more."""
