@@ -26,6 +26,11 @@ LARGEST, SMALLEST = 1e15, 1e-30
 """Sizes of a quantity in SI units: products and quotients of several stay numbers."""
 
 
+def is_measurable(factor: float, offset: float) -> bool:
+    """Whether quantities in a unit of this factor and offset stay numbers in SI units."""
+    return SMALLEST <= abs(factor) <= LARGEST and abs(offset) <= LARGEST
+
+
 def constant_number(r: Resolution, expression: ast.Expression) -> float | None:
     """Return the value of a number, in SI if it has a unit; `None` for anything else."""
     sign = 1

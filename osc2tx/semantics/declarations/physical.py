@@ -10,7 +10,7 @@ from osc2tx.semantics.resolution import Resolution, declared_here
 from osc2tx.semantics.scope import Context
 from osc2tx.semantics.symbols import PhysicalTypeSymbol, Symbol, UnitSymbol
 from osc2tx.semantics.types import Dimension, PhysicalType
-from osc2tx.semantics.units import LARGEST, SMALLEST
+from osc2tx.semantics.units import LARGEST, SMALLEST, is_measurable
 from osc2tx.syntax import ast
 
 
@@ -72,13 +72,13 @@ def resolve_unit(r: Resolution, symbol: Symbol, context: Context) -> None:
     _check_exponents(r, node.exponents)
     if node.factor == 0:
         r.report("OSC305", node.span, "a factor of zero makes all values of the unit one")
-    elif not (SMALLEST <= abs(node.factor) <= LARGEST and abs(node.offset) <= LARGEST):
+    elif not is_measurable(node.factor, node.offset):
         r.report(
             "OSC516",
             node.span,
-            "no world has quantities in such a unit",
+            "the factor or the offset of the unit is out of range",
             notes=[
-                f"its factor may be {SMALLEST:g} to {LARGEST:g}, its offset {LARGEST:g} at most"
+                f"the factor may be {SMALLEST:g} to {LARGEST:g}, the offset {LARGEST:g} at most"
             ],
         )
     symbol.type = PhysicalType(physical.name, physical.dimension)

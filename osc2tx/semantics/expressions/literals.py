@@ -12,7 +12,7 @@ from osc2tx.semantics.names.unknown_names import report_unimported
 from osc2tx.semantics.resolution import Environment, Resolution
 from osc2tx.semantics.symbols import UnitSymbol
 from osc2tx.semantics.types import ERROR, ListType, RangeType, Type
-from osc2tx.semantics.units import LARGEST, SMALLEST, constant_number
+from osc2tx.semantics.units import LARGEST, SMALLEST, constant_number, is_measurable
 from osc2tx.syntax import ast
 
 
@@ -43,6 +43,8 @@ def infer_physical(r: Resolution, node: ast.PhysicalLiteral) -> Type:
 
 def _check_size(r: Resolution, node: ast.PhysicalLiteral, unit: UnitSymbol) -> None:
     """Report a quantity that nothing has, before anything is computed with it."""
+    if not is_measurable(unit.factor, unit.offset):
+        return  # its declaration is reported
     value = abs(node.value * unit.factor)
     if value > LARGEST or (node.value and value < SMALLEST):
         size = "small" if value < SMALLEST else "large"
