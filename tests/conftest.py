@@ -69,6 +69,6 @@ def golden(request: pytest.FixtureRequest) -> Callable[[str | None, Path], None]
 def test_data() -> Path:
     """Folder of public scenarios and maps that are not part of the product."""
     folder = os.environ.get(DATA_VARIABLE)
-    if not folder or not Path(folder).is_dir():
+    if not folder or not Path(folder).is_dir() or not any(Path(folder).iterdir()):
         pytest.skip(f"{DATA_VARIABLE} does not name a folder with test data")
     return Path(folder)
