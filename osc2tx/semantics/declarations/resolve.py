@@ -45,8 +45,6 @@ from osc2tx.semantics.symbols import (
 from osc2tx.semantics.types import VOID, ActorType, StructType
 from osc2tx.syntax import ast
 
-__all__ = ["resolve_declarations"]
-
 
 def resolve_declarations(r: Resolution, collector: Collector) -> None:
     """Complete the symbols of the layer that the collector filled."""

@@ -26,8 +26,6 @@ from osc2tx_runtime.language.tree.recursion import Recursion, is_recursive
 from osc2tx_runtime.language.tree.variables import MISSING, Boundary, Sampled
 from osc2tx_runtime.language.values.broken_values import not_computed
 
-__all__ = ["BaseScenario"]
-
 AnyT = TypeVar("AnyT")
 ActorT = TypeVar("ActorT", bound=BaseActor)
 

@@ -16,8 +16,6 @@ from .lane_line import lane_length, lane_line
 from .model import DRIVING, Lane, LanePosition, LaneSection, Road
 from .network import lane_order
 
-__all__ = ["LaneGroups", "Route", "RouteField", "passable"]
-
 _NARROW = 0.5  # m: a narrower lane does not separate others
 
 

@@ -10,8 +10,6 @@ from .geometry import GAUSS, Segment, hermite
 from .model import Lane
 from .polynomials import Row
 
-__all__ = ["lane_length", "lane_line"]
-
 _STEP = 2.0  # m between nodes where curvature or width change
 _MOST = 10_000  # nodes of one piece: its steps are longer from 20 km on
 

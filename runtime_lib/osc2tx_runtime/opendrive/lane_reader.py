@@ -11,8 +11,6 @@ from .model import Lane, LaneSection
 from .polynomials import Piecewise, Row
 from .xml_reader import Attributes, source_line
 
-__all__ = ["read_reversed", "read_sections"]
-
 NARROWEST = -0.05
 """Metres below nothing that are the rounding of whoever wrote the map."""
 

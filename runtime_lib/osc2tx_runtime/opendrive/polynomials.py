@@ -6,8 +6,6 @@ import math
 from bisect import bisect_right
 from collections.abc import Iterable, Sequence
 
-__all__ = ["ZERO", "Piecewise", "Row", "combine"]
-
 Row = tuple[float, float, float, float]
 """Coefficients a, b, c, d of a + b u + c u^2 + d u^3 with u = s - start."""
 

@@ -15,8 +15,6 @@ from .geometry import wrap
 from .model import DRIVING, Lane, Pose, Road
 from .poses import lane_pose
 
-__all__ = ["SMALLEST_GAP", "SMALLEST_TURN", "Seam", "seams"]
-
 SMALLEST_GAP = 0.01
 """Metres up to which a step is the rounding of whoever wrote the map."""
 SMALLEST_TURN = math.radians(1.0)

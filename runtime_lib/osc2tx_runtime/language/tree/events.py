@@ -27,8 +27,6 @@ if TYPE_CHECKING:
 
     from osc2tx_runtime.language.context import ExecutionContext
 
-__all__ = ["Event", "Guard", "Trigger", "describe", "rest_until", "watch"]
-
 
 class Event:
     """A declared event.

@@ -16,8 +16,6 @@ from osc2tx_runtime.language.values.parameters import Choice, Domain, NumberT, R
 from osc2tx_runtime.language.values.walks import Draws
 from osc2tx_runtime.language.values.written_units import AnyUnit, Unit, unit_named
 
-__all__ = ["ScenarioValues"]
-
 AnyT = TypeVar("AnyT")
 
 
