@@ -53,7 +53,8 @@ class LoweringContext:
         lower_with: The function that lowers expressions of any kind.
         globals: The global parameters that the scenario uses, in order of use.
         own_names: Names of the members of the scenario.
-        event_fields: Names of the events that fields such as `x` in `@e as x` stand for.
+        event_fields: Events that fields such as `x` in `@e as x` stand for, by their names and the
+            keys of the invoked scenarios that have them.
         invoked: The scenarios and composed actions that it invokes, in order of use.
         drawn: Parameters that stand for ranges in its tree, structs that constraints of
             invocations describe, and variables of modifiers, in order of use.
@@ -90,7 +91,7 @@ class LoweringContext:
     lower_with: Callable[[LoweringContext, ast.Expression], ir.Expression | None]
     globals: dict[str, FieldSymbol] = field(default_factory=dict)
     own_names: frozenset[str] = frozenset()
-    event_fields: dict[int, str] = field(default_factory=dict)
+    event_fields: dict[int, tuple[str, str | None]] = field(default_factory=dict)
     invoked: list[ScenarioSymbol | ActionSymbol] = field(default_factory=list)
     drawn: list[ir.Parameter | ir.Struct | ir.Actor | ir.Variable] = field(default_factory=list)
     types: list[ActorSymbol | StructSymbol] = field(default_factory=list)
