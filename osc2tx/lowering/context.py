@@ -77,6 +77,7 @@ class LoweringContext:
         expanding: Methods of modifiers that the expression is the body of, the outermost first.
         purity: Methods, and whether their results do not depend on the world.
         mentioned: The fields that some expression of the program reads, and in which files.
+        default_keeps: What gives fields a default in the type that declares them.
         handed_in: Parameters of invoked scenarios that some invocation gives a value.
         computed: Those of them that some invocation gives no plain name.
         same_actors: The actors of the scenario that are others.
@@ -111,6 +112,7 @@ class LoweringContext:
     locals: Mapping[str, ir.Expression] = field(default_factory=dict)
     actor: ir.Expression | None = None
     mentioned: Mapping[FieldSymbol, frozenset[str]] = field(default_factory=dict)
+    default_keeps: Mapping[FieldSymbol, ast.KeepConstraint] = field(default_factory=dict)
     handed_in: frozenset[Symbol] = frozenset()
     computed: frozenset[Symbol] = frozenset()
     same_actors: Mapping[FieldSymbol, SameActor] = field(default_factory=dict)
