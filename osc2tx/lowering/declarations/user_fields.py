@@ -72,8 +72,9 @@ def _is_default(rule: ast.Statement) -> TypeGuard[ast.KeepConstraint]:
     if not isinstance(rule, ast.KeepConstraint) or rule.strength is not ast.KeepStrength.DEFAULT:
         return False
     said = rule.expression
-    is_equality = isinstance(said, ast.Binary) and said.operator is ast.BinaryOperator.EQUAL
-    return is_equality and isinstance(said.left, ast.NameExpression | ast.ItExpression)
+    if not isinstance(said, ast.Binary) or said.operator is not ast.BinaryOperator.EQUAL:
+        return False
+    return isinstance(said.left, ast.NameExpression | ast.ItExpression)
 
 
 def _is_sampled(type_: types.Type) -> bool:
