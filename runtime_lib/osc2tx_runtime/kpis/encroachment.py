@@ -80,7 +80,7 @@ def _neighbours(one: Rows, other: Rows, reach: float) -> Iterator[tuple[_Indexes
     cells = _cells(other, reach, (0, 0))
     order = np.argsort(cells, kind="stable")
     cells = cells[order]
-    for shift in product((-1, 0, 1), repeat=2):
+    for shift in product((-1, 0, 1), (-1, 0, 1)):
         wanted = _cells(one, reach, shift)
         begins = np.searchsorted(cells, wanted, side="left")
         counts = np.searchsorted(cells, wanted, side="right") - begins
@@ -100,7 +100,8 @@ def _neighbours(one: Rows, other: Rows, reach: float) -> Iterator[tuple[_Indexes
 def _cells(places: Rows, edge: float, shift: tuple[int, int]) -> _Indexes:
     """Return a number for the cell of each place; far cells may share one."""
     column, row = (np.floor(places / edge).astype(np.int64) + shift).T
-    return (column << 32) ^ (row & 0xFFFFFFFF)
+    cells: _Indexes = (column << 32) ^ (row & 0xFFFFFFFF)
+    return cells
 
 
 def _overlap(one: Rows, other: Rows) -> NDArray[np.bool_]:
