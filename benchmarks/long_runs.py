@@ -82,8 +82,10 @@ def main() -> None:
                 "run": ["run", "long_run.osc", *length, *outputs],
                 "verify": ["verify", "run.jsonl", "long_run.osc"],
                 "report": ["report", "run.jsonl", "-o", "page.html"],
-                "campaign": ["campaign", "run", "long_run.osc", "--samples", "2", *length]
-                + ["--store", "store", "--workers", "1", "--digests"],
+                "campaign": [
+                    *("campaign", "run", "long_run.osc", "--samples", "2", *length),
+                    *("--store", "store", "--workers", "1", "--digests"),
+                ],
                 "replay": ["campaign", "replay", "store", "1", "--trace", "again.jsonl"],
             }
             for what, command in commands.items():
