@@ -29,7 +29,7 @@ from osc2tx.building.results import (
     OutputRecord,
     check_job,
     used_files,
-    without_ignored,
+    with_severities,
 )
 from osc2tx.building.stored_reports import ReportReader, ReportWriter
 from osc2tx.compilation.file_reports import LossEntry
@@ -374,4 +374,4 @@ def check_jobs(
         made = run_jobs(check_job, missing, workers, finished)
         known |= dict(zip(missing, made, strict=True))
         memory.close()
-    return without_ignored([known[job] for job in jobs], configs or ConfigFiles())
+    return with_severities([known[job] for job in jobs], configs or ConfigFiles())
