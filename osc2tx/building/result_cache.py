@@ -187,7 +187,7 @@ class ResultCache:
             "is_complete": result.is_complete,
             "stem": result.stem,
             "outputs": [[made.suffix, made.digest] for made in result.outputs],
-            "losses": [[loss.scenario, loss.is_written, loss.summary] for loss in result.losses],
+            "losses": [[l.scenario, l.is_written, l.summary, *l.reasons] for l in result.losses],
             "reports": [writer.report(report) for report in result.reports],
             "scenarios": [writer.scenario(entry) for entry in result.scenarios],
             "sources": writer.sources(),
@@ -226,7 +226,10 @@ class ResultCache:
             scenarios=tuple(reader.scenario(entry) for entry in record["scenarios"]),
             stem=record["stem"],
             outputs=tuple(OutputRecord(suffix, found, None) for suffix, found in record["outputs"]),
-            losses=tuple(LossEntry(*entry) for entry in record["losses"]),
+            losses=tuple(
+                LossEntry(scenario, is_written, summary, tuple(reasons))
+                for scenario, is_written, summary, *reasons in record["losses"]
+            ),
             dependencies=tuple(each for each in present if each is not None),
             imported=tuple(imported),
             uses=record["uses"],
