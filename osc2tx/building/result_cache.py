@@ -187,7 +187,10 @@ class ResultCache:
             "is_complete": result.is_complete,
             "stem": result.stem,
             "outputs": [[made.suffix, made.digest] for made in result.outputs],
-            "losses": [[l.scenario, l.is_written, l.summary, *l.reasons] for l in result.losses],
+            "losses": [
+                [loss.scenario, loss.is_written, loss.summary, *loss.reasons]
+                for loss in result.losses
+            ],
             "reports": [writer.report(report) for report in result.reports],
             "scenarios": [writer.scenario(entry) for entry in result.scenarios],
             "sources": writer.sources(),

@@ -20,9 +20,9 @@ from osc2tx.support.paths import MODULE, real_path
 from osc2tx_shared.classes import replace
 
 if TYPE_CHECKING:
+    from osc2tx.building.results import FileResult
     from osc2tx.compilation.file_reports import LossEntry
     from osc2tx.options import Target
-    from osc2tx.building.results import FileResult
     from osc2tx_runtime import Scenario
 
 

@@ -19,13 +19,13 @@ from osc2tx.testing.result_properties import EXPECTED, REASON, TRACE, VERDICT
 
 if TYPE_CHECKING:
     from osc2tx.diagnostics.report import ScenarioEntry
-    from osc2tx.testing.page import PageOfProject
     from osc2tx.testing.compiled_sources import CompiledSources
     from osc2tx.testing.conditions import ValueCondition
+    from osc2tx.testing.page import PageOfProject
 
 SUFFIX = ".osc"
 _SOURCES = pytest.StashKey["CompiledSources"]()
-_PAGE = pytest.StashKey["PageOfProject"]()
+_PAGE: pytest.StashKey[PageOfProject] = pytest.StashKey()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
