@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.report.page import render_project
@@ -10,9 +11,8 @@ from osc2tx_shared.classes import dataclass
 
 if TYPE_CHECKING:
     from osc2tx.campaigns.summary import Results
-    from osc2tx.compilation.file_reports import LossEntry
 
-__all__ = ["ScenarioResult", "project_page"]
+__all__ = ["ScenarioResult", "XmlYield", "project_page"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,16 +38,40 @@ class ScenarioResult:
     page: str = ""
 
 
+@dataclass(frozen=True, slots=True)
+class XmlYield:
+    """How many scenarios have OpenSCENARIO XML, and what keeps the others from it.
+
+    Attributes:
+        scenarios: Number of all scenarios.
+        written: Number of those with XML.
+        reasons: Names of scenarios without XML, by reason.
+    """
+
+    scenarios: int = 0
+    written: int = 0
+    reasons: Mapping[str, Sequence[str]] = field(default_factory=dict)
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the data of the page, the most frequent reason first."""
+        ranked = sorted(self.reasons.items(), key=lambda item: (-len(item[1]), item[0]))
+        return {
+            "scenarios": self.scenarios,
+            "written": self.written,
+            "reasons": [{"reason": reason, "scenarios": list(names)} for reason, names in ranked],
+        }
+
+
 def project_page(
     scenarios: Sequence[ScenarioResult] = (),
-    losses: Iterable[LossEntry] = (),
+    xml: XmlYield = XmlYield(),
     campaigns: Sequence[tuple[Results, str]] = (),
 ) -> str:
     """Return the page as text; the same arguments give the same text.
 
     Args:
         scenarios: The results, in order.
-        losses: What became of the scenarios as OpenSCENARIO XML.
+        xml: What became of the scenarios as OpenSCENARIO XML.
         campaigns: Campaigns, each with its own page relative to this one; empty if it has none.
     """
     return render_project(
@@ -64,7 +88,7 @@ def project_page(
                 }
                 for each in scenarios
             ],
-            "xml": _xml(tuple(losses)),
+            "xml": xml.as_json(),
             "campaigns": [_campaign(results, page) for results, page in campaigns],
         }
     )
@@ -83,18 +107,4 @@ def _campaign(results: Results, page: str) -> dict[str, Any]:
         "holes": sum(len(item.holes()) for item in results.items.values()),
         "reason": "" if first is None else f"{first.status}: {first.smallest['reason']}",
         "page": page,
-    }
-
-
-def _xml(losses: Sequence[LossEntry]) -> dict[str, Any]:
-    """Return how many scenarios have XML, and the others by what keeps them from it."""
-    names: dict[str, dict[str, None]] = {}
-    for loss in losses:
-        for reason in () if loss.is_written else loss.reasons:
-            names.setdefault(reason, {})[loss.scenario] = None
-    ranked = sorted(names.items(), key=lambda item: (-len(item[1]), item[0]))
-    return {
-        "scenarios": len(losses),
-        "written": sum(loss.is_written for loss in losses),
-        "reasons": [{"reason": reason, "scenarios": list(found)} for reason, found in ranked],
     }

@@ -22,7 +22,6 @@ from osc2tx_shared.classes import replace
 if TYPE_CHECKING:
     from osc2tx.building.results import FileResult
     from osc2tx.compilation.file_reports import LossEntry
-    from osc2tx.options import Target
     from osc2tx_runtime import Scenario
 
 
@@ -133,8 +132,9 @@ class CompiledSources:
     def _with_module(self, job: Job) -> Job:
         if self._with_xml and job.options.target != "xosc":
             return job
-        target: Target = "all" if self._with_xml else "py"
-        return replace(job, options=replace(job.options, target=target))
+        if self._with_xml:
+            return replace(job, options=replace(job.options, target="all"))
+        return replace(job, options=replace(job.options, target="py"))
 
     def _write(self, results: Sequence[FileResult]) -> Path:
         """Write modules that are not there yet; return the place of the first."""

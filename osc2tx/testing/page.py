@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from osc2tx.campaigns.project_page import ScenarioResult, project_page
+from osc2tx.campaigns.project_page import ScenarioResult, XmlYield, project_page
 from osc2tx.testing.result_properties import EXPECTED, REASON, TRACE, VERDICT
 
 if TYPE_CHECKING:
@@ -57,7 +57,8 @@ class PageOfProject:
         from osc2tx.campaigns.export import write_text
 
         results = sorted(self._results, key=lambda each: (each.file, each.name))
-        write_text("page", self._place, project_page(results, losses, tuple(self._campaigns())))
+        page = project_page(results, _xml_yield(losses), tuple(self._campaigns()))
+        write_text("page", self._place, page)
 
     def _campaigns(self) -> Iterator[tuple[Results, str]]:
         from osc2tx.campaigns.store import Store
@@ -71,3 +72,12 @@ class PageOfProject:
     def _seen_from_page(self, place: Path) -> str:
         folder = os.path.dirname(os.path.abspath(self._place))
         return Path(os.path.relpath(os.path.abspath(place), folder)).as_posix()
+
+
+def _xml_yield(losses: Sequence[LossEntry]) -> XmlYield:
+    names: dict[str, dict[str, None]] = {}
+    for loss in losses:
+        for reason in () if loss.is_written else loss.reasons:
+            names.setdefault(reason, {})[loss.scenario] = None
+    reasons = {reason: list(found) for reason, found in names.items()}
+    return XmlYield(len(losses), sum(loss.is_written for loss in losses), reasons)
