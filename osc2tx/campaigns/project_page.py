@@ -62,9 +62,12 @@ class XmlYield:
         }
 
 
+NO_XML = XmlYield()
+
+
 def project_page(
     scenarios: Sequence[ScenarioResult] = (),
-    xml: XmlYield = XmlYield(),
+    xml: XmlYield = NO_XML,
     campaigns: Sequence[tuple[Results, str]] = (),
 ) -> str:
     """Return the page as text; the same arguments give the same text.
