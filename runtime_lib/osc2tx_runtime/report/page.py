@@ -25,6 +25,17 @@ def render_campaign(data: Json) -> str:
     return fill(resource("campaign.html"), style, script, data)
 
 
+def render_project(data: Json) -> str:
+    """Return the page of a project as text; the same data give the same text.
+
+    Args:
+        data: Verdicts of scenarios, XML by reason, and campaigns, as `osc2tx test --page` and
+            `osc2tx campaign report` of several stores collect them.
+    """
+    script = "\n".join(resource(name) for name in ("base.js", "project.js"))
+    return fill(resource("project.html"), resource("report.css"), script, data)
+
+
 _VENDOR_SCRIPT, _VENDOR_STYLE, _VENDOR_LICENCE = (
     f"vendor/{name}" for name in ("uplot.js", "uplot.css", "LICENSE")
 )

@@ -15,6 +15,7 @@ from osc2tx_shared.links import target_outside
 BEGINS = {
     "trace": (b'{"kind":"header"',),
     "report": (b"<!DOCTYPE html>",),
+    "page": (b"<!DOCTYPE html>",),
     "table": (b"number,seed,", b'{"number": '),
     "summary": (b'{\n "format": ',),
     "junit": tuple(  # of campaigns, and of pytest
