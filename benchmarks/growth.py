@@ -144,6 +144,133 @@ def misspelt(n: int) -> str:
     return CAST + declared + used + DRIVE
 
 
+def wide(n: int) -> str:
+    """Cars that all drive at once."""
+    cars = "".join(f"    car_{k}: vehicle\n" for k in range(n))
+    drives = "".join(
+        f"        car_{k}.drive(duration: 2s) with:\n            speed({k % 20 + 1}mps)\n"
+        for k in range(n)
+    )
+    return CAST + cars + "    do parallel:\n" + drives
+
+
+def enumerations(n: int) -> str:
+    """Enumerations of eight members, each with a parameter."""
+    kinds = (
+        f"enum kind_{k}: [{', '.join(f'member_{k}_{m}' for m in range(8))}]\n\n" for k in range(n)
+    )
+    used = "".join(f"    value_{k}: kind_{k} = kind_{k}!member_{k}_3\n" for k in range(n))
+    return "".join(kinds) + CAST + used + DRIVE
+
+
+def members_of_an_enumeration(n: int) -> str:
+    """One enumeration with many members."""
+    kind = f"enum kind: [{', '.join(f'member_{k}' for k in range(n))}]\n\n"
+    return kind + CAST + f"    value: kind\n    keep(value != kind!member_{n - 1})\n" + DRIVE
+
+
+def list_of_numbers(n: int) -> str:
+    """A list with many elements."""
+    values = ", ".join(f"{k}m" for k in range(n))
+    return CAST + f"    values: list of length = [{values}]\n" + DRIVE
+
+
+def long_sum(n: int) -> str:
+    """An expression of many terms."""
+    return CAST + f"    value: int = {' + '.join(str(k) for k in range(n))}\n" + DRIVE
+
+
+def deep_expression(n: int) -> str:
+    """An expression within many parentheses."""
+    return CAST + f"    value: int = {'(1 + ' * n}1{')' * n}\n" + DRIVE
+
+
+def rules(n: int) -> str:
+    """Parameters, each with a constraint of its own."""
+    declared = "".join(
+        f"    limit_{k}: speed\n    keep(limit_{k} in [{k + 1}mps..{k + 2}mps])\n" for k in range(n)
+    )
+    return CAST + declared + DRIVE
+
+
+def reactions(n: int) -> str:
+    """Handlers of conditions."""
+    handlers = "".join(
+        f"    event signal_{k}\n    on rise(car.speed > {k + 1}mps):\n        emit signal_{k}\n"
+        for k in range(n)
+    )
+    return CAST + handlers + DRIVE
+
+
+def scenarios(n: int) -> str:
+    """Scenarios that are each invoked once."""
+    parts = (f"scenario part_{k}:\n    car: vehicle\n{DRIVE}\n" for k in range(n))
+    invoked = "".join(f"        part_{k}(car: car)\n" for k in range(n))
+    return "".join(parts) + CAST + "    do serial:\n" + invoked
+
+
+def chain_of_invocations(n: int) -> str:
+    """Scenarios, each of which invokes the one before."""
+    first = "scenario step_0:\n    car: vehicle\n" + DRIVE
+    others = (
+        f"scenario step_{k}:\n    car: vehicle\n    do step_{k - 1}(car: car)\n"
+        for k in range(1, n + 1)
+    )
+    return first + "".join(others)
+
+
+def modifiers(n: int) -> str:
+    """Actions with several modifiers each."""
+    drives = "".join(
+        f"        car.drive(duration: 2s) with:\n            speed({k % 20 + 1}mps, at: end)\n"
+        "            lane(1, at: start)\n            keep_lane()\n"
+        for k in range(n)
+    )
+    return CAST + "    do serial:\n" + drives
+
+
+def extensions(n: int) -> str:
+    """Extensions of one type."""
+    parts = (f"extend vehicle:\n    field_{k}: int = {k}\n\n" for k in range(n))
+    return "".join(parts) + CAST + DRIVE
+
+
+def methods(n: int) -> str:
+    """Methods, each of which calls the one before."""
+    first = "struct sums:\n    def sum_0() -> int is expression 0\n"
+    others = (f"    def sum_{k}() -> int is expression sum_{k - 1}() + 1\n" for k in range(1, n))
+    return first + "".join(others) + CAST + DRIVE
+
+
+def covers(n: int) -> str:
+    """Coverage items."""
+    items = "".join(
+        f"    value_{k}: int\n    keep(value_{k} in [0..9])\n    cover(value_{k})\n"
+        for k in range(n)
+    )
+    return CAST + items + DRIVE
+
+
+def comments(n: int) -> str:
+    """Comments and blank lines."""
+    return CAST + "    # a remark that nobody needs\n\n" * n + DRIVE
+
+
+def broken_lines(n: int) -> str:
+    """Errors of syntax, one in each line."""
+    return CAST + "    car car: = vehicle\n" * n + DRIVE
+
+
+def wrong_types(n: int) -> str:
+    """Values that have other types than their parameters."""
+    return CAST + "".join(f"    value_{k}: speed = {k}m\n" for k in range(n)) + DRIVE
+
+
+def same_names(n: int) -> str:
+    """A name that is declared again and again."""
+    return CAST + "    value: int = 3\n" * n + DRIVE
+
+
 SHAPES: Mapping[str, tuple[Callable[[int], str], int]] = {
     shape.__name__: (shape, size)
     for shape, size in (
@@ -160,6 +287,24 @@ SHAPES: Mapping[str, tuple[Callable[[int], str], int]] = {
         (one_of_two, 8),
         (logic, 8),
         (misspelt, 50),
+        (wide, 10),
+        (enumerations, 20),
+        (members_of_an_enumeration, 50),
+        (list_of_numbers, 50),
+        (long_sum, 50),
+        (deep_expression, 10),
+        (rules, 20),
+        (reactions, 10),
+        (scenarios, 20),
+        (chain_of_invocations, 10),
+        (modifiers, 20),
+        (extensions, 20),
+        (methods, 20),
+        (covers, 20),
+        (comments, 200),
+        (broken_lines, 20),
+        (wrong_types, 50),
+        (same_names, 50),
     )
 }
 """Each shape with its smallest size."""
