@@ -389,3 +389,24 @@ def test_ten_megabytes_in_a_line(tmp_path: Path, text: str) -> None:
     ended = osc2tx("check", path)
     assert ended.code in (0, ERRORS)
     assert len(ended.err) < 100_000
+
+
+@pytest.mark.parametrize(
+    "members",
+    [
+        "    hop: inner\n",
+        "    car: vehicle with:\n        keep(it.vehicle_category == vehicle_category!truck)\n",
+        "    car: vehicle\n    keep(car.vehicle_category == vehicle_category!truck)\n",
+        "    pair: both with:\n        keep(it.left == 3)\n",
+    ],
+)
+def test_objects_of_what_is_not_invoked_have_no_values(tmp_path: Path, members: str) -> None:
+    """A field of a scenario's type stands for the values of it alone (§7.2.2.2)."""
+    wait = "    do wait elapsed(1s)\n\n"
+    text = (
+        f"{HEAD}struct both:\n    left: int\n\n"
+        f"scenario inner:\n    number: int with:\n        keep(it == 3)\n{wait}"
+        f"scenario middle:\n    size: int with:\n        keep(it == 4)\n{members}{wait}"
+        f"scenario top:\n    hop: middle\n    shown: int = hop.size\n    again: top\n{wait}"
+    )
+    assert_built(build(tmp_path, text), tmp_path)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TypeAlias
 
-from osc2tx.analysis.constraints.constraint import Constraint, ConstraintWriter, Entry
+from osc2tx.analysis.constraints.constraint import Constraint, ConstraintWriter, Entry, Removal
 from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx.analysis.constraints.parameter_lookup import Place
 from osc2tx.analysis.constraints.specialisation import Special
@@ -184,7 +184,9 @@ class Collector:
             yield from self._of_element(place, element, depth)
         if type_ is not None and is_ours and depth < DEEPEST_MEMBER:
             inner = replace(place, owner=type_, prefix=key, it=key)
-            yield from self._of_type(inner, type_, depth + 1)
+            entries = self._of_type(inner, type_, depth + 1)
+            is_invoked = not isinstance(type_, sym.BehaviorSymbol)
+            yield from (each for each in entries if is_invoked or _is_about_values(each, key))
         if isinstance(type_, sym.StructSymbol | sym.ActorSymbol):
             self.objects[key] = type_
         for special in self._special.get(key, ()):
@@ -290,3 +292,16 @@ def _can_be_constrained(node: Instance) -> bool:
     return node.label is not None or any(
         isinstance(member, ast.KeepConstraint) for member in node.with_members
     )
+
+
+def _is_about_values(entry: Entry, behavior: Key) -> bool:
+    """Whether an entry is about the values of a behavior that nothing invokes (§7.2.2.2).
+
+    It has no objects, so what is said of theirs is about nothing.
+    """
+    if isinstance(entry, Removal):
+        keys: list[Key | None] = [entry.subject]
+    else:
+        keys = [each.key for each in entry.operations.items]
+    depth = len(behavior)
+    return all(len(key) <= depth + 1 for key in keys if key is not None and key[:depth] == behavior)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
 
 from osc2tx.diagnostics import Label
 from osc2tx.diagnostics.suggestions import name_meant
@@ -20,7 +21,7 @@ from osc2tx.semantics.bodies.events import resolve_event_path
 from osc2tx.semantics.conversions import dimension_of
 from osc2tx.semantics.resolution import Environment, Resolution
 from osc2tx.semantics.scope import supertypes
-from osc2tx.semantics.symbols import EnumMemberSymbol, ParameterSymbol
+from osc2tx.semantics.symbols import EnumMemberSymbol, ParameterSymbol, TypeSymbol
 from osc2tx.semantics.types import (
     ERROR,
     STRING,
@@ -80,17 +81,26 @@ def _by_name(r: Resolution, node: ast.CoverageDeclaration) -> dict[str, ast.Expr
 
 def _check_unique(r: Resolution, node: ast.CoverageDeclaration, env: Environment) -> None:
     """Check that no other item of its metric group has the name: overrides go by it (§7.5.6)."""
+    for item, first in _repeated(env.owner).get(id(node), ()):
+        r.report(
+            "OSC412",
+            node.span,
+            f"item `{item.name}` of event `{item.event}` is declared twice",
+            labels=[Label(first.node.span, "first declared here")],
+        )
+
+
+@lru_cache(maxsize=1)  # all items of a type are checked one after the other
+def _repeated(owner: TypeSymbol | None) -> Mapping[int, list[tuple[Item, Item]]]:
+    """Return by declaration the items that are declared before, each with the first one."""
     earlier: dict[tuple[str, str], Item] = {}
-    lineage = () if env.owner is None else reversed(list(supertypes(env.owner)))
+    found: dict[int, list[tuple[Item, Item]]] = {}
+    lineage = () if owner is None else reversed(list(supertypes(owner)))
     for item in (each for type_ in lineage for each in items_of(type_)):
         first = earlier.setdefault((item.name, item.event), item)
-        if item.node is node and first is not item:
-            r.report(
-                "OSC412",
-                node.span,
-                f"item `{item.name}` of event `{item.event}` is declared twice",
-                labels=[Label(first.node.span, "first declared here")],
-            )
+        if first is not item:
+            found.setdefault(id(item.node), []).append((item, first))
+    return found
 
 
 def _item_type(r: Resolution, arguments: Arguments, env: Environment) -> Type:
