@@ -29,6 +29,7 @@ from osc2tx.building.results import (
     OutputRecord,
     check_job,
     used_files,
+    without_grading,
     without_ignored,
 )
 from osc2tx.building.stored_reports import ReportReader, ReportWriter
@@ -98,7 +99,7 @@ class ResultCache:
                 ):  # damaged: treated as missing
                     continue
                 if result is not None:
-                    return result
+                    return result if self._kinds == ("build",) else without_grading(result)
         return None
 
     def with_texts(self, result: FileResult) -> FileResult | None:

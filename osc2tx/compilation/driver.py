@@ -267,6 +267,19 @@ class Compilation:
                 self.lookups[place] = look_up(place)
         return found
 
+    @cached_property
+    def graded_xml(self) -> tuple[XmlScenario, ...]:
+        """The same with measured grades, as builds write them, if that is wanted."""
+        if self.ir is None or not self.options.xml.verify:
+            return self.xml
+        from osc2tx.grading import Source, graded
+
+        with room_for_trees():
+            is_alone = self.has_module and not self.sharing.homes
+            generated = self.module if is_alone else None
+            source = Source(self.ir, self.options, self.path.parent, generated)
+            return graded(self.xml, source, self.sink)
+
     @property
     def stem(self) -> str:
         """The common prefix of the names of all outputs."""
@@ -291,14 +304,14 @@ class Compilation:
         """
         if not self.is_supported and self.options.target != "xosc":  # which also reports losses
             return ()
-        return files_of_xml(self.xml)
+        return files_of_xml(self.graded_xml)
 
     @property
     def losses(self) -> tuple[LossEntry, ...]:
         """How the scenarios fared on their way to XML, as far as that was asked for."""
         return tuple(
             LossEntry(scenario.name, scenario.xml is not None, scenario.report.summary())
-            for scenario in self.xml
+            for scenario in self.graded_xml
         )
 
     def _report_missing_maps(self, module: Module) -> None:
