@@ -275,10 +275,16 @@ class Compilation:
         from osc2tx.grading import Source, graded
 
         with room_for_trees():
-            is_alone = self.has_module and not self.sharing.homes
-            generated = self.module if is_alone else None
-            source = Source(self.ir, self.options, self.path.parent, generated)
+            source = Source(self.ir, self.options, self.path.parent, self._whole_module)
             return graded(self.xml, source, self.sink)
+
+    def _whole_module(self) -> GeneratedModule:
+        """Return the Python module, with the declarations of imported files in it."""
+        from osc2tx.backends.py_trees import emit
+
+        assert self.ir is not None, "there is something to run"
+        module = self.module if self.has_module and not self.sharing.homes else None
+        return module or emit(self.ir)
 
     @property
     def stem(self) -> str:

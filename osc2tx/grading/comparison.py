@@ -48,8 +48,8 @@ class ActorDeviation:
     Attributes:
         place: Longest distance (m).
         at: Time of the longest distance (s).
-        shifted: Longest distance (m) from where it is a little earlier or later; the end, where there
-            is no later, does not count.
+        shifted: Longest distance (m) from where it is a little earlier or later; the end does not
+            count, as there is no later.
         speed: Largest difference of speeds (m/s), late events apart.
         spread: Range of its speeds (m/s); times the delay of events it is the distance that late
             events explain.

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from osc2tx import ir
-from osc2tx.backends.py_trees import emit
 from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx.backends.xosc import XmlScenario
 from osc2tx.backends.xosc.report import Grade
 from osc2tx.backends.xosc.report_json import report_json
-from osc2tx.diagnostics import DiagnosticSink, Span
+from osc2tx.diagnostics import DiagnosticSink, InternalCompilerError, Span
 from osc2tx.grading.comparison import first_unlike
 from osc2tx.grading.measuring import Finding, Measuring
 from osc2tx.grading.runs import NoEvidence
@@ -33,13 +32,13 @@ class Source:
         module: The program.
         options: Of the compilation.
         folder: The folder of the file, with maps.
-        generated: Its Python module, if there is one that needs no other.
+        generate: Makes its Python module, on its own.
     """
 
     module: ir.Module
     options: CompileOptions
     folder: Path
-    generated: GeneratedModule | None = None
+    generate: Callable[[], GeneratedModule]
 
 
 def graded(
@@ -55,10 +54,10 @@ def graded(
     if all(each.xml is None for each in documents):
         return tuple(documents)
     try:
-        with scenarios_of_module(source.generated or emit(source.module)) as scenarios:
+        with scenarios_of_module(source.generate()) as scenarios:
             return tuple(_graded(each, scenarios[each.name], source, sink) for each in documents)
-    except (ScenarioError, ImportError) as error:
-        reason = f"the module cannot be imported: {error}"
+    except (ScenarioError, ImportError, InternalCompilerError) as error:
+        reason = f"there is no module to run: {error}"
         return tuple(_unmeasured(each, source, reason) for each in documents)
 
 

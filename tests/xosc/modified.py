@@ -71,6 +71,36 @@ def relative() -> Iterator[Case]:
         )
 
 
+ENDS = {
+    "lane": "lane(1, at: end)",
+    "offset": "lateral(distance: 0.5m, side: left, measure_by: center_to_center, at: end)",
+    "speed": "speed(26mps, at: end)",
+    "other_speed": "speed(4mps, faster_than: other, at: end)",
+    "ahead": "position(20m, ahead_of: other, at: end)",
+}
+PHASES = {
+    "parallel": "parallel(duration: 8s):\n    {other}    {ego}",
+    "serial": "parallel(duration: 8s):\n    {other}    serial:\n        wait elapsed(2s)\n        {ego}",
+    "inner": "parallel(duration: 8s):\n    parallel:\n        {other}        {ego}",
+    "ended": "serial(duration: 8s):\n    wait elapsed(1s)\n    parallel:\n        {other}        {ego}",
+}
+
+
+def phases() -> Iterator[Case]:
+    """Yield drives that end with a composition around them, at a time that modifiers aim at."""
+    for (name, modifier), (phase, body) in product(ENDS.items(), PHASES.items()):
+        parts = {
+            "other": "other.drive() with:\n            lane(3, at: start)\n"
+            "            position(190m, at: start)\n            speed(21mps)\n",
+            "ego": f"ego.drive() with:\n{indented(modifier, 3)}",
+        }
+        yield f"{name}_in_{phase}", (
+            "ego, other: vehicle\ndo serial:\n    ego.drive(duration: 0.5s) with:\n"
+            f"{indented(EGO, 2)}{indented(body.format(**parts), 1)}"
+            "    ego.drive(duration: 0.5s)\n"
+        )
+
+
 LINES = {
     "replayed": "ego.replay_path(absolute: way)",
     "along": "ego.drive() with:\n    along(way)",

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx.backends.py_trees import emit
 from osc2tx.backends.xosc import XmlScenario
 from osc2tx.backends.xosc.report import Grade, Metres
 from osc2tx.compilation.driver import Compilation
@@ -63,7 +64,8 @@ def grade(
         found.report.approximate("action drive", entry.span, "it is a test", bound)
     found = changed(found, xml=change(found.xml))
     assert compilation.ir is not None
-    source = Source(compilation.ir, options, folder)
+    module = compilation.ir
+    source = Source(module, options, folder, lambda: emit(module))
     (result,) = graded([found], source, compilation.sink)
     return result, compilation
 
