@@ -71,33 +71,38 @@ def relative() -> Iterator[Case]:
         )
 
 
-ENDS = {
+AIMS = {
     "lane": "lane(1, at: end)",
     "offset": "lateral(distance: 0.5m, side: left, measure_by: center_to_center, at: end)",
     "speed": "speed(26mps, at: end)",
     "other_speed": "speed(4mps, faster_than: other, at: end)",
     "ahead": "position(20m, ahead_of: other, at: end)",
 }
-PHASES = {
-    "parallel": "parallel(duration: 8s):\n    {other}    {ego}",
-    "serial": "parallel(duration: 8s):\n    {other}    serial:\n        wait elapsed(2s)\n        {ego}",
-    "inner": "parallel(duration: 8s):\n    parallel:\n        {other}        {ego}",
-    "ended": "serial(duration: 8s):\n    wait elapsed(1s)\n    parallel:\n        {other}        {ego}",
+OTHER = """\
+other.drive() with:
+    lane(3, at: start)
+    position(190m, at: start)
+    speed(21mps)
+"""
+FIRST = f"ego.drive(duration: 2s) with:\n{indented(EGO, 1)}"
+PHASES = {  # a composition with a duration, what it holds, and how deep in it the drive stands
+    "parallel": ("parallel(duration: 8s):", OTHER, 1, ""),
+    "serial": ("parallel(duration: 8s):", f"{OTHER}serial:\n{indented(FIRST, 1)}", 2, FIRST),
+    "inner": ("parallel(duration: 8s):", f"parallel:\n{indented(OTHER, 1)}", 2, ""),
+    "ended": ("serial(duration: 8s):", f"parallel:\n{indented(OTHER, 1)}", 2, ""),
 }
 
 
 def phases() -> Iterator[Case]:
     """Yield drives that end with a composition around them, at a time that modifiers aim at."""
-    for (name, modifier), (phase, body) in product(ENDS.items(), PHASES.items()):
-        parts = {
-            "other": "other.drive() with:\n            lane(3, at: start)\n"
-            "            position(190m, at: start)\n            speed(21mps)\n",
-            "ego": f"ego.drive() with:\n{indented(modifier, 3)}",
-        }
+    for (name, modifier), (phase, parts) in product(AIMS.items(), PHASES.items()):
+        head, beside, depth, before = parts
+        start = "" if before else EGO.replace("20mps", "20mps, at: start")
+        aims = f"{modifier}\n{start}"
+        drive = f"ego.drive() with:\n{indented(aims, 1)}"
         yield f"{name}_in_{phase}", (
-            "ego, other: vehicle\ndo serial:\n    ego.drive(duration: 0.5s) with:\n"
-            f"{indented(EGO, 2)}{indented(body.format(**parts), 1)}"
-            "    ego.drive(duration: 0.5s)\n"
+            f"ego, other: vehicle\ndo serial:\n    {head}\n{indented(beside, 2)}"
+            f"{indented(drive, 1 + depth)}    ego.drive(duration: 0.5s)\n"
         )
 
 
