@@ -285,12 +285,15 @@ class Session:
 
     def close(self) -> None:
         """Undo what the session changed."""
-        if self._undone(self._let_go()) and self._undone(self.journal.undo(self)):
+        if self._undone(self._endings()):
             self.journal.close()
 
-    def _let_go(self) -> Iterator[Callable[[], object]]:
+    def _endings(self) -> Iterator[Callable[[], object]]:
         while self.handles:
             yield self.handles.pop()
+        if self.journal.changes:
+            yield from self.journal.undo(self)
+            yield self.world.get_settings  # the library sends most calls without waiting for them
 
     def _undone(self, steps: Iterator[Callable[[], object]]) -> bool:
         """Take steps of undoing; return whether the server was there for all of them.
