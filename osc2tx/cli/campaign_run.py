@@ -18,7 +18,6 @@ from osc2tx.campaigns.engine import Engine
 from osc2tx.campaigns.samplers import SAMPLERS
 from osc2tx.campaigns.sampling import Wanted, wanted_rows
 from osc2tx.campaigns.store import Store
-from osc2tx.cli.module_loading import module_files, written_files
 from osc2tx.cli.options import compile_options
 from osc2tx.cli.reporting import Exit, Reporter, count_of, report_options
 from osc2tx.cli.run import (
