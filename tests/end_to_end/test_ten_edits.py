@@ -50,7 +50,7 @@ scenario meeting:
                 speed(v_lead)
             one_of:
                 lead.change_speed(target: 30kph)
-                lead.change_speed(target: 40kph)
+                wait elapsed(9s)
 """
 
 
@@ -80,7 +80,7 @@ LAST_DRIVE = """\
 ALTERNATIVES = """\
             one_of:
                 lead.change_speed(target: 30kph)
-                lead.change_speed(target: 40kph)
+                wait elapsed(9s)
 """
 LEAD = SCENARIO[SCENARIO.index("            lead.drive(") : SCENARIO.index("            one_of")]
 SECOND = """\
@@ -121,7 +121,7 @@ EDITS: Mapping[str, Edit] = {
     ),
     "extract_a_base": Edit(DECLARED, BASE, 30, 10),
     "delete_a_branch": Edit(
-        ALTERNATIVES, "            lead.change_speed(target: 30kph)\n", *(9, 90)
+        ALTERNATIVES, "            lead.change_speed(target: 30kph)\n", *(11, 90)
     ),
 }
 
