@@ -1,4 +1,4 @@
-"""A repository of scenarios as a team keeps it: bases, libraries, and scenarios that derive from them.
+"""A repository of scenarios as a team keeps it: bases, libraries, and what derives from them.
 
     python benchmarks/repository.py FOLDER [--scenarios 1000]
 

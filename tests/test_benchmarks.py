@@ -10,7 +10,7 @@ import pytest
 from tests.processes import forked
 
 FOLDER = Path(__file__).parent.parent / "benchmarks"
-MODULES = {"costs", "repository", "trees"}
+MODULES = {"costs", "long_runs", "maps", "repository", "trees"}  # or too long for a test
 MAP = FOLDER.parent / "runtime_lib/osc2tx_runtime/maps/highway.xodr"
 SMALLEST = {
     "build": ["--scenarios", "4"],

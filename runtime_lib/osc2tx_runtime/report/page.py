@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Protocol
-
-from osc2tx_shared.classes import dataclass
 
 from .html import fill, resource
 from .json_values import Json
@@ -68,20 +66,24 @@ class MapSource(OutlineSource, SignalSource, Protocol):
     """The part of `osc2tx_runtime.opendrive.RoadMap` that is drawn."""
 
 
-@dataclass(frozen=True, slots=True)
 class Trace:
-    """A trace that a page is made of.
+    """A trace that a page is made of, read.
 
-    Attributes:
+    Args:
         lines: Its lines; broken and unknown ones are counted on the page.
         name: What tells it from another on the same page.
+
+    Attributes:
+        run: Its content; takes further lines.
+        name: As above.
     """
 
-    lines: Sequence[str]
-    name: str = ""
+    def __init__(self, lines: Iterable[str] = (), name: str = "") -> None:
+        self.run = read_run(lines)
+        self.name = name
 
 
-def write_report(path: Path, trace_lines: Sequence[str], road_map: MapSource | None = None) -> None:
+def write_report(path: Path, trace_lines: Iterable[str], road_map: MapSource | None = None) -> None:
     """Write the report of one run.
 
     Args:
@@ -93,7 +95,7 @@ def write_report(path: Path, trace_lines: Sequence[str], road_map: MapSource | N
     path.write_text(page, encoding="utf-8", newline="\n")
 
 
-def render_report(trace_lines: Sequence[str], road_map: MapSource | None = None) -> str:
+def render_report(trace_lines: Iterable[str], road_map: MapSource | None = None) -> str:
     """The page of one run as text; the same arguments give the same text."""
     return render_runs([Trace(trace_lines)], road_map)
 
@@ -105,7 +107,7 @@ def render_runs(traces: Sequence[Trace], road_map: MapSource | None = None) -> s
         traces: One or two.
         road_map: The map under the paths of both; None to leave it out.
     """
-    runs = [read_run(trace.lines) for trace in traces]
+    runs = [trace.run for trace in traces]
     paths = [track.points() for run in runs for track in run.tracks.values()]
     named = zip(_LETTERS, traces, runs, strict=False)
     data: Json = {
