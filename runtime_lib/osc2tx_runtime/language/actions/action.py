@@ -80,6 +80,10 @@ class Action(BaseAction):
         """Let the action also have modifiers that hold at its start; before setup."""
         self.modifiers = (*modifiers, *self.modifiers)
 
+    def states_itself(self) -> tuple[Modifier, ...]:
+        """Return what the action states of its start besides its modifiers."""
+        return ()
+
     def takes(self, modifier: Modifier) -> bool:
         """Return whether the action carries out a modifier."""
         return isinstance(modifier, self.accepts)

@@ -104,6 +104,10 @@ def along_line(
     )
     vertices = [_vertex(leaf, line, each) for each in corners]
     if not (line.is_timed or is_exact or _is_there(leaf, corners[0])) and line.frame is None:
+        if not leaf.is_start and leaf.state == leaf.ctx.at_start[leaf.member.name]:
+            raise Inexpressible(
+                "a run plans how the actor gets to the path by then", leaf.node.span
+            )
         vertices = [(0.0, _own_place(leaf)), *vertices]  # it goes to the path, it does not jump
     if line.is_timed and not is_exact:
         note_schedule(leaf, corners)

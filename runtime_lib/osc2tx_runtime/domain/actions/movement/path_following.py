@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar, Unpack
 
-from osc2tx_runtime.domain.modifiers import Modifier, PhysicalMovement, Value, value_of
+from osc2tx_runtime.domain.modifiers import Along, Modifier, PhysicalMovement, Value, value_of
 from osc2tx_runtime.domain.modifiers.base import now
 from osc2tx_runtime.domain.modifiers.groups import SPEED_FREE
 from osc2tx_runtime.domain.paths.path_values import (
@@ -112,6 +112,12 @@ class _OnCourse(CourseAction, Generic[CourseT, RelativeT]):
 
 class _OnPath(_OnCourse[Path, RelativePath]):
     accepts: ClassVar[tuple[type, ...]] = SPEED_FREE
+
+    def states_itself(self) -> tuple[Modifier, ...]:
+        """The actor starts at the beginning of an absolute path."""
+        if self.absolute is None:
+            return ()
+        return (Along(self.absolute, start_offset=self._offsets[0]),)
 
     def commands(self) -> dict[str, Command]:
         """The path, from here."""
