@@ -13,13 +13,14 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.domain.actors import MovableObject
 from osc2tx_runtime.domain.modifiers import (
     Along,
+    AlongTrajectory,
     Modifier,
     MovementModifier,
     PhysicalMovement,
     Position,
 )
 from osc2tx_runtime.domain.modifiers.groups import PLACES
-from osc2tx_runtime.domain.paths.path_values import Path
+from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.language.actions.action import Action
 from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Behaviour, Leaf, Status
@@ -204,7 +205,8 @@ def start_demands(action: BaseAction) -> tuple[Modifier, ...]:
     """
     if not isinstance(action, Action):
         return ()
-    if _option(action) == "prefer_non_physical":
+    physical = one_of_kind(action.modifiers, PhysicalMovement)
+    if physical is not None and physical.option == "prefer_non_physical":
         return ()  # it jumps
     found = [m for m in action.modifiers if m.facts.placement and _holds_at_start(m)]
     if not any(isinstance(m, PLACES) for m in found):
@@ -215,18 +217,15 @@ def start_demands(action: BaseAction) -> tuple[Modifier, ...]:
     return tuple(m for m in found if m.is_start or type(m) not in stated)
 
 
-def _option(action: Action) -> str:
-    """Return what an action says of physics; a replay says it itself."""
-    physical = one_of_kind(action.modifiers, PhysicalMovement)
-    if physical is not None:
-        return physical.option
-    return "prefer_non_physical" if getattr(action, "replays", False) else "prefer_physical"
-
-
 def _is_reason(modifier: Modifier) -> bool:
-    """Return whether an actor has to be somewhere by then, and not only to approach it."""
+    """Return whether an actor has to be somewhere by then, and not only to approach it.
+
+    A path that is known only by then may depend on where the actor is.
+    """
     if isinstance(modifier, Along):
         return isinstance(modifier.route, Path)
+    if isinstance(modifier, AlongTrajectory):
+        return isinstance(modifier.trajectory, Trajectory)
     return modifier.is_start or isinstance(modifier, Position)
 
 

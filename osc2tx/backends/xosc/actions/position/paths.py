@@ -94,6 +94,9 @@ def along_line(
     leaf: Leaf, line: Line, offsets: tuple[float, float], *, is_exact: bool
 ) -> tuple[Change, ...]:
     """Return the changes that a path or a trajectory makes."""
+    if leaf.enters and line.frame is None:
+        reason = "a run plans how the actor gets to the path by then"
+        raise Inexpressible(reason, leaf.node.span)
     points = line.points
     if line.is_timed and points and points[0].time > 0.0:
         if line.frame is not None or any(offsets):
@@ -104,10 +107,6 @@ def along_line(
     )
     vertices = [_vertex(leaf, line, each) for each in corners]
     if not (line.is_timed or is_exact or _is_there(leaf, corners[0])) and line.frame is None:
-        if not leaf.is_start and leaf.state == leaf.ctx.at_start[leaf.member.name]:
-            raise Inexpressible(
-                "a run plans how the actor gets to the path by then", leaf.node.span
-            )
         vertices = [(0.0, _own_place(leaf)), *vertices]  # it goes to the path, it does not jump
     if line.is_timed and not is_exact:
         note_schedule(leaf, corners)
