@@ -31,6 +31,7 @@ class Job:
         roots: Folders whose files it may import, and to which names are relative.
         is_asked: Whether this very file was named, and not a folder that holds it.
         given: Options that precede those of settings files.
+        run: The options of runs that the settings file states for it, as they are written.
     """
 
     path: Path
@@ -39,6 +40,7 @@ class Job:
     roots: Roots
     is_asked: bool
     given: GivenOptions
+    run: tuple[tuple[str, tuple[str, ...]], ...] = ()
 
     def compilation(self, memory: Memory | None = None, text: str | None = None) -> Compilation:
         """Return its compilation; no stage has run yet.
@@ -143,7 +145,8 @@ def job_for(item: Input, given: GivenOptions, config: Config) -> Job:
         roots = Roots((asked, *roots.sources), config.folder)
     name = roots.name_of(item.place, libraries) or item.path.name
     name = name if is_unicode(name) else visible(name)
-    return Job(item.path, name, options, roots, item.is_asked, given)
+    run = tuple(config.run_settings(item.path).items())
+    return Job(item.path, name, options, roots, item.is_asked, given, run)
 
 
 def compile_all(paths: Sequence[str | Path], given: GivenOptions) -> list[Compilation]:

@@ -9,6 +9,7 @@ from pathlib import Path
 import click
 
 from osc2tx.building.jobs import compile_all, run_all
+from osc2tx.building.module_loading import module_files, written_files
 from osc2tx.building.workers import processors
 from osc2tx.campaigns import CampaignError
 from osc2tx.campaigns.aims import Aim
@@ -19,7 +20,6 @@ from osc2tx.campaigns.samplers import SAMPLERS
 from osc2tx.campaigns.sampling import Wanted, wanted_rows
 from osc2tx.campaigns.store import Store
 from osc2tx.cli.campaign_progress import progress_bar
-from osc2tx.cli.module_loading import module_files, written_files
 from osc2tx.cli.options import compile_options
 from osc2tx.cli.reporting import Exit, Reporter, count_of, report_options
 from osc2tx.cli.run import (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,7 @@ import click
 
 from osc2tx.building.jobs import find_jobs, run_all
 from osc2tx.building.result_cache import check_jobs
+from osc2tx.building.results import check as check_compilation
 from osc2tx.cli.options import (
     affected_option,
     affected_sources,
@@ -22,8 +24,8 @@ from osc2tx.cli.options import (
 from osc2tx.cli.progress import progress_bar
 from osc2tx.cli.reporting import Exit, Reporter, count_of, found, report_options
 from osc2tx.cli.standard_input import (
-    compilation_of_standard_input,
     is_standard_input,
+    job_of_standard_input,
     stdin_filename,
 )
 from osc2tx.config import ConfigFiles, GivenOptions
@@ -32,8 +34,8 @@ from osc2tx_shared.text import StreamName, recorded
 
 if TYPE_CHECKING:
     from osc2tx.building.answers import Answer
+    from osc2tx.building.jobs import Job
     from osc2tx.building.results import FileResult
-    from osc2tx.compilation.driver import Compilation
 
 
 @click.command()
@@ -58,10 +60,12 @@ def check(
 ) -> Exit:
     """Report errors and warnings in scenario files; folders are searched for .osc files.
 
+    Where the map of a scenario is found, a run is prepared up to its first step.
+
     Without PATH, `sources` of the settings file count; `-` is standard input.
     """
     if is_standard_input(paths, stdin_filename):
-        return _check_input(compilation_of_standard_input(stdin_filename, given), reporter)
+        return _check_input(*job_of_standard_input(stdin_filename, given), reporter)
     asked = sources_or_stated(paths, "check")
     paths = affected_sources(asked, affected, given)
     configs = ConfigFiles()
@@ -106,8 +110,9 @@ def _keep_answer(
     answer.keep(code, printed, files)
 
 
-def _check_input(compilation: Compilation, reporter: Reporter) -> Exit:
-    bugs = run_all([compilation], lambda item: item.check())
+def _check_input(job: Job, text: str, reporter: Reporter) -> Exit:
+    compilation = job.compilation(text=text)
+    bugs = run_all([compilation], partial(check_compilation, run=job.run))
     code, report = reporter.report([compilation], bugs)
     for entry in compilation.scenarios:
         reporter.say(f"{compilation.name}: {entry.summary}")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import click
 
 from osc2tx.building.jobs import compile_all, run_all
-from osc2tx.cli.module_loading import scenarios_of_file, scenarios_of_module
+from osc2tx.building.module_loading import scenarios_of_file, scenarios_of_module
 from osc2tx.cli.options import compile_options, scenario_option
 from osc2tx.cli.reporting import Exit, Reporter, report_options
 from osc2tx.compilation.inputs import InputError, find_inputs

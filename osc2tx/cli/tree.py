@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from osc2tx.building.jobs import compile_all, run_all
-from osc2tx.cli.module_loading import scenarios_of_module
+from osc2tx.building.module_loading import scenarios_of_module
 from osc2tx.cli.options import compile_options, scenario_option
 from osc2tx.cli.reporting import Exit, Reporter, columns, report_options, wants_color
 from osc2tx.cli.run import choose_scenario

@@ -9,7 +9,7 @@ from pathlib import Path
 import click
 
 from osc2tx.building.jobs import compile_all, run_all
-from osc2tx.cli.module_loading import scenarios_of_module
+from osc2tx.building.module_loading import scenarios_of_module
 from osc2tx.cli.options import compile_options, scenario_option
 from osc2tx.cli.reporting import Exit, Reporter, report_options
 from osc2tx.cli.run import Texts, choose_scenario, click_option, merge_settings, option_texts

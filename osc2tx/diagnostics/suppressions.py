@@ -124,7 +124,7 @@ class _Entries:
         if code is None:
             help = meant_code(name.text)
             sink.report("OSC702", name, f"there is no code `{name.text}`", help=help)
-        elif code.severity is Severity.ERROR:
+        elif code.severity is Severity.ERROR and name not in self._used:
             message = f"`{code.code}` is an error; only warnings can be suppressed"
             sink.report("OSC703", name, message, help="fix the reported error")
         elif not code.can_be_suppressed:

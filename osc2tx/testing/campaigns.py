@@ -167,7 +167,7 @@ def plan_of(
 ) -> tuple[Plan, Mapping[str, Sequence[str]]]:
     """Compile a scenario; return what its rows have in common, and the options as written."""
     from osc2tx.building.jobs import compile_all
-    from osc2tx.cli.module_loading import module_files, written_files
+    from osc2tx.building.module_loading import module_files, written_files
     from osc2tx.cli.run import merge_texts, settings_from
     from osc2tx.compilation.inputs import find_inputs
     from osc2tx.compilation.needed_modules import sibling_modules

@@ -59,6 +59,7 @@ OTHERS = {
     "backends/xosc/facts": {"osc2tx_runtime"},  # sizes, courses and maps are the world's own
     "xosc/player": {"osc2tx_runtime"},  # the reader of maps alone
     # rows are chosen here, run there
+    "building": {"osc2tx_runtime"},  # runs are prepared as `run` does
     "campaigns": {"distributed", "optuna", "osc2tx_runtime", "scipy"},
     "cli": {"click", "osc2tx_runtime", "pytest", "rich"},
     "testing": {"osc2tx_runtime", "pytest"},

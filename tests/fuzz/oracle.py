@@ -19,7 +19,7 @@ from types import FrameType
 from typing import Literal
 
 from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
-from osc2tx.cli.module_loading import scenarios_of_module
+from osc2tx.building.module_loading import scenarios_of_module
 from osc2tx.compilation.driver import Compilation
 from osc2tx.compilation.dump import dump_product
 from osc2tx.diagnostics import InternalCompilerError

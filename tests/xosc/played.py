@@ -19,7 +19,7 @@ from lxml import etree
 
 from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.backends.xosc import XmlScenario
-from osc2tx.cli.module_loading import scenarios_of_module
+from osc2tx.building.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions
 from osc2tx_runtime import RunSettings, run_scenario
 from tests.unit.backends.xosc.documents import compiled, module_of

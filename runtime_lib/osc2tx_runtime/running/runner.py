@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import asdict, field
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from osc2tx_runtime.domain.placing.entries import Entries, entering_actors
 from osc2tx_runtime.domain.placing.rehearsal import AllEnteredError, Rehearsal, ways_in
@@ -18,7 +17,7 @@ from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.trace import TraceWriter
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.running.checked_world import checked_world
-from osc2tx_runtime.running.loop import Observer, OnProgress, overloads, run_tree
+from osc2tx_runtime.running.loop import Observer, OnProgress, Outcome, overloads, run_tree
 from osc2tx_runtime.running.map_warnings import map_warnings
 from osc2tx_runtime.running.output_files import check_outputs, write_output
 from osc2tx_runtime.running.requirements import check_requirements
@@ -34,7 +33,9 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.tree.base import Behaviour
     from osc2tx_runtime.world.protocol import World
 
-__all__ = ["RunResult", "run_scenario", "setup_tree"]
+__all__ = ["RunResult", "check_start", "run_scenario", "setup_tree"]
+
+ResultT = TypeVar("ResultT", covariant=True)
 
 REDRAWS = 100  # draws of one seed, where the map has no room for the drawn values
 
@@ -93,34 +94,89 @@ def run_scenario(
     """
     settings = settings or RunSettings()
     check_outputs(settings)
-    run = partial(_run, scenario_class, on_progress, observer, read, keep_trace=keep_trace)
-    may_redraw = world is None and settings.world == "embedded" and settings.draws is None
-    for draw in range(REDRAWS if may_redraw else 0):
+
+    def run(scenario: Scenario, *, is_last: bool) -> RunResult:
+        made = prepared(
+            *(scenario_class, scenario, world, read),
+            keep_trace=keep_trace,
+            observer=observer,
+            is_last=is_last,
+        )
+        with made as (root, context, monitors):
+            return _run(scenario, root, context, monitors, on_progress, observer)
+
+    may_redraw = world is None and settings.world == "embedded"
+    return _with_draws(scenario_class, settings, run, may_redraw=may_redraw)
+
+
+def check_start(
+    scenario_class: Callable[[RunSettings], Scenario],
+    settings: RunSettings,
+    read: Callable[[Path], RoadMap] = read_map,
+) -> RunResult:
+    """Do what a run does before its first step, in the embedded world and without outputs.
+
+    Args:
+        scenario_class: A generated class.
+        settings: Of the run.
+        read: Reads the map.
+
+    Returns:
+        How it ended; `timeout` if the run would go on.
+
+    Raises:
+        ScenarioError: What the run would refuse.
+    """
+    quiet = replace(settings, trace=None, report=None)
+
+    def start(scenario: Scenario, *, is_last: bool) -> RunResult:
+        made = prepared(scenario_class, scenario, None, read, keep_trace=False, is_last=is_last)
+        with made as (root, context, monitors):
+            return _result(run_tree(root, context, last_step=0), context, monitors)
+
+    return _with_draws(scenario_class, quiet, start, may_redraw=True)
+
+
+class _Play(Protocol[ResultT]):
+    """Plays a scenario with the values that are drawn; `BeyondMapError` ends all but the last."""
+
+    def __call__(self, scenario: Scenario, *, is_last: bool) -> ResultT: ...
+
+
+def _with_draws(
+    scenario_class: Callable[[RunSettings], Scenario],
+    settings: RunSettings,
+    play: _Play[ResultT],
+    *,
+    may_redraw: bool,
+) -> ResultT:
+    """Play a scenario with the first values that the map surely has room for, else the first."""
+    for draw in range(REDRAWS if may_redraw and settings.draws is None else 0):
         scenario = scenario_class(replace(settings, draw=settings.draw + draw))
         try:
-            return run(scenario, None, is_last=False)
+            return play(scenario, is_last=False)
         except BeyondMapError:
             if not scenario.has_drawn_values:
                 break
-    scenario = scenario_class(settings)
-    return run(scenario, world, is_last=True)
+    return play(scenario_class(settings), is_last=True)
 
 
-def _run(
+@contextmanager
+def prepared(
     scenario_class: Callable[[RunSettings], Scenario],
-    on_progress: OnProgress | None,
-    observer: Observer | None,
-    read: Callable[[Path], RoadMap],
     scenario: Scenario,
     world: World | None,
+    read: Callable[[Path], RoadMap],
     *,
     keep_trace: bool,
     is_last: bool,
-) -> RunResult:
-    """Run a scenario with the values that are drawn.
+    observer: Observer | None = None,
+) -> Iterator[tuple[Behaviour, ExecutionContext, Monitors]]:
+    """Place the actors, set up the tree, and check what it requires; close the world at the end.
 
     Raises:
         BeyondMapError: The map surely has no room for the request, unless it `is_last`.
+        ScenarioError: The scenario cannot start.
     """
     root, settings = scenario.create_tree(), scenario.settings
     world = checked_world(world or make_world(scenario, read))
@@ -135,14 +191,32 @@ def _run(
         context.monitors = monitors = make_monitors(context)
         if not is_last:
             look_ahead(root)
-        try:
-            write_header(scenario, context)
-            world.begin()
-            outcome = run_tree(root, context, on_progress, observer)
-        finally:
-            write_files(context)
+        yield root, context, monitors
     finally:
         world.close()
+
+
+def _run(
+    scenario: Scenario,
+    root: Behaviour,
+    context: ExecutionContext,
+    monitors: Monitors,
+    on_progress: OnProgress | None,
+    observer: Observer | None,
+) -> RunResult:
+    """Run what is prepared."""
+    world = context.world
+    try:
+        write_header(scenario, context)
+        world.begin()
+        outcome = run_tree(root, context, on_progress, observer)
+    finally:
+        write_files(context)
+    return _result(outcome, context, monitors)
+
+
+def _result(outcome: Outcome, context: ExecutionContext, monitors: Monitors) -> RunResult:
+    world = context.world
     return RunResult(
         outcome.status,
         outcome.reason,

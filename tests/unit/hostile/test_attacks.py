@@ -13,8 +13,8 @@ from typing import Any
 import pytest
 
 from osc2tx.building.build import BuildOptions, build
+from osc2tx.building.module_loading import scenarios_of_module
 from osc2tx.building.written_digests import DIGESTS_NAME
-from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.compilation.driver import Compilation
 from osc2tx.config import GivenOptions
 from osc2tx.diagnostics import Diagnostic
