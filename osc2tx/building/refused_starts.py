@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime import RunSettings, Scenario
     from osc2tx_runtime.opendrive import RoadMap
 
-__all__ = ["RunTexts", "report_refused_starts"]
-
 RunTexts: TypeAlias = tuple[tuple[str, tuple[str, ...]], ...]
 """Options of runs as the settings file states them, by name."""
 

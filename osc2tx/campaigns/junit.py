@@ -8,8 +8,6 @@ from xml.etree import ElementTree as etree
 from osc2tx.campaigns.summary import Results, Run, replay_command
 from osc2tx_shared.text import visible
 
-__all__ = ["render_junit"]
-
 NOT_A_TEST = ("error", "crashed")  # rows that could not be judged
 
 

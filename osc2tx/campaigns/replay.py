@@ -16,8 +16,6 @@ from osc2tx_shared.classes import replace
 
 from .store import CampaignError
 
-__all__ = ["replay_row"]
-
 
 def replay_row(
     store: Store, number: int, trace: Path | None, report: Path | None, folders: Sequence[Path] = ()

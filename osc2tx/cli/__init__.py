@@ -95,7 +95,6 @@ def main(arguments: Sequence[str] | None = None, answer: Answer | None = None) -
         arguments: The command line; that of the process if left out.
         answer: Where the answer to it is kept, if it is one to keep.
     """
-    gc.set_threshold(200_000, 30, 30)  # objects made at start stay: collect rarely
     session = Session(answer=answer)
     code = _exit_code(sys.argv[1:] if arguments is None else arguments, session)
     gc.freeze()  # the process ends: no need to look for garbage in large trees

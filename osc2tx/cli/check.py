@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from osc2tx.building.jobs import find_jobs, run_all
+from osc2tx.building.jobs import Job, find_jobs, run_all
 from osc2tx.building.result_cache import check_jobs
 from osc2tx.building.results import check as check_compilation
+from osc2tx.cli.fixing import fix_files, fix_input, fixes_to_apply
 from osc2tx.cli.options import (
     affected_option,
     affected_sources,
@@ -34,7 +35,6 @@ from osc2tx_shared.text import StreamName, recorded
 
 if TYPE_CHECKING:
     from osc2tx.building.answers import Answer
-    from osc2tx.building.jobs import Job
     from osc2tx.building.results import FileResult
 
 
@@ -43,6 +43,11 @@ if TYPE_CHECKING:
 @compile_options
 @target_options
 @affected_option
+@click.option("--fix", "is_fixing", is_flag=True, help="Apply the safe fixes to the files.")
+@click.option(
+    "--unsafe-fixes", "unsafe", is_flag=True, help="Apply also fixes that may not be meant."
+)
+@click.option("--diff", "show_diff", is_flag=True, help="Write nothing; print what fixes change.")
 @click.option("--no-cache", is_flag=True, help="Check unchanged files again as well.")
 @cache_option
 @workers_option
@@ -52,6 +57,9 @@ def check(
     paths: tuple[str, ...],
     given: GivenOptions,
     affected: str | None,
+    is_fixing: bool,
+    unsafe: bool,
+    show_diff: bool,
     no_cache: bool,
     cache: Path | None,
     workers: int | None,
@@ -62,35 +70,65 @@ def check(
 
     Where the map of a scenario is found, a run is prepared up to its first step.
 
-    Without PATH, `sources` of the settings file count; `-` is standard input.
+    Without PATH, `sources` of the settings file count; `-` is standard input, whose fixed text
+    goes to standard output.
     """
+    if show_diff and reporter.form != "text":
+        raise click.UsageError("--diff and --output-format both print to standard output")
+    fixes = fixes_to_apply(is_fixing=is_fixing, unsafe=unsafe, show_diff=show_diff)
     if is_standard_input(paths, stdin_filename):
-        return _check_input(*job_of_standard_input(stdin_filename, given), reporter)
+        job, text = job_of_standard_input(stdin_filename, given)
+        if fixes is not None:
+            return fix_input(job, text, fixes, reporter)
+        return _check_input(job, text, reporter)
     asked = sources_or_stated(paths, "check")
     paths = affected_sources(asked, affected, given)
     configs = ConfigFiles()
     jobs = find_jobs(paths, given, configs)
     is_kept = not no_cache and cache_folder(cache) is not None
-    with progress_bar("checking", is_kept=is_kept) as progress:
-        results = check_jobs(
-            jobs,
-            remember=not no_cache,
-            workers=workers,
-            progress=progress,
-            configs=configs,
-            cache=cache,
-        )
+    checked = partial(
+        _checked, remember=not no_cache, workers=workers, configs=configs, cache=cache
+    )
+    results = checked(jobs, is_kept=is_kept)
+    outcome = Exit.OK
+    if fixes is not None:
+        fixed, outcome = fix_files(results, fixes, reporter)
+        if show_diff:
+            return outcome
+        again = dict(zip(fixed, checked(fixed, is_kept=is_kept), strict=True))
+        results = [again.get(result.job, result) for result in results]
     with recorded() as printed:
         code, report = reporter.report(results, [result.bug for result in results if result.bug])
         for result in results:
             for entry in result.scenarios:
                 reporter.say(f"{result.job.name}: {entry.summary}")
         reporter.say(f"checked {count_of(len(results), 'file')}: {found(report)}")
+    code = max(code, outcome)
     if any(Path(path).is_dir() for path in paths):
         return max(code, reporter.warn(configs.unmatched_tables()))
-    if is_kept and cache is None and reporter.session.answer is not None:
+    if fixes is None and is_kept and cache is None and reporter.session.answer is not None:
         _keep_answer(reporter.session.answer, code, printed, results)
     return code
+
+
+def _checked(
+    jobs: Sequence[Job],
+    *,
+    is_kept: bool,
+    remember: bool,
+    workers: int | None,
+    configs: ConfigFiles,
+    cache: Path | None,
+) -> list[FileResult]:
+    with progress_bar("checking", is_kept=is_kept) as progress:
+        return check_jobs(
+            jobs,
+            remember=remember,
+            workers=workers,
+            progress=progress,
+            configs=configs,
+            cache=cache,
+        )
 
 
 def _keep_answer(

@@ -25,8 +25,6 @@ from osc2tx.version import __version__
 from osc2tx_shared.classes import dataclass, replace
 from osc2tx_shared.text import complain, is_watched, put, put_document, say
 
-__all__ = ["columns", "wants_color"]
-
 
 def wants_color(*, err: bool = False) -> bool:
     """Whether to color standard output, or standard error: `NO_COLOR`, `FORCE_COLOR`, a terminal.

@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING
 
 import click
 
-from osc2tx.building.jobs import job_for
+from osc2tx.building.jobs import Job, job_for
 from osc2tx.compilation.inputs import Input, InputError
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.support.paths import real_path
 
 if TYPE_CHECKING:
-    from osc2tx.building.jobs import Job
     from osc2tx.compilation.driver import Compilation
 
 WORD = "-"
@@ -40,8 +39,18 @@ def is_standard_input(paths: tuple[str, ...], name: str | None) -> bool:
     return paths == (WORD,)
 
 
+def compilation_of_standard_input(name: str | None, given: GivenOptions) -> Compilation:
+    """Return the compilation of the text on standard input; no stage has run yet.
+
+    Raises:
+        InputError: If it is no text in UTF-8.
+    """
+    job, text = job_of_standard_input(name, given)
+    return job.compilation(text=text)
+
+
 def job_of_standard_input(name: str | None, given: GivenOptions) -> tuple[Job, str]:
-    """Return the job for the text on standard input, and the text.
+    """Return how to compile the text on standard input, and the text.
 
     Raises:
         InputError: If it is no text in UTF-8.
@@ -55,13 +64,3 @@ def job_of_standard_input(name: str | None, given: GivenOptions) -> tuple[Job, s
     folder = real_path(path.parent)
     item = Input(path, folder / path.name, path.parent, is_asked=True)
     return job_for(item, given, ConfigFiles().for_source(path)), text
-
-
-def compilation_of_standard_input(name: str | None, given: GivenOptions) -> Compilation:
-    """Return the compilation of the text on standard input; no stage has run yet.
-
-    Raises:
-        InputError: If it is no text in UTF-8.
-    """
-    job, text = job_of_standard_input(name, given)
-    return job.compilation(text=text)

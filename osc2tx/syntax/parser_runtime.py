@@ -10,19 +10,6 @@ from __future__ import annotations
 from functools import cached_property
 from typing import Any
 
-__all__ = [
-    "DFA",
-    "ATNDeserializer",
-    "NoViableAltException",
-    "Parser",
-    "ParserATNSimulator",
-    "ParserRuleContext",
-    "PredictionContextCache",
-    "RecognitionException",
-    "Token",
-    "TokenStream",
-]
-
 
 class Token:
     """The one type of token that the grammar does not name."""

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from osc2tx.building.results import FileResult
     from osc2tx_runtime import Scenario
 
-__all__ = ["CompiledSources"]
-
 
 class CompiledSources:
     """Compiles files on first use, and imports their modules.

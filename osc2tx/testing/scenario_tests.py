@@ -20,17 +20,6 @@ if TYPE_CHECKING:
     from osc2tx.testing.compiled_sources import CompiledSources
     from osc2tx.testing.conditions import ValueCondition
 
-__all__ = [
-    "pytest_addoption",
-    "pytest_collect_file",
-    "pytest_collection_modifyitems",
-    "pytest_configure",
-    "pytest_sessionfinish",
-    "pytest_sessionstart",
-    "pytest_terminal_summary",
-    "pytest_unconfigure",
-]
-
 SUFFIX = ".osc"
 _SOURCES = pytest.StashKey["CompiledSources"]()
 _RESULT = ("osc2tx.verdict", "osc2tx.reason")

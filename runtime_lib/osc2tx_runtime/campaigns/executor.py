@@ -27,8 +27,6 @@ from .rows import Plan, Row, RowResult
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.monitoring.phase import Violation
 
-__all__ = ["Executor", "trace_digest"]
-
 
 class Executor:
     """Runs rows; the module and the map are read once.

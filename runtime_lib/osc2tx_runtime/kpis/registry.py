@@ -16,16 +16,6 @@ from .measure import Measure, Scene
 from .pairs import MinGap, MinTimeGap, MinTimeToCollision
 from .rules import Collisions, OffRoad, RedLights
 
-__all__ = [
-    "ENTRY_POINTS",
-    "MEASURES",
-    "MaxDeceleration",
-    "MaxJerk",
-    "MaxLateralAcceleration",
-    "MinEncroachment",
-    "measures_by_name",
-]
-
 
 class _Greatest:
     """The greatest value of all actors and steps, and of each actor."""

@@ -27,8 +27,6 @@ from osc2tx_runtime.world.checks.commands import command_problem
 from osc2tx_runtime.world.commands import Command
 from osc2tx_runtime.world.protocol import EXACT, LATERAL, LONGITUDINAL, World
 
-__all__ = ["MAX_PASSES", "ExecutionContext"]
-
 MAX_PASSES = 1000
 
 

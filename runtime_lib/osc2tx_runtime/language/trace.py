@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.measuring.deviation import Deviation
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["TRACE_VERSION", "OnSample", "TraceWriter", "number", "to_json"]
-
 TRACE_VERSION = 1
 ACTION_ORDER = {"start": 0, "end": 1, "fail": 2}
 

@@ -11,8 +11,6 @@ from .lane_advance import lane_heading
 from .lane_line import lane_line
 from .model import Lane, LaneBends
 
-__all__ = ["lane_bends"]
-
 _STRETCH = 2.0  # m of a lane over which its curvature is taken
 _SHORTEST = 0.5  # m: lanes shorter than this have no bends
 _STRAIGHT = 5e-4  # 1/m: a lower curvature limits no speed

@@ -15,24 +15,6 @@ if TYPE_CHECKING:
     from .cross_sections import CrossSection
     from .geometry import ReferenceLine
 
-__all__ = [
-    "DRIVING",
-    "Advance",
-    "Junction",
-    "JunctionConnection",
-    "Lane",
-    "LaneBends",
-    "LaneKey",
-    "LaneOutline",
-    "LanePosition",
-    "LaneSection",
-    "Link",
-    "Pose",
-    "Road",
-    "new_tuple",
-    "road_order",
-]
-
 new_tuple = tuple.__new__
 """Makes a named tuple of all its fields in half the time of a call: `new_tuple(Pose, (x, ...))`."""
 

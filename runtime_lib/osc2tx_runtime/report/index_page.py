@@ -11,8 +11,6 @@ from .json_values import Json, number, plain, text
 from .page import Trace
 from .trace_reader import read_run
 
-__all__ = ["RunRow", "render_index"]
-
 
 @dataclass(frozen=True, slots=True)
 class RunRow:

@@ -8,8 +8,6 @@ from typing import Protocol
 
 from .json_values import Json, short
 
-__all__ = ["Bounds", "LaneShape", "OutlineSource", "nearby_crosswalks", "nearby_lanes"]
-
 MARGIN = 100.0
 """How far from a path lanes are drawn (m)."""
 

@@ -15,8 +15,6 @@ from .surroundings import SignalSource
 from .trace_reader import read_run
 from .tracks import DIGITS
 
-__all__ = ["Trace", "render_campaign", "render_report", "render_runs", "write_report"]
-
 
 def render_campaign(data: Json) -> str:
     """Return the page as text; the same data give the same text.

@@ -13,8 +13,6 @@ from .marks import mark_name
 from .surroundings import Surroundings
 from .tracks import Track
 
-__all__ = ["ActionLog", "Run", "node_list", "read_run"]
-
 _Key = tuple[str, str, str]
 
 

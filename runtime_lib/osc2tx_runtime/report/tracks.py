@@ -9,8 +9,6 @@ from osc2tx_shared.classes import dataclass
 
 from .json_values import Json, number, short, text
 
-__all__ = ["DIGITS", "MAX_SAMPLES", "Track", "pack"]
-
 Packed = list[int | list[int] | None]
 
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from osc2tx_runtime.opendrive import RoadMap
 
-__all__ = ["map_warnings"]
-
 _NAMED = 3  # remarks; `osc2tx map` lists all
 
 

@@ -10,8 +10,6 @@ from osc2tx_runtime.errors import InputError, SettingsError
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_shared.links import target_outside
 
-__all__ = ["check_outputs", "problem_of", "write_output"]
-
 BEGINS = {
     "trace": (b'{"kind":"header"',),
     "report": (b"<!DOCTYPE html>",),

@@ -33,8 +33,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.tree.base import Behaviour
     from osc2tx_runtime.world.protocol import World
 
-__all__ = ["RunResult", "check_start", "run_scenario", "setup_tree"]
-
 ResultT = TypeVar("ResultT", covariant=True)
 
 REDRAWS = 100  # draws of one seed, where the map has no room for the drawn values

@@ -13,8 +13,6 @@ from osc2tx_runtime.report.index_page import RunRow, render_index
 from osc2tx_runtime.report.page import Trace, render_runs
 from osc2tx_runtime.running.output_files import problem_of, write_output
 
-__all__ = ["folder_report", "trace_report"]
-
 
 class _Maps:
     """The maps of traces, each read once; one that is not found is a warning.

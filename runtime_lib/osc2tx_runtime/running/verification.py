@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.scenario import Scenario
     from osc2tx_runtime.language.tree.base import Behaviour
 
-__all__ = ["RecordedRun", "Verification", "read_trace", "recorded_run", "verify"]
-
 Line: TypeAlias = Mapping[str, Any]
 
 

@@ -14,8 +14,6 @@ from osc2tx_runtime.opendrive.lane_line import lane_line
 from osc2tx_runtime.world.actor_dimensions import COMFORT, Limits
 from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["BendsAhead"]
-
 _STEP_OVER = 1e-6  # m beyond the end of a lane, so as to be on the next one
 _OF_GRIP = 0.8  # share of the grip for the bend
 _OF_BRAKES = 0.5  # share for the brakes: with both the friction circle holds
