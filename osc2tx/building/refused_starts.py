@@ -15,7 +15,7 @@ from osc2tx.building.fingerprint import digest
 from osc2tx.compilation.imports import look_up
 from osc2tx.compilation.map_files import named_maps
 from osc2tx.compilation.needed_modules import sibling_modules, siblings_of
-from osc2tx.diagnostics import Diagnostic, Severity, Span
+from osc2tx.diagnostics import CODES, Diagnostic, Severity, Span
 from osc2tx.support.paths import real_path
 from osc2tx_shared.classes import replace
 from osc2tx_shared.map_files import SHIPPED, map_places
@@ -28,9 +28,6 @@ if TYPE_CHECKING:
 
 RunTexts: TypeAlias = tuple[tuple[str, tuple[str, ...]], ...]
 """Options of runs as the settings file states them, by name."""
-
-MISSING_VALUE = "OSC806"
-"""Code of a parameter that is left open; that is a mistake of a run, not of the scenario."""
 
 
 def report_refused_starts(compilation: Compilation, texts: RunTexts) -> None:
@@ -133,7 +130,7 @@ def _read_contents(path: Path, contents: str) -> RoadMap:
 
 def _diagnostic(compilation: Compilation, code: str, message: str, place: str | None) -> Diagnostic:
     """Return an error of a run as a diagnostic at its place."""
-    severity = Severity.WARNING if code == MISSING_VALUE else Severity.ERROR
+    severity = Severity.WARNING if CODES[code].warns_in_check else Severity.ERROR
     return Diagnostic(code, severity, message, _span(compilation, place))
 
 
@@ -149,5 +146,5 @@ def _span(compilation: Compilation, place: str | None) -> Span:
         return compilation.start
     column = place.column if isinstance(place, SourcePlace) else 1
     begin = source.line_starts[int(line) - 1] + column - 1
-    text = source.line_text(int(line))[column - 1 :].rstrip()
+    text = source.line_text(int(line))[column - 1 :].partition(" #")[0].rstrip()
     return Span(source, begin, begin + max(1, len(text)))

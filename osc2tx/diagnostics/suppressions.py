@@ -126,7 +126,7 @@ class _Entries:
             meant = meant_code(name.text)
             help = write(name, meant, f"did you mean `{meant}`?", is_safe=False) if meant else None
             sink.report("OSC702", name, f"there is no code `{name.text}`", help=help)
-        elif code.severity is Severity.ERROR and name not in self._used:
+        elif code.severity is Severity.ERROR and not code.can_be_suppressed:
             message = f"`{code.code}` is an error; only warnings can be suppressed"
             sink.report("OSC703", name, message, help="fix the reported error")
         elif not code.can_be_suppressed:
