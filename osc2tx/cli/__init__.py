@@ -45,6 +45,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "world": ("osc2tx.cli.world:world", "Check a simulator against the requirements of runs."),
     "config": ("osc2tx.cli.config:config", "Show the effective settings and their origins."),
     "reference": ("osc2tx.cli.reference:reference", "Describe a name of the library."),
+    "lsp": ("osc2tx.cli.lsp:lsp", "Serve editors: diagnostics, completion, fixes."),
     "explain": ("osc2tx.cli.explain:explain", "Explain a diagnostic code."),
 }
 

@@ -214,9 +214,7 @@ def _misspelt_composition(place: Place) -> Advice | None:
         named = place.table.span(index, index)
         help_ = write(named, COMPOSITIONS[word], f"write `{COMPOSITIONS[word]}:`", is_safe=False)
         return Advice(what, help_, index)
-    meant = name_meant(
-        place.table.span(index, index), ["serial", "parallel", "one_of", "with"], 0.7
-    )
+    meant = name_meant(place.table.span(index, index), _BLOCK_WORDS, 0.7, is_safe=True)
     if meant:
         return Advice(f"unknown word `{word}`", meant, index)
     follows = place.table.text(index - 1) in ("do", ":")
@@ -257,6 +255,8 @@ _REMEDIES: tuple[Callable[[Place], Advice | None], ...] = (
     _point_without_digits,
     _sampled_parameter,
     foreign.behind_a_call,
+    foreign.wait_until,
+    foreign.arrow,
     foreign.other_strength,
     foreign.not_in,
     foreign.several_events,

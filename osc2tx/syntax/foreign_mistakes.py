@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from osc2tx.diagnostics import Span
 from osc2tx.diagnostics.fixes import Edit, Help, leave_out, rewrite, write
 from osc2tx.syntax import tokens as t
 from osc2tx.syntax.foreign_words import BEHIND_A_CALL, LOOPS, STATEMENTS
@@ -47,7 +48,48 @@ def behind_a_call(place: Place) -> Advice | None:
     what = f"there is no `{word}` behind a call"
     if word == "until":
         what = "`until` belongs into a `with:` block"
-    return Advice(what, BEHIND_A_CALL[word])
+    return Advice(what, _into_the_call(place) or BEHIND_A_CALL[word])
+
+
+def _into_the_call(place: Place) -> Help:
+    """Return how `until …` goes into a block below the call, and `for 3s` into its arguments."""
+    word, table = place.text(), place.table
+    end = place.at
+    while table.types[end + 1] not in (t.NEWLINE, t.EOF):
+        end += 1
+    has_block = table.types[end + 2 : end + 3] == [t.INDENT] or table.text(end) == ":"
+    if word == "until" and end > place.at and not has_block:
+        indentation = " " * (table.indentation(table.starts[place.line]) + 4)
+        below = write(place.between(-1), f" with:\n{indentation}", BEHIND_A_CALL[word])
+        return below
+    if word == "for" and place.kind(1) == t.PHYSICAL and end == place.at + 1:
+        comma = "" if place.kind(-2) == _LPAREN else ", "
+        argument = Edit(place.span(-1), f"{comma}duration: {place.text(1)})")
+        rest = Edit(Span(table.source, place.span(-1).end, table.ends[end]), "")
+        return rewrite([argument, rest], BEHIND_A_CALL[word])
+    return None
+
+
+def wait_until(place: Place) -> Advice | None:
+    """`wait until x > 3`."""
+    line = place.line
+    if place.table.text(line) != "wait" or place.table.text(line + 1) != "until":
+        return None
+    if place.at not in (line + 1, line + 2):
+        return None
+    between = Span(place.table.source, place.table.ends[line], place.table.starts[line + 2])
+    help_ = write(between, " ", "a condition follows `wait` at once: `wait …`")
+    return Advice("unexpected `until` after `wait`", help_, line + 1)
+
+
+def arrow(place: Place) -> Advice | None:
+    """`a.drive() -> b.drive()`."""
+    if place.text() != "->" or place.kind(-1) != _RPAREN:
+        return None
+    if place.table.types[place.line] == t.KEYWORDS["def"]:
+        return None
+    help_ = "write each on a line of its own, below `serial:`"
+    return Advice("there is no `->` between actions", help_)
 
 
 def colon_inheritance(place: Place) -> Advice | None:

@@ -40,8 +40,10 @@ MAY_IMPORT: dict[str, set[str]] = {
     | {"diagnostics", "options", "resources", "support", "version"},
     "reference": {"catalogue", "stdlib", "syntax"},
     "campaigns": {"version"},
+    "language_server": {"building", "catalogue", "compilation", "config", "diagnostics"}
+    | {"reference", "semantics", "stdlib", "support", "syntax", "version"},
     "cli": {"backends", "building", "campaigns", "compilation", "config", "reference"}
-    | {"diagnostics", "options", "resources", "support", "version"},
+    | {"language_server", "diagnostics", "options", "resources", "support", "version"},
     "start": {"building", "cli"},
     "__main__": {"start"},
     "api": {"building", "compilation", "config", "diagnostics", "options", "support"},
@@ -63,6 +65,7 @@ OTHERS = {
     "campaigns": {"distributed", "optuna", "osc2tx_runtime", "scipy"},
     "cli": {"click", "osc2tx_runtime", "pytest", "rich"},
     "testing": {"osc2tx_runtime", "pytest"},
+    "language_server": {"lsprotocol", "pygls"},
 }
 
 FILES = files_of(COMPILER)

@@ -158,7 +158,7 @@ class Lane:
         outer: t of the edge away from the reference line (m).
         level: Whether it stays level where its road is not.
         level_from: t of the edge (m) whose height it then has, None if it is as its road is.
-        bends: Where it bends; see `lane_bends`.
+        bends: Where it bends.
         heights: Of its surface above the road at the inner and at the outer edge (m); None if
             it lies on the road.
     """

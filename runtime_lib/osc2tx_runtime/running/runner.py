@@ -18,7 +18,6 @@ from osc2tx_runtime.language.trace import TraceWriter
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.running.checked_world import checked_world
 from osc2tx_runtime.running.loop import Observer, OnProgress, Outcome, overloads, run_tree
-from osc2tx_runtime.running.map_warnings import map_warnings
 from osc2tx_runtime.running.output_files import check_outputs, write_output
 from osc2tx_runtime.running.requirements import check_requirements
 from osc2tx_runtime.running.world_choice import make_world
@@ -355,3 +354,21 @@ def write_files(context: ExecutionContext) -> None:
 
         page = render_report(context.trace.lines, context.world.map)
         write_output("report", settings.report, page)
+
+
+_NAMED = 3  # remarks; `osc2tx map` lists all
+
+
+def map_warnings(road_map: RoadMap) -> tuple[str, ...]:
+    """Return a sentence for each of the first remarks, and one for all seams."""
+    name, remarks, seams = road_map.name, road_map.remarks, road_map.seams()
+    found = [f"map {name}: {remark}" for remark in remarks[:_NAMED]]
+    if len(remarks) > _NAMED:
+        found.append(f"map {name}: {len(remarks) - _NAMED} more remarks; `osc2tx map` lists them")
+    if seams:
+        worst = max(seams, key=lambda seam: (seam.gap, seam.turn))
+        found.append(
+            f"map {name}: lanes do not fit together at {len(seams)} places, worst {worst};"
+            " `osc2tx map` lists them"
+        )
+    return tuple(found)
