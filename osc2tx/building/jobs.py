@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from osc2tx.compilation.inputs import Input, find_inputs, is_unicode
 from osc2tx.compilation.roots import Roots, innermost
@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from osc2tx.compilation.driver import Compilation, Memory
     from osc2tx.config import Config, ConfigFiles, GivenOptions
     from osc2tx.options import CompileOptions
+
+RunTexts: TypeAlias = tuple[tuple[str, tuple[str, ...]], ...]
+"""Options of runs as the settings file states them, by name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +43,7 @@ class Job:
     roots: Roots
     is_asked: bool
     given: GivenOptions
-    run: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    run: RunTexts = ()
 
     def compilation(self, memory: Memory | None = None, text: str | None = None) -> Compilation:
         """Return its compilation; no stage has run yet.

@@ -22,12 +22,10 @@ from osc2tx_shared.map_files import SHIPPED, map_places
 
 if TYPE_CHECKING:
     from osc2tx import ir
+    from osc2tx.building.jobs import RunTexts
     from osc2tx.compilation.driver import Compilation
     from osc2tx_runtime import RunSettings, Scenario
     from osc2tx_runtime.opendrive import RoadMap
-
-RunTexts: TypeAlias = tuple[tuple[str, tuple[str, ...]], ...]
-"""Options of runs as the settings file states them, by name."""
 
 
 def report_refused_starts(compilation: Compilation, texts: RunTexts) -> None:

@@ -9,8 +9,7 @@ from pathlib import Path, PurePath
 from typing import TYPE_CHECKING
 
 from osc2tx.building.fingerprint import digest
-from osc2tx.building.jobs import Job, find_bug
-from osc2tx.building.refused_starts import RunTexts, report_refused_starts
+from osc2tx.building.jobs import Job, RunTexts, find_bug
 from osc2tx.compilation.file_reports import LossEntry
 from osc2tx.diagnostics import Diagnostic, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
@@ -160,6 +159,8 @@ def check(compilation: Compilation, run: RunTexts = ()) -> None:
         compilation: The file.
         run: The options of runs that are stated for it.
     """
+    from osc2tx.building.refused_starts import report_refused_starts
+
     if compilation.check():
         report_refused_starts(compilation, run)
 
