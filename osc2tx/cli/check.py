@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from osc2tx.building.baseline import Baselines
 from osc2tx.building.jobs import Job, find_jobs, run_all
 from osc2tx.building.result_cache import check_jobs
 from osc2tx.building.results import check as check_compilation
@@ -29,6 +30,7 @@ from osc2tx.cli.standard_input import (
     job_of_standard_input,
     stdin_filename,
 )
+from osc2tx.compilation.file_reports import apply_suppressions
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx_shared.cache import cache_folder
 from osc2tx_shared.text import StreamName, recorded
@@ -43,6 +45,11 @@ if TYPE_CHECKING:
 @compile_options
 @target_options
 @affected_option
+@click.option(
+    "--write-baseline",
+    is_flag=True,
+    help="Write the warnings to the `baseline` of the settings: they are not reported again.",
+)
 @click.option("--fix", "is_fixing", is_flag=True, help="Apply the safe fixes to the files.")
 @click.option(
     "--unsafe-fixes", "unsafe", is_flag=True, help="Apply also fixes that may not be meant."
@@ -57,6 +64,7 @@ def check(
     paths: tuple[str, ...],
     given: GivenOptions,
     affected: str | None,
+    write_baseline: bool,
     is_fixing: bool,
     unsafe: bool,
     show_diff: bool,
@@ -97,8 +105,14 @@ def check(
             return outcome
         again = dict(zip(fixed, checked(fixed, is_kept=is_kept), strict=True))
         results = [again.get(result.job, result) for result in results]
+    baselines = Baselines(configs)
+    whole = [result.job.path for result in results if result.is_complete]
+    if write_baseline:
+        _write_baselines(baselines, results, whole, reporter)
     with recorded() as printed:
-        code, report = reporter.report(results, [result.bug for result in results if result.bug])
+        bugs = [result.bug for result in results if result.bug]
+        code, report = reporter.report(results, bugs, baselines=baselines)
+        code = max(code, reporter.warn(baselines.outdated(whole)))
         for result in results:
             for entry in result.scenarios:
                 reporter.say(f"{result.job.name}: {entry.summary}")
@@ -106,8 +120,9 @@ def check(
     code = max(code, outcome)
     if any(Path(path).is_dir() for path in paths):
         return max(code, reporter.warn(configs.unmatched_tables()))
-    if fixes is None and is_kept and cache is None and reporter.session.answer is not None:
-        _keep_answer(reporter.session.answer, code, printed, results)
+    answer = reporter.session.answer
+    if fixes is None and not write_baseline and is_kept and cache is None and answer is not None:
+        _keep_answer(answer, code, printed, results, configs)
     return code
 
 
@@ -131,11 +146,29 @@ def _checked(
         )
 
 
+def _write_baselines(
+    baselines: Baselines, results: Sequence[FileResult], whole: Sequence[Path], reporter: Reporter
+) -> None:
+    """Make all warnings of files known.
+
+    Raises:
+        click.UsageError: No settings say where to.
+    """
+    written = baselines.write(apply_suppressions(results).shown, whole)
+    if whole and not written:
+        raise click.UsageError(
+            '--write-baseline: name a file in the settings, as in `baseline = "known.json"`'
+        )
+    for place, count in written.items():
+        reporter.say(f"{place}: {count_of(count, 'known warning')}")
+
+
 def _keep_answer(
     answer: Answer,
     code: Exit,
     printed: Sequence[tuple[StreamName, str]],
     results: Sequence[FileResult],
+    configs: ConfigFiles,
 ) -> None:
     """Keep what was printed on files, if all that decides it is known."""
     files: list[str] = []
@@ -145,6 +178,9 @@ def _keep_answer(
         links = (*result.job.roots, *map(Path, result.job.options.import_paths))
         files += [str(result.job.path), *map(str, links)]
         files += [each.asked for each in result.dependencies if each.found]
+        sources = {each.primary.source.path for each in result.reports if each.primary}
+        places = {configs.for_source(path).baseline for path in {result.job.path, *sources} if path}
+        files += map(str, filter(None, places))
     answer.keep(code, printed, files)
 
 

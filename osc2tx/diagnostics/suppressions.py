@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from osc2tx.diagnostics.codes import find_code, meant_code
+from osc2tx.diagnostics.codes import CODES, find_code, meant_code
 from osc2tx.diagnostics.fixes import Remedy, leave_out, write
 from osc2tx.diagnostics.model import Diagnostic, Severity
 from osc2tx.diagnostics.sink import DiagnosticSink, in_order
@@ -69,7 +69,7 @@ def settle(
     shown, suppressed = [], []
     for diagnostic in found:
         span = diagnostic.primary
-        if span is None or diagnostic.severity is Severity.ERROR:
+        if span is None or CODES[diagnostic.code].severity is Severity.ERROR:
             shown.append(diagnostic)
         elif entries_of(span.source).use(diagnostic.code, span.line):
             suppressed.append(diagnostic)

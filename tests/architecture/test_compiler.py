@@ -36,13 +36,13 @@ MAY_IMPORT: dict[str, set[str]] = {
     "config": {"diagnostics", "options", "support"},
     "compilation": {"syntax", "semantics", "analysis", "ir", "lowering", "backends"}
     | {"diagnostics", "formatter", "options", "support"},
-    "building": {"compilation", "config"}
+    "building": {"backends", "compilation", "config", "ir"}
     | {"diagnostics", "options", "resources", "support", "version"},
     "reference": {"catalogue", "stdlib", "syntax"},
     "campaigns": {"version"},
     "language_server": {"building", "catalogue", "compilation", "config", "diagnostics"}
     | {"reference", "semantics", "stdlib", "support", "syntax", "version"},
-    "cli": {"backends", "building", "campaigns", "compilation", "config", "reference"}
+    "cli": {"building", "campaigns", "compilation", "config", "reference"}
     | {"language_server", "diagnostics", "options", "resources", "support", "version"},
     "start": {"building", "cli"},
     "__main__": {"start"},

@@ -132,7 +132,7 @@ class ExecutionContext:
         self.actors: dict[str, BaseActor] = dict(actors or {})
         self.objects = tuple(objects)
         self.events = dict(events or {})
-        self.trace = trace or TraceWriter(enabled=False)
+        self.trace = trace or TraceWriter()
         self.label_events = dict(label_events or {})
         self.one_of = one_of
         self.first_come = first_come

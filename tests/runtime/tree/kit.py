@@ -13,7 +13,7 @@ from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.trace import TraceWriter
 from osc2tx_runtime.language.tree import Behaviour, Event, Status
 from osc2tx_runtime.running.loop import Outcome, run_tree
-from osc2tx_runtime.running.runner import setup_tree
+from osc2tx_runtime.running.preparation import setup_tree
 from osc2tx_runtime.world.actor_dimensions import Shape
 from osc2tx_runtime.world.commands import SpeedChange
 from osc2tx_runtime.world.state import ActorState
@@ -168,12 +168,13 @@ class Run:
     ) -> None:
         self.root = tree if isinstance(tree, Behaviour) else tree()
         self.world = world or FakeWorld(ids, dt)
+        self.lines: list[str] = []
         self.context = ExecutionContext(
             self.world,  # type: ignore[arg-type]
             RunSettings(dt=dt, max_time=max_time, **settings),
             {id: FakeActor(id) for id in self.world.ids},  # type: ignore[misc]
             events=events,
-            trace=TraceWriter(),
+            trace=TraceWriter(self.lines.extend),
             one_of=one_of,
             label_events=label_events,
         )
@@ -182,10 +183,6 @@ class Run:
         setup_tree(self.root, self.context)
         self.outcome = run_tree(self.root, self.context)
         return self
-
-    @property
-    def lines(self) -> list[str]:
-        return self.context.trace.lines
 
 
 def event(name: str) -> Event:
