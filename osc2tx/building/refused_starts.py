@@ -79,7 +79,7 @@ def _report(
     texts: Mapping[str, Sequence[str]],
     folders: Sequence[Path],
 ) -> None:
-    from osc2tx.building.module_loading import scenarios_of_module
+    from osc2tx.module_loading import scenarios_of_module
     from osc2tx_runtime import ScenarioError
     from osc2tx_runtime.running.options import read_options
 

@@ -9,7 +9,6 @@ from pathlib import Path
 import click
 
 from osc2tx.building.jobs import compile_all, run_all
-from osc2tx.building.module_loading import module_files, written_files
 from osc2tx.building.workers import processors
 from osc2tx.campaigns import CampaignError
 from osc2tx.campaigns.aims import Aim
@@ -30,9 +29,11 @@ from osc2tx.cli.run import (
     option_texts,
     settings_from,
 )
+from osc2tx.cli.written_modules import written_files
 from osc2tx.compilation.inputs import InputError, find_inputs
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import CAMPAIGN_SETTINGS, ConfigError, ConfigFiles, GivenOptions
+from osc2tx.module_loading import module_files
 from osc2tx.support.paths import file_stem
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.campaigns import Condition, Modules, Plan

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from osc2tx.backends.py_trees.emitter import emit
-from osc2tx.building.module_loading import scenarios_of_module
 from osc2tx.catalogue import catalogue
+from osc2tx.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx_runtime import RunSettings, run_scenario
 from osc2tx_runtime.errors import UnsupportedError
