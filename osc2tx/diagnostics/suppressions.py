@@ -69,7 +69,7 @@ def settle(
     shown, suppressed = [], []
     for diagnostic in found:
         span = diagnostic.primary
-        if span is None or CODES[diagnostic.code].severity is Severity.ERROR:
+        if span is None or not CODES[diagnostic.code].can_be_suppressed:
             shown.append(diagnostic)
         elif entries_of(span.source).use(diagnostic.code, span.line):
             suppressed.append(diagnostic)
