@@ -30,6 +30,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "lowering": {"analysis", "catalogue", "ir", "semantics", "syntax.ast"}
     | {"diagnostics", "options"},
     "xosc": {"diagnostics", "options"},
+    "importing": {"options", "stdlib", "xosc"},
     "backends": {"catalogue", "diagnostics", "ir", "options", "resources", "support", "xosc"},
     # what runs them
     "formatter": {"diagnostics", "syntax"},
@@ -40,8 +41,8 @@ MAY_IMPORT: dict[str, set[str]] = {
     | {"diagnostics", "options", "resources", "support", "version"},
     "reference": {"catalogue", "stdlib", "syntax"},
     "campaigns": {"version"},
-    "cli": {"backends", "building", "campaigns", "compilation", "config", "reference"}
-    | {"diagnostics", "options", "resources", "support", "version"},
+    "cli": {"backends", "building", "campaigns", "compilation", "config", "importing"}
+    | {"diagnostics", "options", "reference", "resources", "support", "version", "xosc"},
     "start": {"building", "cli"},
     "__main__": {"start"},
     "api": {"building", "compilation", "config", "diagnostics", "options", "support"},
@@ -58,6 +59,7 @@ OTHERS = {
     "backends/py_trees": {"black", "jinja2"},
     "backends/xosc/facts": {"osc2tx_runtime"},  # sizes, courses and maps are the world's own
     "xosc/player": {"osc2tx_runtime"},  # the reader of maps alone
+    "importing": {"osc2tx_runtime"},  # likewise
     # rows are chosen here, run there
     "campaigns": {"distributed", "optuna", "osc2tx_runtime", "scipy"},
     "cli": {"click", "osc2tx_runtime", "pytest", "rich"},
