@@ -106,7 +106,7 @@ coverage: $(STAMP)
 	$(BIN)/python tools/make_monitors_doc.py
 
 parser: $(STAMP)
-	sh tools/make_parser.sh
+	$(BIN)/python tools/make_parser.py
 
 # Everything that is written by a script of ours from something else in the repository.
 tables: $(STAMP)

@@ -6,6 +6,7 @@ without the command line.
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
@@ -22,6 +23,7 @@ def main() -> NoReturn:
     """Run the command line and end the process."""
     try:
         signal.signal(signal.SIGINT, lambda number, frame: os._exit(_INTERRUPTED))
+        gc.set_threshold(200_000, 30, 30)  # what is loaded and parsed stays: collect rarely
         from osc2tx.building.answers import Answer
 
         answer = Answer(sys.argv[1:])

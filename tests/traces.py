@@ -3,8 +3,6 @@
 import json
 from collections.abc import Iterable
 
-__all__ = ["whatever_the_order"]
-
 
 def whatever_the_order(lines: Iterable[str]) -> list[str]:
     """The lines, with the nodes of the tree sorted by what they are and when they ran."""

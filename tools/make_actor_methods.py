@@ -80,8 +80,7 @@ def _methods_of(kind: str) -> str:
         "from osc2tx_runtime.language.actions.registry import carried_out\n",
         "if TYPE_CHECKING:",
         *lines,
-        f'\n__all__ = ["{name}"]\n',
-        f"@carried_out\nclass {name}:",
+        f"\n@carried_out\nclass {name}:",
         f'    """Actions of the actor type `{kind}`."""\n',
         *bodies,
     )

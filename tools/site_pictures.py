@@ -20,8 +20,6 @@ from osc2tx.catalogue import catalogue
 from osc2tx.reference import Entry
 from osc2tx.testing import Run, run_scenario
 
-__all__ = ["picture"]
-
 REPOSITORY = Path(__file__).parent.parent
 WIDTH, HEIGHT = 720, 260
 LEFT, RIGHT, TOP, BOTTOM = 64, 16, 34, 64

@@ -37,8 +37,7 @@ class Plan:
     """Struct `plan`."""
 
     mood: Mood
-    # keep(default it == 20knot)
-    cruise: Speed
+    cruise: Speed = 20 * knot
     peak: Acceleration
 
     # keep(mood == mood!calm => peak == 1mpss)
@@ -53,7 +52,7 @@ class OwnTypes(Scenario):
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
-        self.quiet = self.argument("quiet", Plan(cruise=20 * knot, mood="calm", peak=1 * mpss))
+        self.quiet = self.argument("quiet", Plan(mood="calm", peak=1 * mpss))
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""

@@ -25,8 +25,6 @@ from osc2tx.config import ConfigFiles
 from osc2tx.support.paths import real_path
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["Affected", "affected_since"]
-
 
 @dataclass(frozen=True, slots=True)
 class Affected:

@@ -19,7 +19,7 @@ from osc2tx.building.plan import (
     place_outputs,
 )
 from osc2tx.building.result_cache import ResultCache
-from osc2tx.building.results import FileResult, without_ignored
+from osc2tx.building.results import FileResult, with_severities
 from osc2tx.building.workers import compile_jobs, with_siblings
 from osc2tx.building.write import Update, update_folder
 from osc2tx.building.written_digests import read_digests
@@ -171,7 +171,7 @@ class _Build:
             written, failures = update_folder(self.out_dir, self.written, update)
             self.failures += failures
         return BuildResult(
-            results=tuple(without_ignored(results, self.configs)),
+            results=tuple(with_severities(results, self.configs)),
             modules=len({planned.result.job for planned in placed}),
             changes=tuple(sorted(changes, key=lambda change: change.path)),
             written=tuple(self.out_dir / path for path in written),

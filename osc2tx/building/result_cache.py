@@ -29,7 +29,7 @@ from osc2tx.building.results import (
     OutputRecord,
     check_job,
     used_files,
-    without_ignored,
+    with_severities,
 )
 from osc2tx.building.stored_reports import ReportReader, ReportWriter
 from osc2tx.compilation.file_reports import LossEntry
@@ -187,7 +187,10 @@ class ResultCache:
             "is_complete": result.is_complete,
             "stem": result.stem,
             "outputs": [[made.suffix, made.digest] for made in result.outputs],
-            "losses": [[loss.scenario, loss.is_written, loss.summary] for loss in result.losses],
+            "losses": [
+                [loss.scenario, loss.is_written, loss.summary, *loss.reasons]
+                for loss in result.losses
+            ],
             "reports": [writer.report(report) for report in result.reports],
             "scenarios": [writer.scenario(entry) for entry in result.scenarios],
             "sources": writer.sources(),
@@ -226,7 +229,10 @@ class ResultCache:
             scenarios=tuple(reader.scenario(entry) for entry in record["scenarios"]),
             stem=record["stem"],
             outputs=tuple(OutputRecord(suffix, found, None) for suffix, found in record["outputs"]),
-            losses=tuple(LossEntry(*entry) for entry in record["losses"]),
+            losses=tuple(
+                LossEntry(scenario, is_written, summary, tuple(reasons))
+                for scenario, is_written, summary, *reasons in record["losses"]
+            ),
             dependencies=tuple(each for each in present if each is not None),
             imported=tuple(imported),
             uses=record["uses"],
@@ -374,4 +380,4 @@ def check_jobs(
         made = run_jobs(check_job, missing, workers, finished)
         known |= dict(zip(missing, made, strict=True))
         memory.close()
-    return without_ignored([known[job] for job in jobs], configs or ConfigFiles())
+    return with_severities([known[job] for job in jobs], configs or ConfigFiles())

@@ -20,8 +20,6 @@ from osc2tx.support.paths import real_path
 from osc2tx_shared.classes import dataclass
 from osc2tx_shared.map_files import map_places
 
-__all__ = ["IndexedFile", "SourceIndex"]
-
 _TEXT = re.compile(r'"([^"\n]*)"')
 _MAP = re.compile(r'"([^"\n]+\.xodr)"')
 BYTE_ORDER_MARK = "\ufeff"

@@ -8,6 +8,7 @@ from typing import Any
 
 from osc2tx.building.fingerprint import digest
 from osc2tx.diagnostics import CODES, Diagnostic, Label, SourceFile, Span
+from osc2tx.diagnostics.fixes import Edit, Fix
 from osc2tx.diagnostics.report import ScenarioEntry
 
 
@@ -38,7 +39,12 @@ class ReportWriter:
             [[self._place(label.span), label.message] for label in report.labels],
             list(report.notes),
             report.help,
+            [self._fix(fix) for fix in report.fixes],
         ]
+
+    def _fix(self, fix: Fix) -> list[Any]:
+        edits = [[self._place(edit.span), edit.text] for edit in fix.edits]
+        return [fix.title, edits, fix.is_safe]
 
     def scenario(self, entry: ScenarioEntry) -> list[Any]:
         """Return an entry as a list."""
@@ -100,7 +106,7 @@ class ReportReader:
 
     def report(self, entry: Sequence[Any]) -> Diagnostic:
         """Return a diagnostic."""
-        code, message, primary, labels, notes, help = entry
+        code, message, primary, labels, notes, help, fixes = entry
         return Diagnostic(
             code,
             CODES[code].severity,
@@ -109,7 +115,12 @@ class ReportReader:
             tuple(Label(self._span(place), remark) for place, remark in labels),
             tuple(notes),
             help,
+            tuple(map(self._fix, fixes)),
         )
+
+    def _fix(self, entry: Sequence[Any]) -> Fix:
+        title, edits, is_safe = entry
+        return Fix(title, tuple(Edit(self._span(place), text) for place, text in edits), is_safe)
 
     def scenario(self, entry: Sequence[Any]) -> ScenarioEntry:
         """Return the level of a scenario."""

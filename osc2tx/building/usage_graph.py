@@ -12,8 +12,6 @@ from osc2tx.building.source_index import IndexedFile, SourceIndex
 from osc2tx.compilation.uses import Statement
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["Node", "UsageGraph"]
-
 KINDS = ("scenario", "actor", "action", "modifier", "struct", "enum", "extend", "map")
 """What is shown, in this order; other declarations lead from one to another."""
 

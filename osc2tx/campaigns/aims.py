@@ -10,8 +10,6 @@ from osc2tx_shared.classes import dataclass
 
 from .store import CampaignError
 
-__all__ = ["Aim"]
-
 MANNERS = ("min", "max")
 
 

@@ -21,8 +21,6 @@ from osc2tx_runtime.errors import told
 
 from .store import CampaignError
 
-__all__ = ["DaskEngine", "engine_by_name"]
-
 LOOK = 5.0  # seconds without news, after which the number of workers is checked
 AHEAD = 2  # batches for each worker: one that it runs, one that waits for it
 

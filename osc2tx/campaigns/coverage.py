@@ -16,8 +16,6 @@ from osc2tx.campaigns.store import Store
 from osc2tx_runtime.campaigns import Executor, Plan
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["Bucket", "Item", "coverage_of", "has_models", "items_of"]
-
 ENDING = ".coverage.json"
 ROUNDING = 1e-9  # of the size of a value: so close to a boundary it lies on it
 

@@ -14,8 +14,6 @@ from osc2tx_runtime.campaigns.points import Column
 
 from .store import CampaignError
 
-__all__ = ["GridSampler", "PairwiseSampler", "SequenceSampler", "levels_of", "pairwise_rows"]
-
 TRIES = 300
 
 Pair: TypeAlias = tuple[tuple[int, int], tuple[int, int]]

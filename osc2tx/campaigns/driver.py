@@ -16,8 +16,6 @@ from osc2tx_shared.classes import dataclass, replace
 
 from .store import CampaignError
 
-__all__ = ["Progress", "run_campaign"]
-
 OnProgress = Callable[["Progress"], None]
 
 

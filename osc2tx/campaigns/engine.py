@@ -24,8 +24,6 @@ from osc2tx_shared.classes import replace
 
 from .store import CampaignError
 
-__all__ = ["Engine", "LocalEngine", "crashed", "take"]
-
 ATTEMPTS = 2
 STALLED = 120.0  # s of silence; a worker at a long row is not silent
 BEATS = 12  # that it tells in this time

@@ -15,8 +15,6 @@ from osc2tx_runtime.running.output_files import problem_of, write_output
 
 from .store import CampaignError
 
-__all__ = ["export_rows", "flat_rows", "write_text"]
-
 ALWAYS = ("number", "seed", "status", "reason", "time")
 """Columns that every table has, in front."""
 

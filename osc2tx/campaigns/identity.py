@@ -17,8 +17,6 @@ from osc2tx_runtime.campaigns import Condition, Executor, Plan, Row
 from osc2tx_runtime.running.options import read_options
 from osc2tx_shared.classes import replace
 
-__all__ = ["identity_of", "plan_of", "plan_to", "with_files_of"]
-
 Texts = Mapping[str, Sequence[str]]
 """Options of a run as they are written, by name."""
 

@@ -8,26 +8,32 @@ from xml.etree import ElementTree as etree
 from osc2tx.campaigns.summary import Results, Run, replay_command
 from osc2tx_shared.text import visible
 
-__all__ = ["render_junit"]
-
 NOT_A_TEST = ("error", "crashed")  # rows that could not be judged
 
 
-def render_junit(results: Results) -> str:
-    """Return the document."""
+def render_junit(campaigns: Sequence[Results]) -> str:
+    """Return the document of one campaign or of several."""
+    names = ", ".join(dict.fromkeys(results.identity["scenario"] for results in campaigns))
+    root = etree.Element(
+        "testsuites", _counts(names, [run for results in campaigns for run in results.runs])
+    )
+    for results in campaigns:
+        _add_campaign(root, results)
+    etree.indent(root)
+    text = etree.tostring(root, encoding="unicode")
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
+
+
+def _add_campaign(root: etree.Element, results: Results) -> None:
     name = results.identity["scenario"]
     failed = {number for group in results.failures for number in group.rows}
     passed = [run for run in results.runs if run["number"] not in failed]
     by_number = {run["number"]: run for run in results.runs}
-    root = etree.Element("testsuites", _counts(name, results.runs))
     _suite(root, results, f"{name}: success", passed)
     for group in results.failures:
         rows = [by_number[number] for number in group.rows]
         title = ": ".join(filter(None, (name, group.status, group.source, group.reason)))
         _suite(root, results, title, rows)
-    etree.indent(root)
-    text = etree.tostring(root, encoding="unicode")
-    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
 
 
 def _counts(name: str, runs: Sequence[Run]) -> dict[str, str]:

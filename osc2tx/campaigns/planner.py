@@ -12,8 +12,6 @@ from osc2tx_runtime.errors import SettingsError
 
 from .store import CampaignError
 
-__all__ = ["Planner", "columns_of", "why_left_out"]
-
 ATTEMPTS = 1000  # points that are tried
 MOST_LEFT_OUT = 10_000  # in a row: then a sequence is given up
 

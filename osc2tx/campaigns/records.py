@@ -10,18 +10,6 @@ from typing import Any
 
 from osc2tx_runtime.campaigns import Row, RowResult
 
-__all__ = [
-    "COLUMNS",
-    "IDENTITY_TYPES",
-    "OF_THE_MACHINE",
-    "PLAN_TYPES",
-    "SCHEMA",
-    "decoded",
-    "record",
-    "require_types",
-    "row_of",
-]
-
 SCHEMA = """
 create table campaign (name text primary key, value text not null) without rowid;
 create table run (

@@ -11,12 +11,9 @@ from osc2tx.campaigns.records import row_of
 from osc2tx.campaigns.store import Store
 from osc2tx_runtime import RunResult
 from osc2tx_runtime.campaigns import Executor
-from osc2tx_runtime.campaigns.executor import trace_digest
 from osc2tx_shared.classes import replace
 
 from .store import CampaignError
-
-__all__ = ["replay_row"]
 
 
 def replay_row(
@@ -47,7 +44,7 @@ def replay_row(
         "parameters": values,
         "steps": result.steps,
         "time": result.time,
-        "digest": trace_digest("".join(f"{line}\n" for line in result.trace_lines)),
+        "digest": result.digest,
     }
     wrong = [
         f"{name} {run[name]} was stored, {value} came out"

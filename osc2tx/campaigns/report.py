@@ -9,8 +9,6 @@ from osc2tx.campaigns.coverage import Item, overall
 from osc2tx.campaigns.summary import Results, Run, replay_command, summary_of
 from osc2tx_runtime.report.page import render_campaign
 
-__all__ = ["render_report"]
-
 MOST_ROWS = 10_000  # that are drawn
 BINS = 24
 DIGITS = 6  # significant digits of drawn values

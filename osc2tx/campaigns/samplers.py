@@ -21,8 +21,6 @@ from osc2tx_shared.classes import dataclass
 from .designs import SequenceSampler
 from .store import CampaignError
 
-__all__ = ["SAMPLERS", "TableSampler", "sampler_by_name"]
-
 
 @dataclass(frozen=True, slots=True)
 class TableSampler:

@@ -12,8 +12,6 @@ from osc2tx_shared.classes import dataclass
 
 from .store import CampaignError
 
-__all__ = ["Findings", "Sampler", "Wanted", "row_seed", "wanted_rows"]
-
 
 @dataclass(frozen=True, slots=True)
 class Wanted:

@@ -18,8 +18,6 @@ from osc2tx_runtime.campaigns.points import Column
 
 from .store import CampaignError
 
-__all__ = ["SearchSampler"]
-
 
 class SearchSampler:
     """Rows that Optuna chooses, by the tree-structured Parzen estimator.

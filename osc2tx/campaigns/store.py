@@ -30,8 +30,6 @@ from osc2tx_runtime.campaigns import RowResult
 from osc2tx_runtime.errors import NO_RESULT, told
 from osc2tx_shared.links import target_outside
 
-__all__ = ["CampaignError", "Store"]
-
 
 class CampaignError(Exception):
     """A campaign cannot be run, or its store cannot be used; the message says what to do."""

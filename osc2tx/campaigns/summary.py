@@ -12,8 +12,6 @@ from osc2tx.campaigns.coverage import Item, coverage_of, overall
 from osc2tx.campaigns.store import Store
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["FORMAT", "Failures", "Results", "failures_of", "results_of", "summary_of"]
-
 FORMAT = 1
 SHOWN_HOLES = 1000
 

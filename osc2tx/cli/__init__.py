@@ -46,6 +46,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "world": ("osc2tx.cli.world:world", "Check a simulator against the requirements of runs."),
     "config": ("osc2tx.cli.config:config", "Show the effective settings and their origins."),
     "reference": ("osc2tx.cli.reference:reference", "Describe a name of the library."),
+    "lsp": ("osc2tx.cli.lsp:lsp", "Serve editors: diagnostics, completion, fixes."),
     "explain": ("osc2tx.cli.explain:explain", "Explain a diagnostic code."),
 }
 
@@ -96,7 +97,6 @@ def main(arguments: Sequence[str] | None = None, answer: Answer | None = None) -
         arguments: The command line; that of the process if left out.
         answer: Where the answer to it is kept, if it is one to keep.
     """
-    gc.set_threshold(200_000, 30, 30)  # objects made at start stay: collect rarely
     session = Session(answer=answer)
     code = _exit_code(sys.argv[1:] if arguments is None else arguments, session)
     gc.freeze()  # the process ends: no need to look for garbage in large trees

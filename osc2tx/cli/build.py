@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from osc2tx.building.baseline import Baselines
 from osc2tx.building.jobs import compile_all, run_all
 from osc2tx.cli.diff_output import print_diff, read_text
 from osc2tx.cli.options import (
@@ -189,7 +190,8 @@ def _run(task: _Task, options: BuildOptions) -> tuple[BuildResult, Exit, str]:
     faults = [
         FileFault(change.path.as_posix(), "stale-output", _fault(change)) for change in changes
     ]
-    code, report = task.reporter.report(result.results, result.bugs, faults)
+    baselines = Baselines(configs)
+    code, report = task.reporter.report(result.results, result.bugs, faults, baselines)
     if any(Path(path).is_dir() for path in task.paths):
         code = max(code, task.reporter.warn(configs.unmatched_tables()))
     for problem in (*result.collisions, *result.failures):

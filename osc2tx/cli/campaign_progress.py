@@ -8,8 +8,6 @@ from contextlib import contextmanager
 from osc2tx.campaigns.driver import Progress
 from osc2tx_shared.text import is_watched, visible
 
-__all__ = ["progress_bar"]
-
 OnProgress = Callable[[Progress], None]
 
 

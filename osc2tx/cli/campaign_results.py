@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+import os
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -12,10 +14,11 @@ from osc2tx.campaigns import CampaignError
 from osc2tx.campaigns.coverage import has_models, overall
 from osc2tx.campaigns.export import export_rows, write_text
 from osc2tx.campaigns.junit import render_junit
+from osc2tx.campaigns.project_page import project_page
 from osc2tx.campaigns.replay import replay_row
 from osc2tx.campaigns.report import render_report
 from osc2tx.campaigns.store import Store
-from osc2tx.campaigns.summary import Results, results_of, summary_of
+from osc2tx.campaigns.summary import FORMAT, Results, results_of, summary_of
 from osc2tx.cli.reporting import Exit, count_of, quiet_option
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.running.main import verdict
@@ -68,9 +71,14 @@ def replay(
 
 
 @click.command()
-@click.argument("store", metavar="STORE", type=STORE)
+@click.argument("stores", metavar="STORE...", type=STORE, nargs=-1, required=True)
 @click.option(
-    "-o", "--output", "page", metavar="FILE", type=FILE, help="The page.  [default: STORE.html]"
+    "-o",
+    "--output",
+    "page",
+    metavar="FILE",
+    type=FILE,
+    help="The page.  [default: STORE.html; of several: campaigns.html]",
 )
 @click.option("--against", metavar="STORE", type=STORE, help="An earlier campaign to compare with.")
 @click.option("--summary", metavar="FILE", type=FILE, help="Write the summary as JSON.")
@@ -83,7 +91,7 @@ def replay(
 )
 @quiet_option
 def report(
-    store: Path,
+    stores: tuple[Path, ...],
     page: Path | None,
     against: Path | None,
     summary: Path | None,
@@ -95,31 +103,51 @@ def report(
 
     Coverage holes come first, apart from the values that the constraints exclude; failures
     are grouped, each group with its shortest row and the command that repeats it. Coverage needs
-    the Python module of the store, which is run.
+    the Python module of the store, which is run. Several campaigns also get a page that lists them.
     """
-    place = page or store.with_suffix(".html")
+    if against is not None and len(stores) > 1:
+        raise click.UsageError("--against compares one campaign with an earlier one")
     try:
-        results = _read(store)
+        campaigns = [_read(store) for store in stores]
         before = None if against is None else _read(against)
-        said = summary_of(results)
-        write_text("report", place, render_report(results, before))
+        pages = [store.with_suffix(".html") for store in stores]
+        if len(stores) == 1:
+            pages = [page or pages[0]]
+        for results, place in zip(campaigns, pages, strict=True):
+            write_text("report", place, render_report(results, before))
+        if len(stores) > 1:
+            _write_overview(page or Path("campaigns.html"), campaigns, pages)
         if summary is not None:
-            write_text("summary", summary, json.dumps(said, indent=1) + "\n")
+            write_text("summary", summary, json.dumps(_summary(campaigns), indent=1) + "\n")
         if junit is not None:
-            write_text("junit", junit, render_junit(results))
+            write_text("junit", junit, render_junit(campaigns))
     except CampaignError as error:
         raise click.UsageError(str(error)) from None
     except ScenarioError as error:
-        complain(f"{error.source or store}: error: {error.message}")
+        complain(f"{error.source or stores[0]}: error: {error.message}")
         return Exit(error.exit_code)
-    for line in () if quiet else _verdict(results, place):
-        say(line)
-    grade = said["coverage_grade"]
+    for results, place in zip(campaigns, pages, strict=True):
+        for line in () if quiet else _verdict(results, place):
+            say(line)
+    grade = overall(item for results in campaigns for item in results.items.values())
     if fail_under is not None and (grade is None or grade < fail_under):
         found = "nothing is covered" if grade is None else f"{grade:.1f} %"
-        complain(f"{store}: coverage {found}, required were {fail_under:g} %")
+        names = ", ".join(map(str, stores))
+        complain(f"{names}: coverage {found}, required were {fail_under:g} %")
         return Exit.STALE
     return Exit.OK
+
+
+def _summary(campaigns: Sequence[Results]) -> dict[str, Any]:
+    """Return the figures of a campaign, or of several in a list."""
+    summaries = [summary_of(results) for results in campaigns]
+    return summaries[0] if len(summaries) == 1 else {"format": FORMAT, "campaigns": summaries}
+
+
+def _write_overview(place: Path, campaigns: Sequence[Results], pages: Sequence[Path]) -> None:
+    linked = [Path(os.path.relpath(each, place.parent)).as_posix() for each in pages]
+    listed = tuple(zip(campaigns, linked, strict=True))
+    write_text("page", place, project_page(campaigns=listed))
 
 
 def _tell_whose(store: Store) -> None:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from osc2tx.building.jobs import find_jobs, run_all
+from osc2tx.building.baseline import Baselines
+from osc2tx.building.jobs import Job, find_jobs, run_all
 from osc2tx.building.result_cache import check_jobs
+from osc2tx.cli.fixing import fix_files, fix_input, fixes_to_apply
 from osc2tx.cli.options import (
     affected_option,
     affected_sources,
@@ -22,10 +25,11 @@ from osc2tx.cli.options import (
 from osc2tx.cli.progress import progress_bar
 from osc2tx.cli.reporting import Exit, Reporter, count_of, found, report_options
 from osc2tx.cli.standard_input import (
-    compilation_of_standard_input,
     is_standard_input,
+    job_of_standard_input,
     stdin_filename,
 )
+from osc2tx.compilation.file_reports import apply_suppressions
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx_shared.cache import cache_folder
 from osc2tx_shared.text import StreamName, recorded
@@ -41,6 +45,16 @@ if TYPE_CHECKING:
 @compile_options
 @target_options
 @affected_option
+@click.option(
+    "--write-baseline",
+    is_flag=True,
+    help="Write the warnings to the `baseline` of the settings: they are not reported again.",
+)
+@click.option("--fix", "is_fixing", is_flag=True, help="Apply the safe fixes to the files.")
+@click.option(
+    "--unsafe-fixes", "unsafe", is_flag=True, help="Apply also fixes that may not be meant."
+)
+@click.option("--diff", "show_diff", is_flag=True, help="Write nothing; print what fixes change.")
 @click.option("--no-cache", is_flag=True, help="Check unchanged files again as well.")
 @cache_option
 @workers_option
@@ -50,6 +64,10 @@ def check(
     paths: tuple[str, ...],
     given: GivenOptions,
     affected: str | None,
+    write_baseline: bool,
+    is_fixing: bool,
+    unsafe: bool,
+    show_diff: bool,
     no_cache: bool,
     cache: Path | None,
     workers: int | None,
@@ -58,35 +76,89 @@ def check(
 ) -> Exit:
     """Report errors and warnings in scenario files; folders are searched for .osc files.
 
-    Without PATH, `sources` of the settings file count; `-` is standard input.
+    Without PATH, `sources` of the settings file count; `-` is standard input, whose fixed text
+    goes to standard output.
     """
+    if show_diff and reporter.form != "text":
+        raise click.UsageError("--diff and --output-format both print to standard output")
+    fixes = fixes_to_apply(is_fixing=is_fixing, unsafe=unsafe, show_diff=show_diff)
     if is_standard_input(paths, stdin_filename):
-        return _check_input(compilation_of_standard_input(stdin_filename, given), reporter)
+        job, text = job_of_standard_input(stdin_filename, given)
+        if fixes is not None:
+            return fix_input(job, text, fixes, reporter)
+        return _check_input(job.compilation(text=text), reporter)
     asked = sources_or_stated(paths, "check")
     paths = affected_sources(asked, affected, given)
     configs = ConfigFiles()
     jobs = find_jobs(paths, given, configs)
     is_kept = not no_cache and cache_folder(cache) is not None
+    checked = partial(
+        _checked, remember=not no_cache, workers=workers, configs=configs, cache=cache
+    )
+    results = checked(jobs, is_kept=is_kept)
+    outcome = Exit.OK
+    if fixes is not None:
+        fixed, outcome = fix_files(results, fixes, reporter)
+        if show_diff:
+            return outcome
+        again = dict(zip(fixed, checked(fixed, is_kept=is_kept), strict=True))
+        results = [again.get(result.job, result) for result in results]
+    baselines = Baselines(configs)
+    whole = [result.job.path for result in results if result.is_complete]
+    if write_baseline:
+        _write_baselines(baselines, results, whole, reporter)
+    with recorded() as printed:
+        bugs = [result.bug for result in results if result.bug]
+        code, report = reporter.report(results, bugs, baselines=baselines)
+        code = max(code, reporter.warn(baselines.outdated(whole)))
+        for result in results:
+            for entry in result.scenarios:
+                reporter.say(f"{result.job.name}: {entry.summary}")
+        reporter.say(f"checked {count_of(len(results), 'file')}: {found(report)}")
+    code = max(code, outcome)
+    if any(Path(path).is_dir() for path in paths):
+        return max(code, reporter.warn(configs.unmatched_tables()))
+    answer = reporter.session.answer
+    if fixes is None and not write_baseline and is_kept and cache is None and answer is not None:
+        _keep_answer(answer, code, printed, results, configs)
+    return code
+
+
+def _checked(
+    jobs: Sequence[Job],
+    *,
+    is_kept: bool,
+    remember: bool,
+    workers: int | None,
+    configs: ConfigFiles,
+    cache: Path | None,
+) -> list[FileResult]:
     with progress_bar("checking", is_kept=is_kept) as progress:
-        results = check_jobs(
+        return check_jobs(
             jobs,
-            remember=not no_cache,
+            remember=remember,
             workers=workers,
             progress=progress,
             configs=configs,
             cache=cache,
         )
-    with recorded() as printed:
-        code, report = reporter.report(results, [result.bug for result in results if result.bug])
-        for result in results:
-            for entry in result.scenarios:
-                reporter.say(f"{result.job.name}: {entry.summary}")
-        reporter.say(f"checked {count_of(len(results), 'file')}: {found(report)}")
-    if any(Path(path).is_dir() for path in paths):
-        return max(code, reporter.warn(configs.unmatched_tables()))
-    if is_kept and cache is None and reporter.session.answer is not None:
-        _keep_answer(reporter.session.answer, code, printed, results)
-    return code
+
+
+def _write_baselines(
+    baselines: Baselines, results: Sequence[FileResult], whole: Sequence[Path], reporter: Reporter
+) -> None:
+    """Make all warnings of files known.
+
+    Raises:
+        click.UsageError: No settings say where to.
+    """
+    written = baselines.write(apply_suppressions(results).shown, whole)
+    if whole and not written:
+        raise click.UsageError(
+            '--write-baseline: name a file in the settings, as in `baseline = "known.json"`'
+        )
+    for place, count in written.items():
+        reporter.say(f"{place}: {count_of(count, 'known warning')}")
 
 
 def _keep_answer(
@@ -94,6 +166,7 @@ def _keep_answer(
     code: Exit,
     printed: Sequence[tuple[StreamName, str]],
     results: Sequence[FileResult],
+    configs: ConfigFiles,
 ) -> None:
     """Keep what was printed on files, if all that decides it is known."""
     files: list[str] = []
@@ -103,6 +176,9 @@ def _keep_answer(
         links = (*result.job.roots, *map(Path, result.job.options.import_paths))
         files += [str(result.job.path), *map(str, links)]
         files += [each.asked for each in result.dependencies if each.found]
+        sources = {each.primary.source.path for each in result.reports if each.primary}
+        places = {configs.for_source(path).baseline for path in {result.job.path, *sources} if path}
+        files += map(str, filter(None, places))
     answer.keep(code, printed, files)
 
 

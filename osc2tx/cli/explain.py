@@ -56,5 +56,6 @@ def _find(code: str) -> Code:
     entry = find_code(code)
     if entry is None:
         meant = meant_code(code)
-        raise click.UsageError(f"there is no code `{code}`" + (f"; {meant}" if meant else ""))
+        hint = f"; did you mean `{meant}`?" if meant else ""
+        raise click.UsageError(f"there is no code `{code}`{hint}")
     return entry

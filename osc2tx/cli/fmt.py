@@ -7,10 +7,10 @@ from pathlib import Path
 import click
 
 from osc2tx.building.jobs import compile_all, run_all
-from osc2tx.building.write import replace_file
 from osc2tx.cli.diff_output import print_diff
 from osc2tx.cli.options import compile_options, sources_or_stated
 from osc2tx.cli.reporting import Exit, Reporter, count_of, report_options
+from osc2tx.cli.source_files import write_source
 from osc2tx.cli.standard_input import (
     compilation_of_standard_input,
     is_standard_input,
@@ -19,8 +19,6 @@ from osc2tx.cli.standard_input import (
 from osc2tx.compilation.driver import Compilation
 from osc2tx.config import GivenOptions
 from osc2tx.diagnostics.report import FileFault
-from osc2tx.support.paths import real_path
-from osc2tx_shared.links import target_outside
 from osc2tx_shared.text import complain, put
 
 
@@ -66,7 +64,7 @@ def fmt(
         if show_diff:
             print_diff(str(path), path.read_bytes().decode("utf-8"), text)
         elif not check_only:
-            code = max(code, _write(path, text))
+            code = max(code, write_source(path, text.encode()))
     would = "would be " if check_only or show_diff else ""
     total = count_of(len(compilations), "file")
     say = complain if show_diff else reporter.say
@@ -96,16 +94,3 @@ def _differs(path: Path, text: str) -> bool:
     """Whether a file is not formatted; a working copy may have line ends of Windows throughout."""
     data = path.read_bytes()
     return data not in (text.encode(), text.replace("\n", "\r\n").encode())
-
-
-def _write(path: Path, text: str) -> Exit:
-    target = target_outside(path)
-    if target is not None:
-        complain(f"{path}: a link leads to {target}, out of the current folder; name that file")
-        return Exit.UNREADABLE
-    try:
-        replace_file(real_path(path), text.encode())
-    except OSError as error:
-        complain(f"{path}: cannot be written: {error.strerror}")
-        return Exit.UNREADABLE
-    return Exit.OK

@@ -13,19 +13,20 @@ from collections.abc import Callable, Sequence
 from enum import IntEnum
 from functools import wraps
 from pathlib import Path
-from typing import Any, Literal, TypeAlias, get_args
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
 
 import click
 
 from osc2tx.building.answers import Answer
 from osc2tx.compilation.file_reports import Reportable, apply_suppressions
-from osc2tx.diagnostics import Severity
+from osc2tx.diagnostics import CODES, Severity
 from osc2tx.diagnostics.report import FileFault, Report, display_name, make_report
 from osc2tx.version import __version__
 from osc2tx_shared.classes import dataclass, replace
 from osc2tx_shared.text import complain, is_watched, put, put_document, say
 
-__all__ = ["columns", "wants_color"]
+if TYPE_CHECKING:
+    from osc2tx.building.baseline import Baselines
 
 
 def wants_color(*, err: bool = False) -> bool:
@@ -107,8 +108,15 @@ class Reporter:
         compilations: Sequence[Reportable],
         bugs: Sequence[str] = (),
         faults: Sequence[FileFault] = (),
+        baselines: Baselines | None = None,
     ) -> tuple[Exit, Report]:
         """Print all diagnostics, internal errors, and errors of files as a whole.
+
+        Args:
+            compilations: The files.
+            bugs: Internal errors.
+            faults: Errors of files as a whole.
+            baselines: Hold the warnings that are not reported.
 
         Returns:
             The exit code they call for, and the report.
@@ -117,10 +125,11 @@ class Reporter:
         if most is None:
             most = MOST_SHOWN if self.form in FORMATS_FOR_READERS else 0
         settled = apply_suppressions(compilations)
+        shown = settled.shown if baselines is None else baselines.new_among(settled.shown)
         report = make_report(
-            settled.shown,
+            shown,
             files=len(compilations),
-            suppressed=len(settled.suppressed),
+            suppressed=len(settled.suppressed) + len(settled.shown) - len(shown),
             folder=Path.cwd(),
             most_shown=most,
             is_for_readers=self.form in FORMATS_FOR_READERS and self.most_shown is None,
@@ -156,7 +165,7 @@ class Reporter:
         """Count files without an error of their own that a library keeps from being compiled."""
         waiting: Counter[str] = Counter()
         for each in compilations:
-            errors = [r for r in each.reports if r.severity is Severity.ERROR and r.primary]
+            errors = [r for r in each.reports if CODES[r.code].severity is Severity.ERROR]
             places = [report.primary.source for report in errors if report.primary is not None]
             own = each.source.identity if each.source is not None else None
             if places and all(place.identity != own for place in places):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from osc2tx.building.jobs import job_for
+from osc2tx.building.jobs import Job, job_for
 from osc2tx.compilation.inputs import Input, InputError
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.support.paths import real_path
@@ -45,6 +45,16 @@ def compilation_of_standard_input(name: str | None, given: GivenOptions) -> Comp
     Raises:
         InputError: If it is no text in UTF-8.
     """
+    job, text = job_of_standard_input(name, given)
+    return job.compilation(text=text)
+
+
+def job_of_standard_input(name: str | None, given: GivenOptions) -> tuple[Job, str]:
+    """Return how to compile the text on standard input, and the text.
+
+    Raises:
+        InputError: If it is no text in UTF-8.
+    """
     data = sys.stdin.buffer.read()
     try:
         text = data.decode("utf-8-sig")
@@ -53,4 +63,4 @@ def compilation_of_standard_input(name: str | None, given: GivenOptions) -> Comp
     path = Path(name or UNNAMED)
     folder = real_path(path.parent)
     item = Input(path, folder / path.name, path.parent, is_asked=True)
-    return job_for(item, given, ConfigFiles().for_source(path)).compilation(text=text)
+    return job_for(item, given, ConfigFiles().for_source(path)), text

@@ -47,6 +47,20 @@ FILE = click.Path(dir_okay=False, path_type=Path)
     metavar="DIR",
     help="Write traces, a page for each, and an index page.",
 )
+@click.option(
+    "--page",
+    type=FILE,
+    metavar="FILE",
+    help="Write the page of the project: verdicts by requirement or other value, XML by reason.",
+)
+@click.option(
+    "--campaign",
+    "campaigns",
+    type=FILE,
+    multiple=True,
+    metavar="STORE",
+    help="List a campaign on the page.",
+)
 @cache_option
 @quiet_option
 def test(
@@ -59,6 +73,8 @@ def test(
     fail_on: tuple[str, ...],
     junit: Path | None,
     traces: Path | None,
+    page: Path | None,
+    campaigns: tuple[Path, ...],
     cache: Path | None,
     quiet: bool,
 ) -> Exit:
@@ -76,14 +92,18 @@ def test(
         complain(f"no scenario is affected by changes since {affected}")
         return Exit.OK
     found = find_inputs(sources)
-    problem = None if junit is None else problem_of("junit", junit)
-    if problem is not None:
-        raise click.UsageError(f"--junit {problem}")
+    if campaigns and page is None:
+        raise click.UsageError("--campaign adds to the page: give --page as well")
+    for name, place in {"junit": junit, "page": page}.items():
+        problem = None if place is None else problem_of(name, place)
+        if problem is not None:
+            raise click.UsageError(f"--{name} {problem}")
     options = {
         "-k": keyword,
         "--osc-shard": shard,
         "--junitxml": junit,
         "--osc-traces": traces,
+        "--osc-page": page,
         "--osc-cache-dir": cache,
         "--osc-jobs": workers,
     }
@@ -91,6 +111,7 @@ def test(
         *(f"{name}={value}" if name != "-k" else f"-k{value}" for name, value in _given(options)),
         *(f"--osc-where={each}" for each in where),
         *(f"--osc-fail-on={each}" for each in fail_on),
+        *(f"--osc-campaign={each}" for each in campaigns),
         *_processes(workers, len(found)),
     ]
     look = ["-qq" if quiet else "-q", "--tb=no", "-rN", "--no-header"]

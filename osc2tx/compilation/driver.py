@@ -296,10 +296,7 @@ class Compilation:
     @property
     def losses(self) -> tuple[LossEntry, ...]:
         """How the scenarios fared on their way to XML, as far as that was asked for."""
-        return tuple(
-            LossEntry(scenario.name, scenario.xml is not None, scenario.report.summary())
-            for scenario in self.xml
-        )
+        return tuple(map(self._loss, self.xml))
 
     def _report_missing_maps(self, module: Module) -> None:
         """Report maps that are not there, and note where they were looked for."""
@@ -344,6 +341,14 @@ class Compilation:
                 values=fixed_values(self.model, found.scenario, self.analysis.constraints),
             )
             for found in self.levels
+        )
+
+    @staticmethod
+    def _loss(scenario: XmlScenario) -> LossEntry:
+        report = scenario.report
+        reasons = dict.fromkeys(f"{each.construct}: {each.reason}" for each in report.losses)
+        return LossEntry(
+            scenario.name, scenario.xml is not None, report.summary(), tuple(sorted(reasons))
         )
 
     def _runnable(self) -> frozenset[str]:

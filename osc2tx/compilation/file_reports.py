@@ -46,11 +46,13 @@ class LossEntry:
         scenario: Its name.
         is_written: Whether there is XML.
         summary: What its report says, in one line.
+        reasons: What keeps it from being XML.
     """
 
     scenario: str
     is_written: bool
     summary: str
+    reasons: tuple[str, ...] = ()
 
 
 def apply_suppressions(compilations: Sequence[Reportable]) -> SuppressionResult:

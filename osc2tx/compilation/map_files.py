@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from osc2tx import ir
     from osc2tx.diagnostics import DiagnosticSink, Span
 
-__all__ = ["report_missing_maps"]
-
 
 class _NamedMap(NamedTuple):
     """A map that a scenario names, and where."""

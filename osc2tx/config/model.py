@@ -85,14 +85,14 @@ class ScenarioConfig:
         options: Compile options of this file.
         run: Run option to its text, in the syntax of the command line.
         campaign: Option of `osc2tx campaign run`, likewise.
-        ignore: Codes of warnings that are not reported.
+        codes: Codes of warnings, by the setting that states what to do about them.
         verdict: What a test of its scenarios is to end with.
     """
 
     options: GivenOptions = GivenOptions()
     run: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     campaign: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    ignore: tuple[str, ...] = ()
+    codes: Mapping[str, frozenset[str]] = field(default_factory=dict)
     verdict: str | None = None
 
     def given(self) -> GivenOptions:
@@ -141,6 +141,7 @@ class Config:
         source_folders: Their folders, links followed.
         out: Where to.
         map_paths: Folders with maps, for all files.
+        baseline: The file of warnings that are known.
     """
 
     path: Path | None = None
@@ -152,6 +153,7 @@ class Config:
     source_folders: tuple[Path, ...] = ()
     out: Path | None = None
     map_paths: tuple[str, ...] = ()
+    baseline: Path | None = None
 
     @property
     def folder(self) -> Path | None:
@@ -206,9 +208,16 @@ class Config:
             found = {**table.campaign, **found}
         return found
 
-    def ignored(self, source: Path) -> frozenset[str]:
-        """Return the codes of warnings that are not reported in a file."""
-        return frozenset(code for _, table in self.tables_for(source) for code in table.ignore)
+    def codes(self, setting: str, source: Path) -> frozenset[str]:
+        """Return the codes of warnings that a setting (`ignore`, `errors`) names for a file.
+
+        A table takes a code out of what those name that it goes before.
+        """
+        found: set[str] = set()
+        for _, table in reversed(self.tables_for(source)):
+            for key, codes in table.codes.items():
+                found = found | codes if key == setting else found - codes
+        return frozenset(found)
 
     def verdict(self, source: Path) -> str:
         """Return what a test of the scenarios of a file is to end with."""
@@ -240,6 +249,8 @@ class Config:
             yield InForce("out", str(self.out), self._origin(""), is_path=True)
         if self.map_paths:
             yield InForce("map_paths", self.map_paths, self._origin(""), is_path=True)
+        if self.baseline is not None:
+            yield InForce("baseline", str(self.baseline), self._origin(""), is_path=True)
         seen: set[str] = set()
         for part in ("run", "campaign"):
             for name, table in tables:
@@ -249,8 +260,8 @@ class Config:
                         origin, is_path = self._origin(f"{name}.{part}"), key in _RUN_PATHS
                         yield InForce(f"{part}.{key}", list(texts), origin, is_path)
         for name, table in tables:
-            if table.ignore:
-                yield InForce("ignore", list(table.ignore), self._origin(name))
+            for key, codes in table.codes.items():
+                yield InForce(key, sorted(codes), self._origin(name))
         for name, table in tables:
             if table.verdict is not None:
                 yield InForce("verdict", table.verdict, self._origin(name))

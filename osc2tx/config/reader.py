@@ -84,7 +84,17 @@ class _Reader:
             source_folders=tuple(dict.fromkeys(map(real_path, folders))),
             out=Path(project["out"][0]) if "out" in project else None,
             map_paths=project.get("map_paths", ()),
+            baseline=self._baseline(project),
         )
+
+    def _baseline(self, project: Mapping[str, tuple[str, ...]]) -> Path | None:
+        """Return the place of the baseline; it is written, so it must be in the project."""
+        if "baseline" not in project:
+            return None
+        place = Path(project["baseline"][0])
+        if not real_path(place).is_relative_to(real_path(self.path.parent)):
+            raise self._error((), f"`baseline` leads to {real_path(place)}, out of the project")
+        return place
 
     def _scenario(
         self, where: tuple[str, ...], table: object, more: Sequence[Setting] = ()
@@ -97,23 +107,24 @@ class _Reader:
         if run.get("world", EMBEDDED) == EMBEDDED:
             self._table(run, inner, list(settings))
         own = {key: self._own(key, value) for key, value in run.items() if key not in settings}
+        stated = self._texts(checked, more, where)
         texts = self._texts(run, [*settings.values(), *own.values()], inner)
         return ScenarioConfig(
             self._options(checked, where),
             {key: texts[key] for key in run},
             self._campaign(checked.get("campaign", {}), (*where, "campaign")),
-            self._ignored(self._texts(checked, more, where).get("ignore", ()), where),
+            {key: self._codes(key, codes, where) for key, codes in stated.items()},
             self._chosen(TEST_SETTINGS, checked, where).get("verdict"),
         )
 
-    def _ignored(self, codes: tuple[str, ...], where: tuple[str, ...]) -> tuple[str, ...]:
+    def _codes(self, key: str, codes: tuple[str, ...], where: tuple[str, ...]) -> frozenset[str]:
         for code in codes:
             if code not in CODES:
                 remedy = did_you_mean(code, CODES) or "`osc2tx explain` lists all"
-                raise self._error(where, f"`ignore`: there is no code `{code}`; {remedy}")
+                raise self._error(where, f"`{key}`: there is no code `{code}`; {remedy}")
             if CODES[code].severity is Severity.ERROR:
-                raise self._error(where, f"`ignore`: `{code}` is an error: only warnings can be")
-        return codes
+                raise self._error(where, f"`{key}`: `{code}` is an error: only warnings can be")
+        return frozenset(codes)
 
     def _campaign(self, table: object, where: tuple[str, ...]) -> dict[str, tuple[str, ...]]:
         checked = self._table(table, where, [setting.key for setting in CAMPAIGN_SETTINGS])

@@ -68,6 +68,7 @@ COMPILE_SETTINGS = (
 PROJECT_SETTINGS = (
     Setting("sources", "Files and folders to build.", is_list=True, is_path=True),
     Setting("out", "Folder of the outputs.", is_path=True),
+    Setting("baseline", "File of warnings that are known and not reported.", is_path=True),
     Setting("map_paths", "Folders with maps, for all commands.", is_list=True, is_path=True),
 )
 VERDICTS = ("success", "failure", "timeout", "error", "skip")
@@ -77,6 +78,7 @@ TEST_SETTINGS = (
 )
 # In the table of a pattern of files, besides those of a scenario.
 FILES_SETTINGS = (
+    Setting("errors", "Codes of warnings that are errors in these files.", is_list=True),
     Setting("ignore", "Codes of warnings that are not reported in these files.", is_list=True),
 )
 # Options of `osc2tx run` for one file, by their names on the command line.

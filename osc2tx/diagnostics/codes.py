@@ -13,7 +13,7 @@ from functools import cache
 from typing import Any
 
 from osc2tx.diagnostics.model import Severity
-from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.diagnostics.suggestions import nearest
 from osc2tx_shared.classes import dataclass
 
 
@@ -286,10 +286,10 @@ def find_code(written: str) -> Code | None:
 
 
 def meant_code(written: str) -> str | None:
-    """Return a line of help that offers the code or slug that was probably meant."""
+    """Return the code or slug that was probably meant."""
     if written.isdecimal():
         written = f"OSC{written}"
-    return did_you_mean(written.upper(), CODES, 0.8) or did_you_mean(written.lower(), _by_slug())
+    return nearest(written.upper(), CODES, 0.8) or nearest(written.lower(), _by_slug())
 
 
 @cache

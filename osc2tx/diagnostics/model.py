@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from enum import Enum
 
+from osc2tx.diagnostics.fixes import Fix
 from osc2tx.diagnostics.source import Span
 from osc2tx_shared.classes import dataclass
 
@@ -35,6 +36,7 @@ class Diagnostic:
         labels: Related places, each with a remark.
         notes: Further facts, a line each.
         help: What to do about it, one line.
+        fixes: Corrections that do it; none where the replacement is not known.
     """
 
     code: str
@@ -44,6 +46,7 @@ class Diagnostic:
     labels: tuple[Label, ...] = ()
     notes: tuple[str, ...] = ()
     help: str | None = None
+    fixes: tuple[Fix, ...] = ()
 
 
 class InternalCompilerError(Exception):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from osc2tx.diagnostics.codes import CODES
+from osc2tx.diagnostics.fixes import Help, Remedy
 from osc2tx.diagnostics.model import Diagnostic, InternalCompilerError, Label, Severity
 from osc2tx.diagnostics.source import Span
 
@@ -24,13 +25,20 @@ class DiagnosticSink:
         *,
         labels: Sequence[Label] = (),
         notes: Sequence[str] = (),
-        help: str | None = None,
+        help: Help = None,
     ) -> None:
         """Add a diagnostic; its severity comes from the registry of codes."""
         if code not in CODES:
             raise InternalCompilerError(f"diagnostic code {code} is not registered")
         diagnostic = Diagnostic(
-            code, CODES[code].severity, message, primary, tuple(labels), tuple(notes), help
+            code,
+            CODES[code].severity,
+            message,
+            primary,
+            tuple(labels),
+            tuple(notes),
+            help=help.help if isinstance(help, Remedy) else help,
+            fixes=help.fixes if isinstance(help, Remedy) else (),
         )
         self.add([diagnostic])
 

@@ -6,6 +6,9 @@ from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from itertools import chain, pairwise
 
+from osc2tx.diagnostics.fixes import Remedy, write
+from osc2tx.diagnostics.source import Span
+
 LIKENESS = 0.6
 _LISTED = 8
 _COMPARED = 32  # names that are each compared with the written one
@@ -59,6 +62,14 @@ def did_you_mean(written: str, known: Iterable[str], likeness: float = LIKENESS)
     """Return a line of help with the nearest name, if there is one; see `nearest`."""
     close = nearest(written, known, likeness)
     return f"did you mean `{close}`?" if close else None
+
+
+def name_meant(
+    written: Span, known: Iterable[str], likeness: float = LIKENESS, *, is_safe: bool = False
+) -> Remedy | None:
+    """Return the remedy that replaces a name in the source by the nearest one; see `nearest`."""
+    close = nearest(written.text, known, likeness)
+    return write(written, close, f"did you mean `{close}`?", is_safe=is_safe) if close else None
 
 
 def one_of(what: str, known: Iterable[str]) -> str | None:

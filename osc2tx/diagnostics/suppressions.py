@@ -10,10 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from osc2tx.diagnostics.codes import find_code, meant_code
+from osc2tx.diagnostics.codes import CODES, find_code, meant_code
+from osc2tx.diagnostics.fixes import Remedy, leave_out, write
 from osc2tx.diagnostics.model import Diagnostic, Severity
 from osc2tx.diagnostics.sink import DiagnosticSink, in_order
-from osc2tx.diagnostics.source import SourceFile, Span
+from osc2tx.diagnostics.source import LINE_END, SourceFile, Span
 from osc2tx_shared.classes import dataclass
 
 
@@ -68,7 +69,7 @@ def settle(
     shown, suppressed = [], []
     for diagnostic in found:
         span = diagnostic.primary
-        if span is None or diagnostic.severity is Severity.ERROR:
+        if span is None or CODES[diagnostic.code].severity is Severity.ERROR:
             shown.append(diagnostic)
         elif entries_of(span.source).use(diagnostic.code, span.line):
             suppressed.append(diagnostic)
@@ -122,7 +123,8 @@ class _Entries:
     def _check_name(self, name: Span, sink: DiagnosticSink, is_complete: bool) -> None:
         code = find_code(name.text)
         if code is None:
-            help = meant_code(name.text)
+            meant = meant_code(name.text)
+            help = write(name, meant, f"did you mean `{meant}`?", is_safe=False) if meant else None
             sink.report("OSC702", name, f"there is no code `{name.text}`", help=help)
         elif code.severity is Severity.ERROR:
             message = f"`{code.code}` is an error; only warnings can be suppressed"
@@ -132,4 +134,26 @@ class _Entries:
             sink.report("OSC703", name, message)
         elif is_complete and name not in self._used:
             message = f"the suppression of `{name.text}` is not used"
-            sink.report("OSC701", name, message, help="take it out")
+            sink.report("OSC701", name, message, help=self._taken_out(name))
+
+    def _taken_out(self, name: Span) -> Remedy:
+        """Return the remedy that removes a code from its comment, or the comment if it is alone."""
+        comment = next(each for each in self._suppressions if name in each.names)
+        names = comment.names
+        if len(names) == 1:
+            return leave_out(_with_blanks(comment.span), "take it out")
+        index = names.index(name)
+        first, last = (name, names[1]) if index == 0 else (names[index - 1], name)
+        start, end = (first.start, last.start) if index == 0 else (first.end, last.end)
+        return leave_out(Span(name.source, start, end), "take it out")
+
+
+def _with_blanks(comment: Span) -> Span:
+    """Return the span of a comment with the blanks before it, and its line if it has it alone."""
+    text = comment.source.text
+    start = comment.start
+    while start > 0 and text[start - 1] in " \t":
+        start -= 1
+    end = LINE_END.match(text, comment.end)
+    is_alone = start == 0 or text[start - 1] in "\r\n"
+    return Span(comment.source, start, end.end() if is_alone and end else comment.end)

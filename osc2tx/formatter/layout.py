@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from osc2tx.formatter.lines import LogicalLine, Piece
-from osc2tx.formatter.spacing import blanks_before
-from osc2tx.syntax.tokens import KEYWORDS, PUNCTUATION
+from osc2tx.syntax.tokens import ID, KEYWORDS, LITERALS, NAMESPACE_STAR, PUNCTUATION
 
 LINE_LENGTH = 100
 INDENT_WIDTH = 4
@@ -180,3 +179,64 @@ def _broken_by_backslashes(pieces: Sequence[Piece], width: int) -> list[str]:
             blank = ""
         lines[-1] += blank + piece.text
     return lines
+
+
+_CALLS = frozenset(
+    KEYWORDS[word]
+    for word in (
+        "keep", "remove_default", "cover", "record", "sample", "serial", "parallel", "one_of"
+    )
+)  # fmt: skip
+_CASTS = frozenset({KEYWORDS["as"], KEYWORDS["is"]})  # after a dot, they are called like methods
+_OPENERS = frozenset(PUNCTUATION[symbol] for symbol in "([")
+_CLOSERS = frozenset(PUNCTUATION[symbol] for symbol in ")]")
+_TIGHT = frozenset(PUNCTUATION[symbol] for symbol in (".", "..", "!", "::"))
+_SIGNS = frozenset(PUNCTUATION[symbol] for symbol in "+-")
+_AT, _COLON, _COMMA, _DOT, _QUESTION = (PUNCTUATION[symbol] for symbol in "@:,.?")
+_OPERAND_ENDS = _CLOSERS | LITERALS | {ID, NAMESPACE_STAR}
+
+
+def blanks_before(pieces: Sequence[Piece]) -> list[str]:
+    """Return what to write before each token when all stand on one line: a blank or nothing."""
+    blanks: list[str] = []
+    questions = [0]  # open conditional expressions in each bracket
+    for index, piece in enumerate(pieces):
+        blanks.append(" " if index and _is_apart(pieces, index, questions[-1]) else "")
+        if piece.kind in _OPENERS:
+            questions.append(0)
+        elif piece.kind in _CLOSERS:
+            questions = questions[:-1] or [0]
+        elif piece.kind == _QUESTION:
+            questions[-1] += 1
+        elif piece.kind == _COLON and questions[-1]:
+            questions[-1] -= 1
+    return blanks
+
+
+def _is_apart(pieces: Sequence[Piece], index: int, questions: int) -> bool:
+    """Whether a blank separates a token from the one before it."""
+    before, kind = pieces[index - 1].kind, pieces[index].kind
+    if before in _TIGHT or before in _OPENERS or before == _AT:
+        return False
+    if kind in _TIGHT or kind in _CLOSERS or kind == _COMMA:
+        return False
+    if kind == _COLON:
+        return bool(questions)  # that of `condition ? one : other`
+    if kind in _OPENERS:
+        return not (_is_called(pieces, index - 1) or _is_sign(pieces, index - 1))
+    return not _is_sign(pieces, index - 1)
+
+
+def _is_called(pieces: Sequence[Piece], index: int) -> bool:
+    """Whether a bracket behind this token belongs to it: a call or an index."""
+    kind = pieces[index].kind
+    if kind in _CASTS:
+        return index > 0 and pieces[index - 1].kind == _DOT
+    return kind in _OPERAND_ENDS or kind in _CALLS
+
+
+def _is_sign(pieces: Sequence[Piece], index: int) -> bool:
+    """Whether a token is the sign of what follows."""
+    if pieces[index].kind not in _SIGNS:
+        return False
+    return index == 0 or pieces[index - 1].kind not in _OPERAND_ENDS

@@ -60,10 +60,17 @@ class ScenarioSelf(ExpressionBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class EventArgument(ExpressionBase):
-    """The value of a parameter in the occurrence of an event that is being looked at."""
+    """The value of a parameter in the occurrence of an event that is being looked at.
+
+    Attributes:
+        event: The event, below the labels of invocations.
+        parameter: The parameter.
+        owner: Key of the invoked scenario that has the event, if one has.
+    """
 
     event: str
     parameter: str
+    owner: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

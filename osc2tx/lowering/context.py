@@ -53,7 +53,8 @@ class LoweringContext:
         lower_with: The function that lowers expressions of any kind.
         globals: The global parameters that the scenario uses, in order of use.
         own_names: Names of the members of the scenario.
-        event_fields: Names of the events that fields such as `x` in `@e as x` stand for.
+        event_fields: Events that fields such as `x` in `@e as x` stand for, by their names and the
+            keys of the invoked scenarios that have them.
         invoked: The scenarios and composed actions that it invokes, in order of use.
         drawn: Parameters that stand for ranges in its tree, structs that constraints of
             invocations describe, and variables of modifiers, in order of use.
@@ -76,6 +77,7 @@ class LoweringContext:
         expanding: Methods of modifiers that the expression is the body of, the outermost first.
         purity: Methods, and whether their results do not depend on the world.
         mentioned: The fields that some expression of the program reads, and in which files.
+        default_keeps: What gives fields a default in the type that declares them.
         handed_in: Parameters of invoked scenarios that some invocation gives a value.
         computed: Those of them that some invocation gives no plain name.
         same_actors: The actors of the scenario that are others.
@@ -90,7 +92,7 @@ class LoweringContext:
     lower_with: Callable[[LoweringContext, ast.Expression], ir.Expression | None]
     globals: dict[str, FieldSymbol] = field(default_factory=dict)
     own_names: frozenset[str] = frozenset()
-    event_fields: dict[int, str] = field(default_factory=dict)
+    event_fields: dict[int, tuple[str, str | None]] = field(default_factory=dict)
     invoked: list[ScenarioSymbol | ActionSymbol] = field(default_factory=list)
     drawn: list[ir.Parameter | ir.Struct | ir.Actor | ir.Variable] = field(default_factory=list)
     types: list[ActorSymbol | StructSymbol] = field(default_factory=list)
@@ -110,6 +112,7 @@ class LoweringContext:
     locals: Mapping[str, ir.Expression] = field(default_factory=dict)
     actor: ir.Expression | None = None
     mentioned: Mapping[FieldSymbol, frozenset[str]] = field(default_factory=dict)
+    default_keeps: Mapping[FieldSymbol, ast.KeepConstraint] = field(default_factory=dict)
     handed_in: frozenset[Symbol] = frozenset()
     computed: frozenset[Symbol] = frozenset()
     same_actors: Mapping[FieldSymbol, SameActor] = field(default_factory=dict)

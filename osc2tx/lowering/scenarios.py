@@ -30,6 +30,7 @@ from osc2tx.lowering.declarations.declarations import DeclarationLowering
 from osc2tx.lowering.declarations.global_parameters import GlobalLowering
 from osc2tx.lowering.declarations.user_fields import (
     class_default,
+    default_keeps,
     mentioned_fields,
     user_fields,
     user_lineage,
@@ -81,6 +82,7 @@ def lower(
         actions=actions,
         modifiers=applied,
         mentioned=mentioned_fields(model),
+        default_keeps=default_keeps(model),
         handed_in=frozenset(
             [
                 *(p for b in model.bindings.values() for p, _ in b.arguments),

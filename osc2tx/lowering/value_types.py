@@ -8,8 +8,6 @@ from osc2tx import ir
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
 
-__all__ = ["authored_unit"]
-
 PRIMITIVES = {
     name: ir.ValueType(kind, name)
     for name, kind in (

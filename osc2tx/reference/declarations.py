@@ -10,8 +10,6 @@ from osc2tx.stdlib import LIBRARY, library_file, member_meanings
 from osc2tx.syntax import ast
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["Declaration", "Member", "declarations"]
-
 OLD, NEW = "2.1", "2.2"
 _SECTION = re.compile(r"§([\d.]*\d)\s*")
 

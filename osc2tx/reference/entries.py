@@ -10,8 +10,6 @@ from osc2tx.catalogue import ActionEntry, ModifierEntry, catalogue
 from osc2tx.reference.declarations import Declaration, declarations
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["NOTHING", "TABLE", "Entry", "Shown", "entries", "find", "shown"]
-
 TABLE = Path(__file__).with_name("shown.json")
 
 

@@ -9,8 +9,6 @@ from typing import Any
 from osc2tx.reference.declarations import Declaration, Member
 from osc2tx.reference.entries import Entry
 
-__all__ = ["as_data", "as_markdown", "as_text", "signature"]
-
 INDENT = "    "
 MANY = 12  # users that a page names
 

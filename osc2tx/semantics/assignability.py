@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from osc2tx.diagnostics.fixes import Help, write
 from osc2tx.semantics.builtins import TIME
 from osc2tx.semantics.conversions import NUMBERS, converts, dimension_of
 from osc2tx.semantics.names.scenario_runner import reads_as_quantity
@@ -85,25 +86,29 @@ def check_fits(
         _report_dimension(r, expression, source, target, what)
 
 
-def _mismatch_help(expression: ast.Expression, source: Type, target: Type) -> str | None:
+def _mismatch_help(expression: ast.Expression, source: Type, target: Type) -> Help:
     if isinstance(source, RangeType):
         return f"constrain it in its `with:` block: `keep(it in {expression.span.text})`"
     if isinstance(expression, ast.StringLiteral):
         return _unquoted(expression, target)
     if source == EVENT and target == BOOL:
-        return f"to react to an event write `@{expression.span.text}`"
+        event = f"@{expression.span.text}"
+        return write(expression.span, event, f"to react to an event write `{event}`")
     if isinstance(expression, ast.PhysicalLiteral) and source == TIME and target == BOOL:
-        return f"to let time pass write `elapsed({expression.span.text})`"
+        wait = f"elapsed({expression.span.text})"
+        return write(expression.span, wait, f"to let time pass write `{wait}`")
     return None
 
 
-def _unquoted(expression: ast.StringLiteral, target: Type) -> str | None:
+def _unquoted(expression: ast.StringLiteral, target: Type) -> Help:
     """Say that a member of an enum, or a quantity, is written without quotes."""
     text = expression.value
     is_member = isinstance(target, EnumType) and text in target.symbol.members
     is_quantity = isinstance(target, PhysicalType) and text[:1].isdigit() and len(text) < 30
     is_truth = target == BOOL and text in ("true", "false")
-    return f"write it without quotes: `{text}`" if is_member or is_quantity or is_truth else None
+    if not (is_member or is_quantity or is_truth):
+        return None
+    return write(expression.span, text, f"write it without quotes: `{text}`")
 
 
 def _dimension_inside(type_: Type) -> Dimension | None:
@@ -120,11 +125,12 @@ def _report_missing_unit(
     ):
         return
     unit = example_unit(r, physical)
+    with_unit = write(expression.span, f"{expression.span.text}{unit}", is_safe=False)
     r.report(
         "OSC303",
         expression.span,
         f"{what} must be `{target}`; a plain number has no unit",
-        help=f"write `{expression.span.text}{unit}`" if unit and _is_literal(expression) else None,
+        help=with_unit if unit and _is_literal(expression) else None,
     )
 
 

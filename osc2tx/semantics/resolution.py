@@ -7,6 +7,7 @@ from dataclasses import field
 from typing import Protocol
 
 from osc2tx.diagnostics import DiagnosticSink, Label, Span
+from osc2tx.diagnostics.fixes import Help
 from osc2tx.semantics.dialects import Relaxations
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.scope import Context, Scope
@@ -118,7 +119,7 @@ class Resolution:
         span: Span,
         message: str,
         *,
-        help: str | None = None,
+        help: Help = None,
         notes: Sequence[str] = (),
         labels: Sequence[Label] = (),
     ) -> None:
@@ -132,7 +133,7 @@ class Resolution:
         message: str,
         *,
         key: str = "",
-        help: str | None = None,
+        help: Help = None,
         labels: Sequence[Label] = (),
     ) -> bool:
         """Whether the dialect lets something pass; then it is warned about, once per file."""

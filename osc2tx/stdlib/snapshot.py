@@ -14,8 +14,6 @@ from osc2tx.syntax.packed_ast import PackingError, pack, unpack
 from osc2tx.version import __version__
 from osc2tx_shared.cache import Snapshots
 
-__all__ = ["load_snapshot", "save_snapshot"]
-
 # What the AST of a text depends on besides the text.
 SNAPSHOTS = Snapshots(
     kind=f"osc2tx {__version__} AST 1",

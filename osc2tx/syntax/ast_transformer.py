@@ -6,6 +6,8 @@ from collections.abc import Collection
 from typing import Any
 
 from osc2tx.diagnostics import DiagnosticSink, Span
+from osc2tx.diagnostics.fixes import Edit, Remedy, rewrite
+from osc2tx.diagnostics.source import LINE_END
 from osc2tx.syntax import ast
 from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
 from osc2tx.syntax.ast_builder import behaviors, declarations, enums, members, names
@@ -75,4 +77,13 @@ class ASTTransformer:
 
     def _report_late_import(self, node: ast.Import) -> None:
         message = "an import stands before all other statements of a file"
-        self._builder.report("OSC108", node.span, message, "move it to the top of the file")
+        self._builder.report("OSC108", node.span, message, _moved_to_top(node.span))
+
+
+def _moved_to_top(line: Span) -> Remedy:
+    """Return the remedy that moves a statement of one line to the top of its file."""
+    source = line.source
+    end = LINE_END.match(source.text, line.end)
+    whole = Span(source, line.start, line.end if end is None else end.end())
+    top = Span(source, 0, 0)
+    return rewrite([Edit(top, f"{line.text}\n"), Edit(whole, "")], "move it to the top of the file")

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.diagnostics.fixes import insert, insert_before, leave_out, write
+from osc2tx.diagnostics.suggestions import name_meant
 from osc2tx.syntax import foreign_mistakes as foreign
 from osc2tx.syntax import tokens as t
 from osc2tx.syntax.foreign_words import COMPOSITIONS
@@ -18,6 +19,7 @@ from osc2tx.syntax.tokens import TokenTable
 _ASSIGN, _COLON, _AT = (t.PUNCTUATION[symbol] for symbol in "=:@")
 _RPAREN, _RBRACKET, _DOTS = (t.PUNCTUATION[text] for text in (")", "]", ".."))
 _CONSTRAINTS = {t.KEYWORDS[word] for word in ("keep", "remove_default", "cover", "record")}
+_BLOCK_WORDS = ("serial", "parallel", "one_of", "with")
 _LINE_BREAKS = frozenset({t.NEWLINE, t.INDENT, t.DEDENT})
 _NO_STARTERS = (
     "with",
@@ -56,7 +58,8 @@ def _blank_before_unit(place: Place) -> Advice | None:
     if place.text() in ("if", "else"):
         return Advice(f"unexpected `{place.text()}`", "a choice is written `condition ? a : b`")
     number, unit = place.text(-1), place.text()
-    return Advice(f"a unit follows its number without a blank: `{unit}`", f"write `{number}{unit}`")
+    help_ = write(place.span(-1, 0), f"{number}{unit}")
+    return Advice(f"a unit follows its number without a blank: `{unit}`", help_)
 
 
 def _range_with_unit(place: Place) -> Advice | None:
@@ -66,12 +69,12 @@ def _range_with_unit(place: Place) -> Advice | None:
     start = inner.open_bracket()
     if start is None or _DOTS not in place.table.types[start : place.at]:
         return None
-    dots = place.table.types.index(_DOTS, start)
-    source = place.table.source.text
-    lower = source[place.table.ends[start] : place.table.starts[dots]].strip()
-    upper = source[place.table.ends[dots] : place.table.starts[place.at - 1]].strip()
+    table = place.table
+    dots = table.types.index(_DOTS, start)
+    lower = table.source.text[table.ends[start] : table.starts[dots]].strip()
+    upper = table.source.text[table.ends[dots] : table.starts[place.at - 1]].strip()
     unit = place.text()
-    help_ = f"write `[{lower}{unit}..{upper}{unit}]`"
+    help_ = write(table.span(start, place.at), f"[{lower}{unit}..{upper}{unit}]")
     return Advice(f"the unit `{unit}` belongs to both bounds of the range, not behind it", help_)
 
 
@@ -80,7 +83,9 @@ def _sampled_parameter(place: Place) -> Advice | None:
     opened = place.open_bracket()
     if place.kind() != _AT or opened is None or place.table.text(opened - 1) != "sample":
         return None
-    return Advice("only a variable is sampled", "declare it with `var`", opened - 1)
+    first = place.table.span(place.line, place.line)
+    help_ = insert_before(first, "var ", "declare it with `var`")
+    return Advice("only a variable is sampled", help_, opened - 1)
 
 
 def _global_variable(place: Place) -> Advice | None:
@@ -99,7 +104,7 @@ def _point_without_digits(place: Place) -> Advice | None:
     if place.text(dot) != "." or place.kind(dot - 1) != t.INTEGER:
         return None
     number = place.text(dot - 1)
-    return Advice(f"`{number}.` is not a number", f"write `{number}.0`")
+    return Advice(f"`{number}.` is not a number", write(place.span(dot - 1, dot), f"{number}.0"))
 
 
 def _unbalanced_bracket(place: Place) -> Advice | None:
@@ -107,11 +112,13 @@ def _unbalanced_bracket(place: Place) -> Advice | None:
         return None
     opened = place.open_bracket()
     if opened is None:
-        return Advice(f"`{place.text()}` closes nothing")
+        help_ = leave_out(place.span(), "leave it out")
+        return Advice(f"`{place.text()}` closes nothing", help_)
     bracket = place.table.text(opened)
     if (bracket == "(") != (place.text() == ")"):
         close = ")" if bracket == "(" else "]"
-        return Advice(f"expected `{close}` to close `{bracket}`, found `{place.text()}`")
+        message = f"expected `{close}` to close `{bracket}`, found `{place.text()}`"
+        return Advice(message, write(place.span(), close, is_safe=False))
     return None
 
 
@@ -120,19 +127,22 @@ def _assignment(place: Place) -> Advice | None:
         return None
     opened = place.open_bracket()
     if opened is not None and place.table.types[opened - 1] in _CONSTRAINTS:
-        return Advice("expected `==`, found `=`", "a comparison is written `==`")
+        help_ = write(place.span(), "==", "a comparison is written `==`")
+        return Advice("expected `==`, found `=`", help_)
     if opened is not None and place.table.types[place.line] == t.KEYWORDS["def"]:
-        return Advice("expected `:`, found `=`", "a parameter is declared `name: type = value`")
+        declared = "a parameter is declared `name: type = value`"
+        return Advice("expected `:`, found `=`", declared)
     if opened is not None and place.kind(-1) == t.ID:
-        help_ = f"a named argument is written `{place.text(-1)}: value`"
+        named = f"a named argument is written `{place.text(-1)}: value`"
+        help_ = write(place.between(-2 + 1, 1), ": ", named)
         return Advice("expected `:`, found `=`", help_)
     if place.table.types[place.line] == t.KEYWORDS["var"]:
         return Advice(
             "expected `:` and a type, found `=`", "a variable is declared `var name: type = value`"
         )
     if place.table.types[place.line] == t.ID:
-        help_ = "declare a field `name: type = value`, or constrain one by `keep(name == value)`"
-        return Advice("there are no assignments in OpenSCENARIO DSL", help_)
+        declare = "declare a field `name: type = value`, or constrain one by `keep(name == value)`"
+        return Advice("there are no assignments in OpenSCENARIO DSL", declare)
     return None
 
 
@@ -153,7 +163,7 @@ def _misspelt_statement(place: Place) -> Advice | None:
         follows = place.kind() == t.ID and place.kind(-1) == _RPAREN and place.kind(1) == _COLON
         token, candidates = place.at, ["with"] if follows else []
     word = place.table.text(token)
-    meant = did_you_mean(word, candidates, 0.7)
+    meant = name_meant(place.table.span(token, token), candidates, 0.7, is_safe=True)
     return Advice(f"unknown word `{word}`", meant, token) if meant else None
 
 
@@ -164,11 +174,13 @@ def _missing_colon_of_argument(place: Place) -> Advice | None:
         return None
     name, value = place.text(-1), place.text()
     if value.startswith("::"):
-        help_ = f"a qualified name has no blanks: `{name}{value}`"
+        qualified = f"a qualified name has no blanks: `{name}{value}`"
+        help_ = write(place.between(-1), "", qualified)
         return Advice(f"unexpected `{value}`", help_)
     if place.table.types[opened - 1] != t.ID:
         return None
-    help_ = f"a named argument is written `{name}: {value}`"
+    named = f"a named argument is written `{name}: {value}`"
+    help_ = write(place.between(-1), ": ", named)
     return Advice(f"expected `,`, `:` or an operator, found `{value}`", help_)
 
 
@@ -199,8 +211,10 @@ def _misspelt_composition(place: Place) -> Advice | None:
     word = place.table.text(index)
     if word in COMPOSITIONS:
         what = f"there is no composition `{word}` in OpenSCENARIO DSL"
-        return Advice(what, f"write `{COMPOSITIONS[word]}:`", index)
-    meant = did_you_mean(word, ["serial", "parallel", "one_of", "with"], 0.7)
+        named = place.table.span(index, index)
+        help_ = write(named, COMPOSITIONS[word], f"write `{COMPOSITIONS[word]}:`", is_safe=False)
+        return Advice(what, help_, index)
+    meant = name_meant(place.table.span(index, index), _BLOCK_WORDS, 0.7, is_safe=True)
     if meant:
         return Advice(f"unknown word `{word}`", meant, index)
     follows = place.table.text(index - 1) in ("do", ":")
@@ -210,7 +224,10 @@ def _misspelt_composition(place: Place) -> Advice | None:
         return Advice(f"`{word}` is no composition", block, index)
     if place.kind() == t.NEWLINE and index < end - 1:
         name = place.table.source.text[place.table.starts[place.line] : place.table.ends[end - 1]]
-        help_ = f"write `{name} with:`" if len(name) <= 40 and "\n" not in name else None
+        with_ = (
+            f"write `{name} with:`" if len(name) <= 40 and "\n" not in name else "write ` with:`"
+        )
+        help_ = insert(place.table.span(end - 1, end - 1), " with", with_)
         return Advice("`with` is missing before the `:` of an invocation", help_)
     return None
 
@@ -221,7 +238,9 @@ def _colon_after_directive(place: Place) -> Advice | None:
     word = place.table.text(place.line)
     if place.table.types[place.line] not in t.KEYWORD_TYPES:
         return None
-    return Advice(f"unexpected `:` after `{word}`", f"write `{word} @event` without a colon")
+    colon = f"write `{word} @event` without a colon"
+    help_ = leave_out(place.span(), colon, is_safe=False)
+    return Advice(f"unexpected `:` after `{word}`", help_)
 
 
 def _constraint_without_parentheses(place: Place) -> Advice | None:
@@ -236,6 +255,8 @@ _REMEDIES: tuple[Callable[[Place], Advice | None], ...] = (
     _point_without_digits,
     _sampled_parameter,
     foreign.behind_a_call,
+    foreign.wait_until,
+    foreign.arrow,
     foreign.other_strength,
     foreign.not_in,
     foreign.several_events,

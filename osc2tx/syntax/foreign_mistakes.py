@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from osc2tx.diagnostics import Span
+from osc2tx.diagnostics.fixes import Edit, Help, leave_out, rewrite, write
 from osc2tx.syntax import tokens as t
 from osc2tx.syntax.foreign_words import BEHIND_A_CALL, LOOPS, STATEMENTS
 from osc2tx.syntax.mistake_places import NUMBERS, TYPES, Advice, Place
@@ -19,7 +21,8 @@ def label_of_two_words(place: Place) -> Advice | None:
     if types[line + 2] != _COLON or types[line + 3] == t.NEWLINE or place.at > line + 2:
         return None
     words = f"{place.table.text(line)}_{place.table.text(line + 1)}"
-    return Advice("a label is a single word", f"write `{words}:`", line + 1)
+    help_ = write(place.table.span(line, line + 1), words, f"write `{words}:`")
+    return Advice("a label is a single word", help_, line + 1)
 
 
 def statement(place: Place) -> Advice | None:
@@ -45,7 +48,48 @@ def behind_a_call(place: Place) -> Advice | None:
     what = f"there is no `{word}` behind a call"
     if word == "until":
         what = "`until` belongs into a `with:` block"
-    return Advice(what, BEHIND_A_CALL[word])
+    return Advice(what, _into_the_call(place) or BEHIND_A_CALL[word])
+
+
+def _into_the_call(place: Place) -> Help:
+    """Return how `until …` goes into a block below the call, and `for 3s` into its arguments."""
+    word, table = place.text(), place.table
+    end = place.at
+    while table.types[end + 1] not in (t.NEWLINE, t.EOF):
+        end += 1
+    has_block = table.types[end + 2 : end + 3] == [t.INDENT] or table.text(end) == ":"
+    if word == "until" and end > place.at and not has_block:
+        indentation = " " * (table.indentation(table.starts[place.line]) + 4)
+        below = write(place.between(-1), f" with:\n{indentation}", BEHIND_A_CALL[word])
+        return below
+    if word == "for" and place.kind(1) == t.PHYSICAL and end == place.at + 1:
+        comma = "" if place.kind(-2) == _LPAREN else ", "
+        argument = Edit(place.span(-1), f"{comma}duration: {place.text(1)})")
+        rest = Edit(Span(table.source, place.span(-1).end, table.ends[end]), "")
+        return rewrite([argument, rest], BEHIND_A_CALL[word])
+    return None
+
+
+def wait_until(place: Place) -> Advice | None:
+    """`wait until x > 3`."""
+    line = place.line
+    if place.table.text(line) != "wait" or place.table.text(line + 1) != "until":
+        return None
+    if place.at not in (line + 1, line + 2):
+        return None
+    between = Span(place.table.source, place.table.ends[line], place.table.starts[line + 2])
+    help_ = write(between, " ", "a condition follows `wait` at once: `wait …`")
+    return Advice("unexpected `until` after `wait`", help_, line + 1)
+
+
+def arrow(place: Place) -> Advice | None:
+    """`a.drive() -> b.drive()`."""
+    if place.text() != "->" or place.kind(-1) != _RPAREN:
+        return None
+    if place.table.types[place.line] == t.KEYWORDS["def"]:
+        return None
+    help_ = "write each on a line of its own, below `serial:`"
+    return Advice("there is no `->` between actions", help_)
 
 
 def colon_inheritance(place: Place) -> Advice | None:
@@ -55,7 +99,10 @@ def colon_inheritance(place: Place) -> Advice | None:
     if place.kind() != t.ID:
         return None
     word = place.text()
-    help_ = f"a base type is written `inherits {word}:`"
+    edits = [Edit(place.between(-2), " inherits ")]
+    if place.kind(1) == t.NEWLINE and place.kind(2) == t.INDENT:
+        edits.append(Edit(place.behind(), ":"))
+    help_ = rewrite(edits, f"a base type is written `inherits {word}:`")
     return Advice(f"expected the end of the line, found `{word}`", help_)
 
 
@@ -66,7 +113,11 @@ def other_inheritance(place: Place) -> Advice | None:
     in_parentheses = place.kind() == _LPAREN and place.kind(2) == _RPAREN
     if place.text() not in ("extends", "is", "of") and not in_parentheses:
         return None
-    help_ = f"a base type is written `inherits {place.text(1)}:`"
+    base = place.text(1)
+    edits = [Edit(place.span(), "inherits")]
+    if in_parentheses:
+        edits = [Edit(place.span(0, 2), f" inherits {base}")]
+    help_ = rewrite(edits, f"a base type is written `inherits {base}:`")
     return Advice(f"unexpected `{place.text()}`", help_)
 
 
@@ -74,7 +125,7 @@ def list_type(place: Place) -> Advice | None:
     """`l: list<int>`."""
     if place.text(-1) != ">" or place.text(-3) != "<" or place.text(-4) != "list":
         return None
-    help_ = f"write `list of {place.text(-2)}`"
+    help_ = write(place.span(-4, -1), f"list of {place.text(-2)}")
     return Advice("a list of a type has no `<…>`", help_, place.at - 3)
 
 
@@ -89,7 +140,8 @@ def range_without_brackets(place: Place) -> Advice | None:
     """`speed(10kph..20kph)`."""
     if place.kind() != _DOTS:
         return None
-    return Advice("a range stands in brackets", f"write `[{place.text(-1)}..{place.text(1)}]`")
+    range_ = f"[{place.text(-1)}..{place.text(1)}]"
+    return Advice("a range stands in brackets", write(place.span(-1, 1), range_))
 
 
 def other_arithmetic(place: Place) -> Advice | None:
@@ -98,7 +150,8 @@ def other_arithmetic(place: Place) -> Advice | None:
         return Advice("there is no operator `**`", "multiply: `a * a`", place.at - 1)
     if place.kind(-1) == _PERCENT and place.kind(-2) in NUMBERS:
         number = place.text(-2)
-        help_ = f"a share is a plain number: `{float(number) / 100:g}`"
+        share = f"{float(number) / 100:g}"
+        help_ = write(place.span(-2, -1), share, f"a share is a plain number: `{share}`")
         return Advice("`%` is the remainder of a division", help_, place.at - 1)
     return None
 
@@ -107,7 +160,8 @@ def emitted_with_at(place: Place) -> Advice | None:
     """`emit @e`."""
     if place.kind() != _AT or place.text(-1) != "emit":
         return None
-    return Advice("unexpected `@`", f"write `emit {place.text(1)}`")
+    help_ = leave_out(place.span(), f"write `emit {place.text(1)}`")
+    return Advice("unexpected `@`", help_)
 
 
 def declared_parentheses(place: Place) -> Advice | None:
@@ -117,16 +171,22 @@ def declared_parentheses(place: Place) -> Advice | None:
     if not is_named or place.kind() != _LPAREN or place.kind(-1) != t.ID:
         return None
     word = place.table.text(place.line)
-    help_ = "its parameters are fields in the body: `name: type`"
+    help_: Help = "its parameters are fields in the body: `name: type`"
+    if place.kind(1) == _RPAREN:
+        help_ = leave_out(place.span(0, 1), "its parameters are fields in the body: `name: type`")
     return Advice(f"the name of a declared {word} has no parentheses", help_)
 
 
 def other_operators(place: Place) -> Advice | None:
     """`!x`, `a :: b`."""
     if place.kind() == _BANG:
-        return Advice("unexpected `!`", "a negation is written `not`")
+        help_ = write(place.span(), "not ", "a negation is written `not`")
+        return Advice("unexpected `!`", help_)
     if place.kind() == _DOUBLE_COLON:
-        return Advice("unexpected `::`", "a qualified name has no blanks: `namespace::name`")
+        edit = Edit(place.table.span(place.at, place.at), "::")
+        name = "a qualified name has no blanks: `namespace::name`"
+        around = [Edit(place.between(-1), ""), edit, Edit(place.between(0, 1), "")]
+        return Advice("unexpected `::`", rewrite(around, name))
     return None
 
 
@@ -137,7 +197,8 @@ def other_strength(place: Place) -> Advice | None:
     word = place.text(-1)
     if word not in ("soft", "weak", "strong"):
         return None
-    help_ = "write `keep(default …)`: it holds unless a later constraint replaces it"
+    default = "write `keep(default …)`: it holds unless a later constraint replaces it"
+    help_ = write(place.span(-1), "default", default)
     return Advice(f"there is no constraint of strength `{word}`", help_, place.at - 1)
 
 
@@ -145,7 +206,9 @@ def not_in(place: Place) -> Advice | None:
     """`a not in l`."""
     if place.text() != "not" or place.text(1) != "in":
         return None
-    return Advice("`not in` is no operator", f"write `not {place.text(-1)} in {place.text(2)}`")
+    negated = f"not {place.text(-1)} in {place.text(2)}"
+    help_ = write(place.span(-1, 2), negated, is_safe=False)
+    return Advice("`not in` is no operator", help_)
 
 
 def several_events(place: Place) -> Advice | None:
@@ -166,7 +229,8 @@ def condition_alone(place: Place) -> Advice | None:
     word = place.table.text(place.line)
     if word not in ("wait", "until", "on"):
         return None
-    help_ = f"a condition stands alone: `{word} {place.text()} …`; `if` follows an `@event`"
+    alone = f"a condition stands alone: `{word} {place.text()} …`; `if` follows an `@event`"
+    help_ = write(place.between(-2), " ", alone)
     return Advice(f"unexpected `if` after `{word}`", help_, place.at - 1)
 
 
@@ -174,7 +238,7 @@ def type_with_brackets(place: Place) -> Advice | None:
     """`l: int[]`."""
     if place.text() != "]" or place.text(-1) != "[" or place.text(-3) != ":":
         return None
-    help_ = f"write `list of {place.text(-2)}`"
+    help_ = write(place.span(-2, 0), f"list of {place.text(-2)}")
     return Advice("a list type has no brackets", help_, place.at - 1)
 
 
@@ -182,7 +246,8 @@ def namespace_block(place: Place) -> Advice | None:
     """`namespace a:`."""
     if place.kind() != _COLON or place.table.text(place.line) != "namespace":
         return None
-    help_ = "leave out the `:`; it holds for all that follows, up to the next `namespace`"
+    all_ = "leave out the `:`; it holds for all that follows, up to the next `namespace`"
+    help_ = leave_out(place.span(), all_)
     return Advice("a namespace has no block", help_)
 
 
@@ -209,11 +274,13 @@ def sum_with_unit(place: Place) -> Advice | None:
         is_number = place.table.types[index] in NUMBERS
         texts.append(place.table.text(index) + (place.text() if is_number else ""))
     written = " ".join(texts).replace("( ", "(").replace(" )", ")")
-    return Advice("a unit belongs to a number", f"write `{written}`")
+    help_ = write(place.table.span(opened, place.at), written)
+    return Advice("a unit belongs to a number", help_)
 
 
 def list_goes_on(place: Place) -> Advice | None:
     """`export a,` with nothing behind."""
     if place.kind() != t.NEWLINE or place.text(-1) != ",":
         return None
-    return Advice("a name is missing behind the last `,`", "leave the comma out")
+    help_ = leave_out(place.span(-1), "leave the comma out")
+    return Advice("a name is missing behind the last `,`", help_)

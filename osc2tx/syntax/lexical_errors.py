@@ -6,14 +6,13 @@ import re
 from collections.abc import Collection
 
 from osc2tx.diagnostics import DiagnosticSink, Span
+from osc2tx.diagnostics.fixes import Help, insert, leave_out, write
 from osc2tx.syntax import patterns
 from osc2tx.syntax.tokens import TokenTable
 
 _MAX_REPORTS = 100
+_OPERATORS = {"&&": "and", "&": "and", "||": "or"}
 _REPLACEMENTS = {
-    "&&": "the operator is written `and`",
-    "&": "the operator is written `and`",
-    "||": "the operator is written `or`",
     "^": "there is no power; multiply: `a * a`",
     "`": "strings stand in double or single quotes",
     ";": "a statement ends with its line; leave the semicolon out",
@@ -34,9 +33,7 @@ class LexicalErrors:
         self._reported: dict[str, int] = {}
         self.last_offset = 0
 
-    def _report(
-        self, code: str, start: int, end: int, message: str, help_: str | None = None
-    ) -> None:
+    def _report(self, code: str, start: int, end: int, message: str, help_: Help = None) -> None:
         self.last_offset = start
         count = self._reported[code] = self._reported.get(code, 0) + 1
         if count <= _MAX_REPORTS:
@@ -48,7 +45,13 @@ class LexicalErrors:
         end = max(match.end() if match else start + 1, start + 1)
         found = self._text[start:end] if match is None or match[1] is None else match[1]
         shown = f"`{found}`" if found.isprintable() else f"U+{ord(found[0]):04X}"
-        help_ = _REPLACEMENTS.get(found)
+        help_: Help = _REPLACEMENTS.get(found)
+        span = Span(self._table.source, start, start + len(found))
+        if found in _OPERATORS:
+            operator = _OPERATORS[found]
+            help_ = write(span, operator, f"the operator is written `{operator}`")
+        elif found == ";" and not self._rest_of_line(start + 1).strip():
+            help_ = leave_out(span, _REPLACEMENTS[found])
         if found == "\\":
             help_ = "a backslash joins lines only as the last character of a line"
         elif found == "\0":
@@ -57,17 +60,22 @@ class LexicalErrors:
         self._table.damaged.append(start)
         return end
 
+    def _rest_of_line(self, start: int) -> str:
+        match = patterns.LINE_REST.match(self._text, start)
+        return self._text[start:] if match is None else match[0]
+
     def unterminated_string(self, start: int) -> int:
         """Report a string without end.
 
         It is taken to end with its line, or where the line below has the quote that closes it.
         """
         quote = self._text[start]
-        rest = patterns.LINE_REST.match(self._text, start)
-        end = rest.end() if rest else len(self._text)
+        end = start + len(self._rest_of_line(start))
         delimiter = quote * 3 if self._text.startswith(quote * 3, start) else quote
         message = f"the string has no closing `{delimiter}`"
-        help_ = None if len(delimiter) == 3 else "a string of several lines needs three quotes"
+        several = "a string of several lines needs three quotes"
+        open_end = Span(self._table.source, end, end)
+        help_ = None if len(delimiter) == 3 else insert(open_end, quote, several, is_safe=False)
         self._report("OSC103", start, end, message, help_)
         self._table.damaged.append(start)
         return self._closed_below(end, quote) if help_ else end
@@ -82,12 +90,16 @@ class LexicalErrors:
     def foreign_comment(self, start: int) -> int:
         """Report `/* */` or `//`; return the offset behind it."""
         if self._text.startswith("//", start):
-            match = patterns.LINE_REST.match(self._text, start)
-            end = match.end() if match else len(self._text)
+            end = start + len(self._rest_of_line(start))
             message = "a comment starts with `#`, not with `//`"
             before = self._text[self._text.rfind("\n", 0, start) + 1 : start].rstrip()
             is_operator = before[-1:].isalnum() or before.endswith((")", "]", "_"))
-            help_ = "to divide write `/`: of whole numbers it is whole" if is_operator else None
+            help_ = write(Span(self._table.source, start, start + 2), "#")
+            if is_operator:
+                divide = "to divide write `/`: of whole numbers it is whole"
+                help_ = write(
+                    Span(self._table.source, start, start + 2), "/", divide, is_safe=False
+                )
             self._report("OSC111", start, start + 2, message, help_)
             return end
         close = self._text.find("*/", start + 2)
@@ -117,13 +129,15 @@ class LexicalErrors:
         line_start = self._table.line_start(at)
         blanks = self._text[line_start:at]
         mixed = re.search(r" .*\t|\t.* ", blanks) or "\t" in blanks
+        column = f"begin it in column {taken + 1}"
+        indentation = Span(self._table.source, line_start, at)
         tabs = "tabs count up to the next multiple of 8; do not mix them with blanks"
         self._report(
             "OSC626" if relaxed else "OSC104",
             line_start,
             max(at, line_start + 1),
             f"the line starts in column {width + 1}, but the open blocks start in {listed}",
-            tabs if mixed else f"begin it in column {taken + 1}",
+            tabs if mixed else write(indentation, " " * taken, column, is_safe=False),
         )
 
     def nesting_too_deep(self, at: int, limit: int) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from osc2tx.diagnostics import Span
+from osc2tx.diagnostics.fixes import Help
 from osc2tx.syntax import tokens as t
 from osc2tx.syntax.tokens import TokenTable
 
@@ -23,7 +25,7 @@ class Advice(NamedTuple):
     """
 
     message: str
-    help: str | None = None
+    help: Help = None
     token: int | None = None
 
 
@@ -48,6 +50,21 @@ class Place(NamedTuple):
     def text(self, distance: int = 0) -> str:
         """Return the text of a token near the place."""
         return self.table.text(self.at + distance)
+
+    def span(self, first: int = 0, last: int | None = None) -> Span:
+        """Return the span of tokens near the place, from one distance to another one."""
+        end = first if last is None else last
+        return self.table.span(self.at + first, self.at + end)
+
+    def between(self, first: int, last: int = 0) -> Span:
+        """Return the span between the tokens at two distances, without them."""
+        table = self.table
+        return Span(table.source, table.ends[self.at + first], table.starts[self.at + last])
+
+    def behind(self, distance: int = 0) -> Span:
+        """Return the empty span right behind a token near the place."""
+        end = self.table.ends[self.at + distance]
+        return Span(self.table.source, end, end)
 
     def open_bracket(self) -> int | None:
         """Return the index of the innermost bracket of the line that is open here."""

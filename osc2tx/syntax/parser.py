@@ -37,9 +37,6 @@ class StatementRecovery:
         A block stands among the statements when the line above it lost all its tokens to a lexical
         mistake; it is read like any other, so that its DEDENT ends nothing else.
         """
-        context = parser._ctx.__class__
-        if context is not Grammar.BlockContext and context is not Grammar.SourceFileContext:
-            return
         stream = self._stream
         while (kind := stream.types[stream.index]) not in self._starts:
             if kind in (DEDENT, EOF) or (kind == INDENT and not parser._ctx.children):
@@ -49,9 +46,6 @@ class StatementRecovery:
                 continue
             self._errors.report(parser, stream.index)
             self._skip_statement(parser)
-
-    def reportMatch(self, parser: Any) -> None:
-        """Nothing to do: there is no repair that a match would end."""
 
     def recoverInline(self, parser: Any) -> None:
         """Give up at once; no token is dropped or invented."""
@@ -109,9 +103,6 @@ class _Probe(Grammar):  # type: ignore[misc, unused-ignore]
 
 class _GivesUp:
     """An error strategy for one token."""
-
-    def sync(self, parser: Any) -> None:
-        """Nothing to do: nothing stands before the token."""
 
     def reportError(self, parser: Any, error: RecognitionException) -> None:
         """Go no further."""

@@ -1,8 +1,9 @@
 """What the generated parser runs on: as much of the ANTLR runtime as an LL(1) parser needs.
 
-`make parser` makes `_antlr` import this module in place of `antlr4`, whose names it therefore has.
-It does without listeners, token objects and prediction: contexts hold token indexes in place of
-tokens. antlr4 itself is loaded only for a message that lists the tokens that would have fitted.
+`make parser` makes `_antlr` import this module in place of `antlr4`, whose names it therefore has,
+and removes the calls that have no effect without listeners, token objects and prediction. Contexts
+hold token indexes in place of tokens. antlr4 itself is loaded only for a message that lists the
+tokens that would have fitted.
 """
 
 from __future__ import annotations
@@ -10,24 +11,8 @@ from __future__ import annotations
 from functools import cached_property
 from typing import Any
 
-__all__ = [
-    "DFA",
-    "ATNDeserializer",
-    "NoViableAltException",
-    "Parser",
-    "ParserATNSimulator",
-    "ParserRuleContext",
-    "PredictionContextCache",
-    "RecognitionException",
-    "Token",
-    "TokenStream",
-]
-
-
-class Token:
-    """The one type of token that the grammar does not name."""
-
-    EOF = -1
+EOF = -1
+"""The one type of token that the grammar does not name."""
 
 
 class RecognitionException(Exception):
@@ -45,10 +30,6 @@ class TokenStream:
         """Start at the first token."""
         self.types = types
         self.index = 0
-
-    def LA(self, distance: int) -> int:
-        """Return the type of the current token; `distance` is always 1."""
-        return self.types[self.index]
 
 
 class ParserRuleContext:
@@ -77,14 +58,11 @@ class Parser:
 
     _errHandler: Any
 
-    def __init__(self, stream: TokenStream, output: object = None) -> None:
+    def __init__(self, stream: TokenStream) -> None:
         """Read a stream from its first token."""
         self._input = stream
         self._ctx: Any = None
         self.state = -1
-
-    def checkVersion(self, version: str) -> None:
-        """Nothing to do: the runtime is not that of antlr4."""
 
     def enterRule(self, context: Any, state: int, rule: int) -> None:
         """Put a context below the current one, and go on in it."""
@@ -96,8 +74,11 @@ class Parser:
             parent.children.append(context)
         self._ctx = context
 
-    def enterOuterAlt(self, context: Any, alternative: int) -> None:
-        """Nothing to do: contexts do not know their alternatives."""
+    def recover(self, context: Any, error: RecognitionException) -> None:
+        """Report what does not fit in a rule, and go on behind it or in the rule that called it."""
+        context.exception = error
+        self._errHandler.reportError(self, error)
+        self._errHandler.recover(self, error)
 
     def exitRule(self) -> None:
         """Go on in the context above the current one."""
@@ -114,7 +95,7 @@ class Parser:
         if stream.types[index] != expected:
             raise RecognitionException
         self._ctx.children.append(index)
-        if expected != Token.EOF:
+        if expected != EOF:
             stream.index = index + 1
 
     def consume(self) -> None:
@@ -127,8 +108,6 @@ class Parser:
 
 class Network:
     """The transition network of the grammar; nothing but messages needs it."""
-
-    decisionToState = ()  # prediction would begin there
 
     def __init__(self, serialized: list[int]) -> None:
         """Take it as the generated parser has it."""
@@ -152,21 +131,3 @@ class Network:
             if state is not None
             and any(getattr(each, "ruleIndex", None) == rule for each in state.transitions)
         )
-
-
-class ATNDeserializer:
-    """Gives the generated parser its network unread."""
-
-    def deserialize(self, serialized: list[int]) -> Network:
-        """Return the network."""
-        return Network(serialized)
-
-
-class _Prediction:
-    """Stands for the parts of antlr4 that choose between alternatives with a longer lookahead."""
-
-    def __init__(self, *parts: object) -> None:
-        """Do nothing: no rule of an LL(1) grammar asks for a prediction."""
-
-
-DFA = ParserATNSimulator = PredictionContextCache = _Prediction

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from osc2tx.campaigns.coverage import Item
     from osc2tx_runtime.campaigns import Plan, RowResult
 
-__all__ = ["Campaign", "CampaignRow", "plan_of", "row_of", "run_campaign"]
-
 
 @dataclass(frozen=True, slots=True)
 class CampaignRow:

@@ -21,9 +21,8 @@ from osc2tx_shared.classes import replace
 
 if TYPE_CHECKING:
     from osc2tx.building.results import FileResult
+    from osc2tx.compilation.file_reports import LossEntry
     from osc2tx_runtime import Scenario
-
-__all__ = ["CompiledSources"]
 
 
 class CompiledSources:
@@ -33,12 +32,14 @@ class CompiledSources:
         configs: The settings files.
     """
 
-    def __init__(self, cache: Path | None = None) -> None:
+    def __init__(self, cache: Path | None = None, *, with_xml: bool = False) -> None:
         """Begin with nothing compiled.
 
         Args:
             cache: Folder of earlier results; in the user's cache if left out.
+            with_xml: Whether the results tell what becomes of scenarios as XML.
         """
+        self._with_xml = with_xml
         self.configs = ConfigFiles()
         self._memory = ResultCache("build", self.configs, cache)
         self._results: dict[Path, FileResult] = {}
@@ -89,6 +90,11 @@ class CompiledSources:
             return f"{path}: cannot be read"
         return "\n".join(filter(None, (render_all(errors, folder=Path.cwd()), result.bug)))
 
+    def losses(self) -> list[LossEntry]:
+        """Return what became of the scenarios as XML, in the order of their files."""
+        results = sorted(self._results.items())
+        return [loss for _, result in results for loss in result.losses]
+
     @contextmanager
     def scenarios(self, path: Path) -> Iterator[Mapping[str, type[Scenario]]]:
         """Give the scenario classes of the module of a file, by names in the source.
@@ -111,8 +117,8 @@ class CompiledSources:
         self._results |= {real_path(result.job.path): result for result in results}
 
     def _compile(self, jobs: Sequence[Job], workers: int) -> list[FileResult]:
-        """Return results that have a module; XML is not made for a test."""
-        asked = {job: replace(job, options=replace(job.options, target="py")) for job in jobs}
+        """Return results that have a module; XML is only made for those who ask for it."""
+        asked = {job: self._with_module(job) for job in jobs}
         known: dict[Job, FileResult] = {}
         for job, alone in asked.items():
             kinds = (alone,) if job.options.target == "xosc" else (job, alone)
@@ -122,6 +128,13 @@ class CompiledSources:
         made = compile_jobs([asked[job] for job in missing], workers, self._memory.keep)
         known |= dict(zip(missing, made, strict=True))
         return [known[job] for job in jobs]
+
+    def _with_module(self, job: Job) -> Job:
+        if self._with_xml and job.options.target != "xosc":
+            return job
+        if self._with_xml:
+            return replace(job, options=replace(job.options, target="all"))
+        return replace(job, options=replace(job.options, target="py"))
 
     def _write(self, results: Sequence[FileResult]) -> Path:
         """Write modules that are not there yet; return the place of the first."""

@@ -10,8 +10,6 @@ from typing import Any
 from osc2tx_runtime.language.values.written_units import UNITS_OF, unit_named
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["ValueCondition"]
-
 _COMPARISONS: Mapping[str, Callable[[Any, Any], bool]] = {
     "==": operator.eq,
     "!=": operator.ne,

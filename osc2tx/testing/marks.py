@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from osc2tx.testing.campaigns import CampaignRow
     from osc2tx_runtime.campaigns import Row
 
-__all__ = ["MarkedRows"]
-
 AnyT = TypeVar("AnyT")
 
 TOGETHER = ("engine", "workers", "search", "search_batch", "store")

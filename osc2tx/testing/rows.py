@@ -11,8 +11,6 @@ from osc2tx.testing.marks import MarkedRows
 if TYPE_CHECKING:
     from osc2tx.testing.campaigns import CampaignRow
 
-__all__ = ["pytest_configure", "pytest_generate_tests", "pytest_unconfigure", "row"]
-
 _ROWS = pytest.StashKey[MarkedRows]()
 _HELP = (
     'campaign(path, samples=N, sampler="random", ...): one test for each row, which takes `row`;'

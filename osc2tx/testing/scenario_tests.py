@@ -6,6 +6,7 @@ if the run ends with the `verdict` that the settings expect, which is `success` 
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,27 +15,17 @@ import pytest
 
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError
+from osc2tx.testing.result_properties import EXPECTED, REASON, TRACE, VERDICT
 
 if TYPE_CHECKING:
     from osc2tx.diagnostics.report import ScenarioEntry
     from osc2tx.testing.compiled_sources import CompiledSources
     from osc2tx.testing.conditions import ValueCondition
-
-__all__ = [
-    "pytest_addoption",
-    "pytest_collect_file",
-    "pytest_collection_modifyitems",
-    "pytest_configure",
-    "pytest_sessionfinish",
-    "pytest_sessionstart",
-    "pytest_terminal_summary",
-    "pytest_unconfigure",
-]
+    from osc2tx.testing.page import PageOfProject
 
 SUFFIX = ".osc"
 _SOURCES = pytest.StashKey["CompiledSources"]()
-_RESULT = ("osc2tx.verdict", "osc2tx.reason")
-"""Properties of a test in JUnit, beside the values that its scenario fixes."""
+_PAGE: pytest.StashKey[PageOfProject] = pytest.StashKey()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -50,6 +41,14 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--osc-shard", metavar="K/N", help="only the K-th of N parts of all tests")
     group.addoption("--osc-fail-on", action="append", default=[], metavar="WHAT", help="as of run")
     group.addoption("--osc-traces", metavar="DIR", help="write traces, their pages and an index")
+    group.addoption("--osc-page", metavar="FILE", help="write the page of the project")
+    group.addoption(
+        "--osc-campaign",
+        action="append",
+        default=[],
+        metavar="STORE",
+        help="list a campaign on the page",
+    )
     group.addoption("--osc-cache-dir", metavar="DIR", help="folder of earlier results of builds")
     group.addoption("--osc-jobs", type=int, metavar="N", help="processes that compile")
 
@@ -61,6 +60,13 @@ def pytest_configure(config: pytest.Config) -> None:
         _shard(config)
     except ValueError as error:
         raise pytest.UsageError(str(error)) from None
+    page = config.getoption("osc_page")
+    if page and not _is_worker(config):
+        from osc2tx.testing.page import PageOfProject
+
+        stores = [Path(each) for each in config.getoption("osc_campaign")]
+        config.stash[_PAGE] = PageOfProject(Path(page), stores)
+        config.pluginmanager.register(config.stash[_PAGE])
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:
@@ -109,27 +115,35 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
-    """Make the pages of all traces; called by pytest."""
+    """Make the pages of all traces, and of the project; called by pytest."""
     config = session.config
-    traces = config.getoption("osc_traces")
-    if not traces or _is_worker(config) or not Path(traces).is_dir():
+    if _is_worker(config):
         return
+    from osc2tx.campaigns import CampaignError
     from osc2tx_runtime.errors import InputError as TraceError
-    from osc2tx_runtime.running.trace_reports import folder_report
+    from osc2tx_runtime.errors import ScenarioError
 
-    maps = [*map(Path, _sources(config).configs.for_folder(Path.cwd()).map_paths)]
+    traces = config.getoption("osc_traces")
     try:
-        folder_report(Path(traces), Path(traces), maps)
+        if traces and Path(traces).is_dir():
+            from osc2tx_runtime.running.trace_reports import folder_report
+
+            maps = [*map(Path, _sources(config).configs.for_folder(Path.cwd()).map_paths)]
+            folder_report(Path(traces), Path(traces), maps)
+        if _PAGE in config.stash:
+            config.stash[_PAGE].write(_sources(config).losses())
     except TraceError as error:  # nothing ran
         config.issue_config_time_warning(pytest.PytestWarning(str(error)), 2)
+    except (CampaignError, ScenarioError) as error:
+        raise pytest.UsageError(str(error)) from None
 
 
 def pytest_terminal_summary(terminalreporter: Any) -> None:
     """Print a table of the scenarios that failed; called by pytest."""
     failed = sorted(
-        (*report.nodeid.split("::", 1), *(properties[name] for name in _RESULT))
+        (*report.nodeid.split("::", 1), properties[VERDICT], properties[REASON])
         for report in terminalreporter.stats.get("failed", ())
-        if _RESULT[0] in (properties := dict(report.user_properties))
+        if VERDICT in (properties := dict(report.user_properties))
     )
     if not failed:
         return
@@ -186,7 +200,10 @@ class ScenarioItem(pytest.Item):
             UnexpectedVerdict: It does not end as expected.
         """
         verdict, reason, text = self._run()
-        self.user_properties += zip(_RESULT, (verdict, reason), strict=True)
+        said = {VERDICT: verdict, EXPECTED: self._verdict, REASON: reason}
+        if any(map(os.path.exists, trace := self._trace())):
+            said[TRACE] = trace[0]
+        self.user_properties += said.items()
         if verdict != self._verdict:
             expected = f"expected: {self._verdict}\n" if self._verdict != "success" else ""
             raise UnexpectedVerdict(f"{expected}{text}")
@@ -253,7 +270,9 @@ def _sources(config: pytest.Config) -> CompiledSources:
         from osc2tx.testing.compiled_sources import CompiledSources
 
         cache = config.getoption("osc_cache_dir")
-        config.stash[_SOURCES] = CompiledSources(Path(cache) if cache else None)
+        config.stash[_SOURCES] = CompiledSources(
+            Path(cache) if cache else None, with_xml=bool(config.getoption("osc_page"))
+        )
     return config.stash[_SOURCES]
 
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["lateness", "whole_steps"]
-
 _ROUNDING = 1e-6
 """Part of a step by which seconds over steps may miss a whole number: 4.5 / 0.05 is 90."""
 

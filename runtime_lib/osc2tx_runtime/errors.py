@@ -5,29 +5,6 @@ from __future__ import annotations
 import sys
 from contextlib import suppress
 
-__all__ = [
-    "NOT_MET",
-    "NO_RESULT",
-    "PARTLY_MET",
-    "RUN_FAILED",
-    "BeyondMapError",
-    "CapabilityError",
-    "InputError",
-    "OwnCode",
-    "PlacementError",
-    "ScenarioError",
-    "SettingsError",
-    "SimulatorError",
-    "SlotConflict",
-    "SourcePlace",
-    "UnsupportedError",
-    "coded",
-    "is_own",
-    "name_of",
-    "told",
-    "why_no_result",
-]
-
 NO_RESULT = (ArithmeticError, LookupError, RecursionError, ValueError)
 """Exceptions of an expression without a result: a division by zero, no such element,
 a conversion to a type that has no such value (§7.4.2.6)."""

@@ -10,8 +10,6 @@ import os
 import signal
 import sys
 
-__all__ = ["INTERRUPTED", "as_usual"]
-
 INTERRUPTED = 130
 """Exit code, as shells have it: 128 + SIGINT."""
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["to_float", "to_int"]
-
 _LONGEST_INT = 18  # digits: what no id and no seed is longer than
 
 

@@ -1,22 +1,25 @@
 """`dataclass` as of the standard library, but cheap to declare and quicker to construct.
 
-The decorator of the standard library writes and compiles six methods for each class when its module
-is imported: a third of a millisecond each. osc2tx has three hundred classes and its runtime two
-hundred, of which a run needs a few. Here a constructor is compiled when it is first called, and the
-others are shared by all classes. Constructors of frozen classes fill the slots directly, in half
+The decorator of the standard library inspects each class at length, and writes and compiles six
+methods for it when its module is imported: a third of a millisecond each. osc2tx has three hundred
+classes and its runtime two hundred, of which a run needs a few. Here a constructor is made when it
+is first called, from code that all classes with fields of the same kinds share, and the other
+methods are those of all classes. Constructors of frozen classes fill the slots directly, in half
 the time.
 
 Everything else is as with `dataclasses`: `field`, `fields`, `replace`, inheritance from classes of
 either kind, pickling, `FrozenInstanceError`. Type checkers see the decorator of the standard
 library. Supported options are those in the signature; `field(init=…, repr=…, hash=…, compare=…)`
-is, `InitVar` is not.
+is, `InitVar` and `KW_ONLY` are not.
 """
 
 from __future__ import annotations
 
 import dataclasses
-from dataclasses import MISSING, FrozenInstanceError
+from dataclasses import MISSING, Field, FrozenInstanceError
+from inspect import get_annotations
 from operator import attrgetter
+from types import CodeType, FunctionType
 from typing import TYPE_CHECKING, Any
 
 __all__ = ["dataclass", "replace"]
@@ -32,11 +35,16 @@ else:
             if cls.__doc__ is None:
                 cls.__doc__ = cls.__qualname__  # else it would be the signature, which is slow
             made = _bare(cls, frozen, slots, kw_only)
-            methods = {"__init__": _init_first, "__signature__": _Signature()}
+            own = dataclasses.fields(made)
+            methods = {
+                "__init__": _init_first,
+                "__signature__": _Signature(),
+                "__match_args__": tuple(f.name for f in own if f.init and not f.kw_only),
+            }
             if repr:
                 methods["__repr__"] = _repr
             if eq:
-                compared = [f.name for f in dataclasses.fields(made) if f.compare]
+                compared = [f.name for f in own if f.compare]
                 made._compared = attrgetter(*compared) if compared else staticmethod(_nothing)
                 methods["__eq__"] = _eq
                 if "__hash__" not in cls.__dict__:
@@ -70,27 +78,72 @@ def _reader(cls: Any) -> Any:
     return _READERS[cls]
 
 
-def _bare(cls: Any, frozen: bool, slots: bool, kw_only: bool) -> Any:
-    """Return the class with its fields and slots, and without methods.
+@dataclasses.dataclass
+class _Sample:
+    x: int
 
-    Asked for a frozen class, the standard library would compile two methods. So it is asked for
-    another, and meanwhile the bases must not be frozen either.
-    """
-    bases = [base for base in cls.__mro__[1:] if "__dataclass_params__" in base.__dict__]
-    states = [base.__dataclass_params__.frozen for base in bases]
-    if bases and any(states) != frozen:
-        kinds = ("frozen", "non-frozen") if frozen else ("non-frozen", "frozen")
-        raise TypeError("cannot inherit {} dataclass from a {} one".format(*kinds))
-    try:
-        for base in bases:
-            base.__dataclass_params__.frozen = False
-        made: Any = dataclasses.dataclass(
-            cls, init=False, repr=False, eq=False, slots=slots, kw_only=kw_only
-        )
-    finally:
-        for base, state in zip(bases, states, strict=True):
-            base.__dataclass_params__.frozen = state
-    made.__dataclass_params__.frozen = frozen
+
+_FIELD: Any = _Sample.__dataclass_fields__["x"]._field_type  # type: ignore[attr-defined]
+"""The mark of a field, as opposed to a class variable."""
+
+
+class _Parameters:
+    """What the decorator of the standard library asks of a base class."""
+
+    __slots__ = ("frozen",)
+
+    def __init__(self, frozen: bool) -> None:
+        self.frozen = frozen
+
+
+def _bare(cls: Any, frozen: bool, slots: bool, kw_only: bool) -> Any:
+    """Return the class with its fields and slots, and without methods."""
+    found: dict[str, Any] = {}
+    for base in cls.__mro__[-1:0:-1]:
+        if "__dataclass_params__" in base.__dict__:
+            if base.__dataclass_params__.frozen != frozen:
+                kinds = ("frozen", "non-frozen") if frozen else ("non-frozen", "frozen")
+                raise TypeError("cannot inherit {} dataclass from a {} one".format(*kinds))
+            found.update(base.__dataclass_fields__)
+    own = {
+        name: _field(cls, name, annotation, kw_only)
+        for name, annotation in get_annotations(cls).items()
+        if not (isinstance(annotation, str) and annotation.startswith("ClassVar"))
+    }
+    found.update(own)
+    made = _with_slots(cls, found) if slots else cls
+    for name, field in own.items():
+        if not slots and field.default is not MISSING:
+            setattr(cls, name, field.default)
+        elif not slots and name in cls.__dict__:
+            delattr(cls, name)
+    made.__dataclass_fields__ = found
+    made.__dataclass_params__ = _Parameters(frozen)
+    return made
+
+
+def _field(cls: Any, name: str, annotation: object, kw_only: bool) -> Any:
+    default = cls.__dict__.get(name, MISSING)
+    field: Any = default if isinstance(default, Field) else dataclasses.field(default=default)
+    if field.default.__class__.__hash__ is None:
+        raise ValueError(f"mutable default {type(field.default)} for field {name} is not allowed")
+    field.name, field.type, field._field_type = name, annotation, _FIELD
+    if field.kw_only is MISSING:
+        field.kw_only = kw_only
+    return field
+
+
+def _with_slots(cls: Any, fields: dict[str, Any]) -> Any:
+    """Return a class like another one, with slots instead of a `__dict__`."""
+    inherited = {slot for base in cls.__mro__[1:-1] for slot in base.__dict__.get("__slots__", ())}
+    content = {
+        name: value
+        for name, value in cls.__dict__.items()
+        if name not in fields and name not in ("__dict__", "__weakref__")
+    }
+    content["__slots__"] = tuple(name for name in fields if name not in inherited)
+    made = type(cls)(cls.__name__, cls.__bases__, content)
+    made.__qualname__ = cls.__qualname__
     return made
 
 
@@ -119,38 +172,63 @@ def _init_first(self: Any, /, *positional: object, **named: object) -> None:
     constructor(self, *positional, **named)
 
 
+_CODES: dict[tuple[object, ...], CodeType] = {}
+"""The code of constructors, by the kinds of the fields; field number 3 is called `_3` in it."""
+
+
 def _constructor(cls: Any) -> Any:
     scope: dict[str, Any] = {"_MISSING": MISSING}
-    positional, named, lines = ["self"], ["*"], ["pass"]
     is_frozen = cls.__setattr__ is _refuse
+    kinds: list[Any] = []
+    names: dict[str, str] = {}
+    defaults: dict[Any, dict[str, Any]] = {False: {}, True: {}}
     for field in dataclasses.fields(cls):
-        name = value = field.name
-        parameter = name
-        if field.default_factory is not MISSING:
-            scope[f"_make_{name}"] = field.default_factory
-            value = f"_make_{name}()"
-            if field.init:
-                parameter += "=_MISSING"
-                value = f"{value} if {name} is _MISSING else {name}"
-        elif field.default is not MISSING:
-            scope[f"_default_{name}"] = field.default
-            parameter += f"=_default_{name}"
-            value = name if field.init else f"_default_{name}"
-        elif not field.init:
+        number = len(kinds)
+        has_default, is_made = field.default is not MISSING, field.default_factory is not MISSING
+        if not (field.init or has_default or is_made):
             continue  # left to `__post_init__`
-        if field.init:
-            (named if field.kw_only else positional).append(parameter)
+        if is_made:
+            scope[f"_make_{number}"] = field.default_factory
+        elif has_default:
+            scope[f"_default_{number}"] = field.default
+        if field.init and (has_default or is_made):
+            defaults[field.kw_only][field.name] = field.default
         if is_frozen:
-            scope[f"_set_{name}"] = _setter(cls, name)
-            lines.append(f"_set_{name}(self, {value})")
-        else:
-            lines.append(f"self.{name} = {value}")
-    if hasattr(cls, "__post_init__"):
+            scope[f"_set_{number}"] = _setter(cls, field.name)
+        names[f"_{number}"] = field.name
+        kinds.append((field.init, field.kw_only, is_made))
+    key = (is_frozen, hasattr(cls, "__post_init__"), *kinds)
+    code = _CODES.get(key) or _CODES.setdefault(key, _code(is_frozen, key[1], *kinds))
+    own = code.replace(
+        co_varnames=tuple(names.get(name, name) for name in code.co_varnames),
+        co_names=tuple(names.get(name, name) for name in code.co_names),
+        co_qualname=f"{cls.__qualname__}.__init__",
+    )
+    made = FunctionType(own, scope, "__init__", tuple(defaults[False].values()))
+    made.__kwdefaults__ = defaults[True]
+    return made
+
+
+def _code(is_frozen: bool, has_post_init: bool, *kinds: Any) -> CodeType:
+    """Return the code of the constructors of all classes with fields of these kinds."""
+    positional, named, lines = ["self"], ["*"], ["pass"]
+    for number, (is_parameter, is_named, is_made) in enumerate(kinds):
+        name = f"_{number}"
+        value = name if is_parameter else f"_default{name}"
+        if is_made:
+            value = f"_make{name}()"
+            if is_parameter:
+                value += f" if {name} is _MISSING else {name}"
+        if is_parameter:
+            (named if is_named else positional).append(name)
+        lines.append(f"_set{name}(self, {value})" if is_frozen else f"self.{name} = {value}")
+    if has_post_init:
         lines.append("self.__post_init__()")
     parameters = ", ".join(positional + (named if len(named) > 1 else []))
+    scope: dict[str, Any] = {}
     exec(f"def __init__({parameters}):\n " + "\n ".join(lines), scope)
-    scope["__init__"].__qualname__ = f"{cls.__qualname__}.__init__"
-    return scope["__init__"]
+    code: CodeType = scope["__init__"].__code__
+    return code
 
 
 def _setter(cls: type, name: str) -> Any:

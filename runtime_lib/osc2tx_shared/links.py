@@ -9,8 +9,6 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-__all__ = ["target_outside"]
-
 
 def target_outside(path: Path, folder: Path | None = None) -> str | None:
     """Return where a path leads that lies in a folder as written, but not with its links followed.

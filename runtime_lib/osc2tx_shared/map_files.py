@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-__all__ = ["DEFAULT_MAP", "SHIPPED", "map_names", "map_places", "places_in_project"]
-
 SHIPPED = Path(__file__).parents[1] / "osc2tx_runtime" / "maps"
 DEFAULT_MAP = "highway.xodr"
 

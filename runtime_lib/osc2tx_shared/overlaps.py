@@ -9,8 +9,6 @@ from collections.abc import Mapping
 from math import inf
 from typing import TypeAlias
 
-__all__ = ["OFFSETS", "Bounds"]
-
 Bounds: TypeAlias = tuple[float, float]
 """Least and greatest offset."""
 

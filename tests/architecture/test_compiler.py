@@ -41,8 +41,11 @@ MAY_IMPORT: dict[str, set[str]] = {
     | {"diagnostics", "options", "resources", "support", "version"},
     "reference": {"catalogue", "stdlib", "syntax"},
     "campaigns": {"version"},
+    "language_server": {"building", "catalogue", "compilation", "config", "diagnostics"}
+    | {"reference", "semantics", "stdlib", "support", "syntax", "version"},
     "cli": {"backends", "building", "campaigns", "compilation", "config", "importing"}
-    | {"diagnostics", "options", "reference", "resources", "support", "version", "xosc"},
+    | {"language_server", "diagnostics", "options", "reference", "resources", "support"}
+    | {"version", "xosc"},
     "start": {"building", "cli"},
     "__main__": {"start"},
     "api": {"building", "compilation", "config", "diagnostics", "options", "support"},
@@ -64,6 +67,7 @@ OTHERS = {
     "campaigns": {"distributed", "optuna", "osc2tx_runtime", "scipy"},
     "cli": {"click", "osc2tx_runtime", "pytest", "rich"},
     "testing": {"osc2tx_runtime", "pytest"},
+    "language_server": {"lsprotocol", "pygls"},
 }
 
 FILES = files_of(COMPILER)

@@ -272,7 +272,7 @@ def test_what_a_campaign_writes_may_be_replaced(place: Path, tmp_path: Path) -> 
     texts = {
         "report": render_report(results, None),
         "summary": json.dumps(summary_of(results), indent=1) + "\n",
-        "junit": render_junit(results),
+        "junit": render_junit([results]),
     }
     for what, text in texts.items():
         for _ in range(2):

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 import random
+import tracemalloc
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from osc2tx_runtime.campaigns import Condition, Executor, Row
 from osc2tx_runtime.errors import SettingsError
-from osc2tx_runtime.kpis import MEASURES, measures_by_name
+from osc2tx_runtime.kpis import MEASURES, encroachment, measures_by_name
 from osc2tx_runtime.kpis.measure import Measure, Moving, Scene
 from osc2tx_runtime.kpis.pairs import MinGap, MinTimeGap, MinTimeToCollision, box_distance
 from osc2tx_runtime.kpis.registry import (
@@ -239,3 +241,55 @@ def test_own_measures_are_found_by_their_entry_point(
     assert result.measures == {"steps": float(result.steps)}
     with pytest.raises(SettingsError, match="there is no such measure; there is: min_ttc"):
         measures_by_name(["min_tttc"])
+
+
+def test_encroachment_is_that_of_all_pairs_of_places(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(encroachment, "_MOST", 50)
+    compared = 0
+    for seed in range(20):
+        chance = random.Random(seed)
+        ways = {name: wandering(chance) for name in ("one", "other")}
+        found = observed(MinEncroachment(), 6.0, **ways)["min_pet"]
+        boxes = [
+            [(step * DT, boxed(*way(step * DT))) for step in range(121)] for way in ways.values()
+        ]
+        gaps = [
+            abs(one[0] - other[0])
+            for one in boxes[0]
+            for other in boxes[1]
+            if box_distance(one[1], other[1]) == 0.0
+        ]
+        assert found == (pytest.approx(min(gaps), abs=1e-9) if gaps else None)
+        compared += bool(gaps)
+    assert 5 < compared < 20
+
+
+def boxed(x: float, y: float, h: float, v: float, a: float) -> Box:
+    return box_of(ActorState(x, y, 0.0, h, v, a, None, 0.0, CAR))
+
+
+def wandering(chance: random.Random) -> Course:
+    """A circle, with a pause."""
+    x, y, turn = chance.uniform(-15, 15), chance.uniform(-15, 15), chance.uniform(-0.5, 0.5)
+
+    def at(time: float) -> tuple[float, float, float, float, float]:
+        gone = min(time, 2.0) + max(time - 3.0, 0.0)
+        h = turn * gone
+        return x + 5.0 * gone * math.cos(h), y + 5.0 * gone * math.sin(h), h, 5.0, 0.0
+
+    return at
+
+
+def test_long_ways_take_little_memory() -> None:
+    """20,000 steps: a table of all pairs of them would take 3 GB."""
+    count = 20_000
+    places = np.column_stack([np.arange(count), np.arange(count), 0.5 * np.arange(count)])
+    rest = np.tile([0.0, 1.0, 0.0, 2.0, 1.0], (count, 1))
+    one = np.hstack([places, rest])
+    other = one + np.array([100.0, 100.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    tracemalloc.start()
+    try:
+        assert encroachment._least(one, other) == 92.0  # boxes of 4 m, half a metre each step
+        assert tracemalloc.get_traced_memory()[1] < 200e6
+    finally:
+        tracemalloc.stop()

@@ -97,7 +97,7 @@ def test_the_page_has_all_and_loads_nothing(results: Results) -> None:
 
 
 def test_junit_has_each_row_once(results: Results) -> None:
-    root = etree.fromstring(render_junit(results))
+    root = etree.fromstring(render_junit([results]))
     cases = root.findall("testsuite/testcase")
     assert sorted(int(case.attrib["name"].split()[1]) for case in cases) == list(range_of(results))
     failures = root.findall("testsuite/testcase/failure")
@@ -137,6 +137,34 @@ def test_the_command(place: Path, tmp_path: Path, capsys: pytest.CaptureFixture[
     ended = shell("campaign", "report", empty)
     assert ended.code == 2
     assert "nothing was run yet" in ended.err
+
+
+def test_several_campaigns(
+    place: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """An overview with a link to the page of each; figures and rows of all."""
+    monkeypatch.chdir(tmp_path)
+    other = tmp_path / "more" / "other.campaign"
+    other.parent.mkdir()
+    run(plan_of(TEXT), other, "sobol", 3, Here())
+    options = ["--summary=s.json", "--junit=j.xml", "--fail-under=50"]
+    ended = Shell(capsys, tmp_path)("campaign", "report", place, other, *options)
+    assert ended.code == 0
+    assert [line.split(": ")[1].split(",")[0] for line in ended.out.splitlines()] == [
+        "40 rows",
+        "3 rows",
+    ]
+    first, second = data_of((tmp_path / "campaigns.html").read_text("utf-8"))["campaigns"]
+    assert (first["rows"], second["rows"]) == (40, 3)
+    assert first["failed"] > 0 and first["reason"].startswith("failure: ")
+    assert (second["page"], (tmp_path / second["page"]).exists()) == ("more/other.html", True)
+    assert (tmp_path / first["page"]).resolve() == place.with_suffix(".html")
+    said = json.loads((tmp_path / "s.json").read_text("utf-8"))
+    jsonschema.validate(said, json.loads(SCHEMA.read_text(encoding="utf-8")))
+    assert [each["rows"]["total"] for each in said["campaigns"]] == [40, 3]
+    assert int(etree.parse(tmp_path / "j.xml").getroot().attrib["tests"]) == 43
+    against = Shell(capsys, tmp_path)("campaign", "report", place, other, "--against", place)
+    assert (against.code, "--against compares one" in against.err) == (2, True)
 
 
 def test_a_grade_under_the_bar(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -14,8 +14,6 @@ from osc2tx.catalogue import catalogue, object_tables
 from tests.coverage.library import Item, heirs
 from tests.coverage.sources import Source
 
-__all__ = ["TARGETS", "Target"]
-
 
 class Target(Protocol):
     """A column."""

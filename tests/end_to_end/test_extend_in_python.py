@@ -63,6 +63,20 @@ def test_an_assigned_parameter_is_what_trace_and_world_have(cut_in: type[Scenari
     assert ego["v"] == 90 * kph
 
 
+def test_the_same_of_a_parameter_whose_name_the_base_class_has() -> None:
+    class Placed(Scenario):
+        def declare(self) -> None:
+            self.place_ = self.parameter("place", 3.0)
+            self.from_ = self.parameter("from", 4.0)
+
+    class Moved(Placed):
+        def declare(self) -> None:
+            super().declare()
+            self.place_ = 5.0
+
+    assert dict(Moved().parameters) == {"place": 5.0, "from": 4.0}
+
+
 def test_a_tree_without_a_run_says_what_to_call(cut_in: type[Scenario]) -> None:
     tree = py_trees.trees.BehaviourTree(cut_in().create_tree())
     with pytest.raises(ScenarioError, match=r"call `run_scenario\(TheScenario\)`"):

@@ -91,7 +91,7 @@ def test_run_keys_are_options_of_the_runtime() -> None:
         (
             "zzz = 1",
             "unknown key `zzz`; known keys: std, dialect, one_of, target, xml_version, xml_profile,"
-            " allow_approx, import_paths, sources, out, map_paths, scenarios, files",
+            " allow_approx, import_paths, sources, out, baseline, map_paths, scenarios, files",
         ),
         ("allow_approx = 1", "`allow_approx` is 1: write true or false"),
         ("std = 2.1", '`std` is 2.1: write "2.1" or "2.2"'),
@@ -194,6 +194,7 @@ ignore = ["OSC437"]
 run = {seed = 3, max-time = 9}
 [files."**/cut_*.osc"]
 target = "xosc"
+errors = ["OSC437"]
 run = {seed = 4, map-path = ["more"]}
 [scenarios.cut_in]
 one_of = "first"
@@ -222,8 +223,10 @@ def test_tables_by_pattern(tmp_path: Path) -> None:
     assert run == {"seed": ("4",), "max-time": ("9",), "map-path": (more, maps)}
     assert options(highway / "cut_in.osc").xml.map_path == (more, maps)
     assert options(urban / "evade.osc").xml.map_path == (maps,)
-    assert config.ignored(highway / "evade.osc") == {"OSC437"}
-    assert config.ignored(urban / "evade.osc") == frozenset()
+    assert config.codes("ignore", highway / "evade.osc") == {"OSC437"}
+    assert config.codes("ignore", urban / "evade.osc") == frozenset()
+    assert config.codes("ignore", highway / "cut_in.osc") == frozenset()
+    assert config.codes("errors", highway / "cut_in.osc") == {"OSC437"}
 
 
 @pytest.mark.parametrize(
@@ -247,7 +250,15 @@ def test_patterns(tmp_path: Path, pattern: str, name: str, fits: bool) -> None:
     "code, message",
     [("OSC999", "there is no code `OSC999`"), ("OSC205", "`OSC205` is an error: only warnings")],
 )
-def test_what_cannot_be_ignored(tmp_path: Path, code: str, message: str) -> None:
-    write(tmp_path / "osc2tx.toml", f'[files."**"]\nignore = ["{code}"]\n')
-    with pytest.raises(ConfigError, match=message):
+@pytest.mark.parametrize("setting", ["ignore", "errors"])
+def test_what_cannot_be_ignored(tmp_path: Path, setting: str, code: str, message: str) -> None:
+    write(tmp_path / "osc2tx.toml", f'[files."**"]\n{setting} = ["{code}"]\n')
+    with pytest.raises(ConfigError, match=f"`{setting}`: {message}"):
+        ConfigFiles().for_folder(tmp_path)
+
+
+@pytest.mark.parametrize("place", ["../known.json", "/etc/known.json", "inner/../../known.json"])
+def test_a_baseline_is_in_the_project(tmp_path: Path, place: str) -> None:
+    write(tmp_path / "osc2tx.toml", f'baseline = "{place}"\n')
+    with pytest.raises(ConfigError, match="out of the project"):
         ConfigFiles().for_folder(tmp_path)

@@ -17,8 +17,6 @@ from osc2tx.diagnostics import DiagnosticSink, Label, Span
 from osc2tx.semantics import SemanticModel
 from osc2tx.syntax import ast
 
-__all__ = ["report_durations"]
-
 Times = tuple[float, float]
 """Least and most seconds."""
 

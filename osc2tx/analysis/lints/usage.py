@@ -9,6 +9,7 @@ from typing import TypeAlias
 from osc2tx.analysis.library_facts import is_library_actor
 from osc2tx.analysis.tree_walk import NodesByKind, do_directives, nodes_below
 from osc2tx.diagnostics import DiagnosticSink, Label
+from osc2tx.diagnostics.fixes import write
 from osc2tx.diagnostics.suggestions import nearest
 from osc2tx.semantics import SemanticModel, types
 from osc2tx.semantics import symbols as sym
@@ -238,7 +239,7 @@ def _report_emits(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> N
             "OSC431",
             emit.event.span,
             f"nothing waits for event `{symbol.name}`, and nothing emits `{meant}`",
-            help=f"did you mean `{meant}`?",
+            help=write(emit.event.span, meant, f"did you mean `{meant}`?", is_safe=False),
             labels=[] if symbol.is_implicit else [Label(symbol.span, "declared here")],
         )
 

@@ -128,8 +128,8 @@ class BehaviorTreeBuilder:
                 return self._calls.runtime_call("Wait", *arguments)
             case ir.Emit(event=event):
                 target = code(self._calls.expressions.field(event.name))
-                keywords = self._calls.keywords(node.arguments)
-                return self._calls.runtime_call("Emit", target, *keywords)
+                given = self._calls.event_parameters(node.arguments)
+                return self._calls.runtime_call("Emit", target, *given)
             case ir.Finish(succeeds=succeeds):
                 label = self._label(node.label)
                 return self._calls.runtime_call("End" if succeeds else "Fail", *label)

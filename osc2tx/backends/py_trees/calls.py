@@ -15,7 +15,7 @@ from osc2tx.backends.py_trees.code import (
 )
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
-from osc2tx.backends.py_trees.naming import identifier
+from osc2tx.backends.py_trees.naming import event_parameter, identifier
 from osc2tx.backends.py_trees.view import ArgumentView, CallView
 from osc2tx_shared.classes import replace
 
@@ -109,6 +109,13 @@ class CallWriter:
         """Write arguments of an action, all by name: its positions are for modifiers."""
         return tuple(
             code(self.expressions.value(argument.value), identifier(argument.parameter))
+            for argument in arguments
+        )
+
+    def event_parameters(self, arguments: tuple[ir.Argument, ...]) -> tuple[ArgumentView, ...]:
+        """Write arguments of an event."""
+        return tuple(
+            code(self.expressions.value(argument.value), str(event_parameter(argument.parameter)))
             for argument in arguments
         )
 

@@ -18,8 +18,6 @@ from osc2tx.backends.py_trees.code import (
 )
 from osc2tx.backends.py_trees.view import ArgumentView, CallView
 
-__all__ = ["FORMAT", "render_coverage_model"]
-
 
 class CoverageWriter:
     """Writes coverage items.

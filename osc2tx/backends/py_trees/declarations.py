@@ -8,6 +8,7 @@ from osc2tx import ir
 from osc2tx.backends.py_trees.calls import CallWriter, apart, code, comments
 from osc2tx.backends.py_trees.code import (
     Level,
+    PyDocLine,
     PyExpr,
     PyName,
     literal,
@@ -15,10 +16,17 @@ from osc2tx.backends.py_trees.code import (
     self_attribute,
 )
 from osc2tx.backends.py_trees.coverage import written_unit
-from osc2tx.backends.py_trees.members import Members
+from osc2tx.backends.py_trees.members import Members, event_class_key
+from osc2tx.backends.py_trees.naming import event_parameter
 from osc2tx.backends.py_trees.objects import ObjectWriter
 from osc2tx.backends.py_trees.type_table import TypeTable
-from osc2tx.backends.py_trees.view import ArgumentView, CallView, StatementView
+from osc2tx.backends.py_trees.view import (
+    ArgumentView,
+    CallView,
+    EventView,
+    FieldView,
+    StatementView,
+)
 from osc2tx_shared.classes import replace
 
 
@@ -163,9 +171,12 @@ class DeclarationWriter:
                 return self._parameter(declaration)
             case ir.Event(trigger=trigger):
                 arguments = () if trigger is None else self._calls.trigger(trigger)
-                arguments += self._event_parameters(declaration.parameters)
+                arguments += self._event_defaults(declaration.parameters)
                 arguments += self._known_as(declaration.name)
-                return ArgumentView(call=self._calls.runtime_call("Event", *arguments))
+                if not declaration.parameters:
+                    return ArgumentView(call=self._calls.runtime_call("Event", *arguments))
+                class_ = self_attribute(self._names[event_class_key(declaration.name)])
+                return ArgumentView(call=CallView(class_, arguments))
 
     def _value_of(self, declared: ir.Actor | ir.Struct) -> ArgumentView:
         """Write an object: what it equals, or the call that makes it."""
@@ -194,18 +205,36 @@ class DeclarationWriter:
         """Write the name that a member has in the scenario, where its attribute has another."""
         return () if str(self._names[name]) == name else (code(literal(name), "name"),)
 
-    def _event_parameters(
+    def events(self) -> tuple[EventView, ...]:
+        """Write the classes of events with parameters."""
+        declared = (*self._own.ahead, *self._own.declarations)
+        return tuple(
+            self._event_class(each)
+            for each in declared
+            if isinstance(each, ir.Event) and each.parameters
+        )
+
+    def _event_class(self, event: ir.Event) -> EventView:
+        self._calls.use_name("Event")
+        return EventView(
+            class_name=self._names[event_class_key(event.name)],
+            docstring=(PyDocLine.of(f"Event `{event.name}` and its parameters."),),
+            parameters=tuple(
+                FieldView(event_parameter(each.name), self._types.annotation(each.type))
+                for each in event.parameters
+            ),
+        )
+
+    def _event_defaults(
         self, parameters: tuple[ir.MethodParameter, ...]
     ) -> tuple[ArgumentView, ...]:
-        """Write the parameters of an event with their defaults; `None` must be given."""
-        if not parameters:
-            return ()
         writer = self._calls.expressions
         entries = ", ".join(
-            f"{literal(p.name)}: {'None' if p.default is None else writer.value(p.default)}"
-            for p in parameters
+            f"{literal(str(event_parameter(each.name)))}: {writer.value(each.default)}"
+            for each in parameters
+            if each.default is not None
         )
-        return (code(PyExpr(f"{{{entries}}}", Level.ATOM), "parameters"),)
+        return (code(PyExpr(f"{{{entries}}}", Level.ATOM), "defaults"),) if entries else ()
 
     def _parameter(self, parameter: ir.Parameter) -> ArgumentView:
         """Write a constant as its value, anything else so that `--set` can reach it."""

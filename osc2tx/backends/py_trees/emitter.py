@@ -111,7 +111,7 @@ def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
     writers = [
         ScenarioWriter(
             scenario,
-            members[scenario.key],
+            members,
             module.one_of,
             is_first_come(module),
             scenario is main,

@@ -16,7 +16,7 @@ from osc2tx.backends.py_trees.code import (
 )
 from osc2tx.backends.py_trees.list_operations import element_name, list_operation
 from osc2tx.backends.py_trees.modifier_calls import parameter_name
-from osc2tx.backends.py_trees.naming import NameTable, identifier
+from osc2tx.backends.py_trees.naming import NameTable, event_parameter, identifier
 from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES
 from osc2tx.backends.py_trees.type_methods import TypeMethods
 from osc2tx_shared.classes import replace
@@ -54,6 +54,7 @@ class ExpressionWriter:
         type_methods: The methods of types that are in their classes.
         receiver: The parameter that is `self`, in a method of a class.
         hidden: Names that no parameter of a function may have.
+        event_class: Gives the class of an event with parameters that another scenario has.
     """
 
     def __init__(
@@ -67,7 +68,9 @@ class ExpressionWriter:
         type_methods: TypeMethods | None = None,
         receiver: str | None = None,
         hidden: Iterable[str] = (),
+        event_class: Callable[[str, str], PyExpr] | None = None,
     ) -> None:
+        self._event_class = event_class or _no_event_class
         self._type_methods = type_methods or TypeMethods()
         self._receiver = receiver
         bodies = (method.expression for method in methods)
@@ -116,8 +119,9 @@ class ExpressionWriter:
                 return name_expression(self.parameter(name))
             case ir.ScenarioSelf():
                 return PyExpr("self", Level.ATOM)
-            case ir.EventArgument(event=event, parameter=parameter):
-                return PyExpr(f"{self._event(event)}[{literal(parameter)}]", Level.ATOM)
+            case ir.EventArgument(event=event, parameter=parameter, owner=owner):
+                read = f"{self._event(event, owner)}.{event_parameter(parameter)}"
+                return PyExpr(read, Level.ATOM)
             case ir.InvokedValue(label=label, name=name):
                 field = PyName(identifier(name))
                 return PyExpr(f"self.invoked({literal(label)}).{field}", Level.ATOM)
@@ -182,11 +186,12 @@ class ExpressionWriter:
             case _:
                 assert_never(expression)
 
-    def _event(self, name: str) -> PyExpr:
+    def _event(self, path: str, owner: str | None) -> PyExpr:
         """Write an event of the scenario, or `label.event` of one that it invokes."""
-        if name in self._fields:
-            return self.field(name)
-        return PyExpr(f"self.event({literal(name)})", Level.ATOM)
+        if owner is None:
+            return self.field(path)
+        class_ = self._event_class(owner, path.rpartition(".")[2])
+        return PyExpr(f"self.event({literal(path)}, {class_})", Level.ATOM)
 
     def _atom(self, expression: ir.Expression) -> str:
         return self.write(expression).within(Level.ATOM)
@@ -332,3 +337,7 @@ def _is_true(node: ir.Expression) -> bool:
 
 def _is_integer_division(node: ir.Binary) -> bool:
     return node.operator == "/" and node.type.kind is ir.Kind.INTEGER
+
+
+def _no_event_class(scenario: str, event: str) -> PyExpr:
+    raise AssertionError(f"{event} of {scenario} is read outside of a scenario")

@@ -13,6 +13,7 @@ from osc2tx.backends.py_trees.code import PyName
 from osc2tx.backends.py_trees.naming import (
     SCENARIO_ATTRIBUTES,
     NameTable,
+    class_name,
     identifier,
     method_name,
 )
@@ -22,6 +23,13 @@ from osc2tx_shared.classes import dataclass
 # Compositions nested deeper than this inside one method get a method of their own: far below
 # CPython's limits (200 brackets, 99 indents), and about what a reader can follow.
 MAX_INLINE_DEPTH = 6
+
+RESERVED = (*SCENARIO_ATTRIBUTES, "Event")  # which classes inside of that of a scenario inherit
+
+
+def event_class_key(event: str) -> str:
+    """Return the key of the class of an event with parameters, in the names of a scenario."""
+    return f"class of {event}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,10 +79,15 @@ def _members(
 ) -> Members:
     added = None if base is None else ir.additions(scenario, base)
     own = added or ir.Additions.all_of(scenario)
-    names = NameTable(SCENARIO_ATTRIBUTES) if above is None else above.names.copy()
+    names = NameTable(RESERVED) if above is None else above.names.copy()
     for member in (*scenario.declarations, *methods):
         if member.name not in names:
             names.add(member.name, identifier(member.name))
+    for member in scenario.declarations:
+        if isinstance(member, ir.Event) and member.parameters:
+            key = event_class_key(member.name)
+            if key not in names:
+                names.add(key, class_name(member.name))
     inherited = frozenset[str]() if above is None else above.phase_names
     phases = {} if own.body is None else _phase_names(own.body, names, inherited)
     return Members(

@@ -68,6 +68,27 @@ SCENARIO_ATTRIBUTES = frozenset(
 )
 
 
+# What `Event` of the runtime library has itself; a test compares with the real class.
+EVENT_ATTRIBUTES = frozenset(
+    {
+        "alias",
+        "arguments",
+        "complete",
+        "condition",
+        "defaults",
+        "meant",
+        "name",
+        "occur",
+        "occurred",
+        "occurrences",
+        "parameters",
+        "problem",
+        "reset",
+        "trigger",
+    }
+)
+
+
 def identifier(text: str) -> str:
     """Return the closest Python identifier to a name of the language.
 
@@ -97,6 +118,12 @@ def class_name(text: str) -> str:
     words = [word for word in identifier(text).split("_") if word]
     camel = "".join(word[0].upper() + word[1:] for word in words)
     return camel if camel.isidentifier() and not keyword.iskeyword(camel) else f"X{camel}"
+
+
+def event_parameter(text: str) -> PyName:
+    """Return the attribute of an event for a parameter of it."""
+    name = identifier(text)
+    return PyName(f"{name}_" if text.rstrip("_") in EVENT_ATTRIBUTES else name)
 
 
 class NameTable:

@@ -92,7 +92,7 @@ class _TypeWriter:
 
     def _field(self, field: ir.UserField, owner: str | None = None) -> FieldView:
         default = None if field.default is None else self._writer().write(field.default)
-        if field.is_optional:
+        if default is None and field.is_optional:
             default = name_expression(self._uses.name("not_given"))
         return FieldView(
             name=self._table.member(owner or self._own.name, field.name),

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.behaviors import BehaviorTreeBuilder
 from osc2tx.backends.py_trees.calls import CallWriter, apart, code, comments
 from osc2tx.backends.py_trees.code import (
+    Level,
     PyDocLine,
     PyExpr,
     PyName,
@@ -18,7 +19,7 @@ from osc2tx.backends.py_trees.code import (
 from osc2tx.backends.py_trees.coverage import CoverageWriter
 from osc2tx.backends.py_trees.declarations import DeclarationWriter
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
-from osc2tx.backends.py_trees.members import Members
+from osc2tx.backends.py_trees.members import Members, event_class_key
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
 from osc2tx.backends.py_trees.naming import NameTable
 from osc2tx.backends.py_trees.source_map import ScenarioMap
@@ -54,7 +55,7 @@ class ScenarioWriter:
 
     Args:
         scenario: The scenario.
-        members: What its class has, and how it is called.
+        members: What the classes of the module have, by key of the scenario.
         one_of: Policy of `one_of` in this module.
         first_come: Durations and `until` end with whichever comes first.
         is_main: It is the default scenario of the module.
@@ -69,7 +70,7 @@ class ScenarioWriter:
     def __init__(
         self,
         scenario: ir.AbstractScenario,
-        members: Members,
+        members: Mapping[str, Members],
         one_of: str,
         first_come: bool,
         is_main: bool,
@@ -86,7 +87,8 @@ class ScenarioWriter:
         self._first_come = first_come
         self._is_main = is_main
         self._classes = classes
-        self._members, self._own, self._names = members, members.own, members.names
+        self._all_members, self._members = members, members[scenario.key]
+        self._own, self._names = self._members.own, self._members.names
         self._methods = [each for each in self._own.methods if each.name not in type_methods]
         self._types = types
         expressions = ExpressionWriter(
@@ -97,9 +99,10 @@ class ScenarioWriter:
             scenario.methods,
             types.member,
             type_methods,
+            event_class=self._event_class,
         )
         self._calls = CallWriter(expressions, uses.name, uses.modifier, functions)
-        self._declarations = DeclarationWriter(scenario, members, self._calls, types)
+        self._declarations = DeclarationWriter(scenario, self._members, self._calls, types)
         self.source_map = ScenarioMap(scenario.span.source.name)
 
     def write(self) -> ScenarioView:
@@ -120,6 +123,7 @@ class ScenarioWriter:
             is_derived=base is not None,
             docstring=tuple(PyDocLine.of(line) for line in self._scenario.comments),
             attributes=self._attributes(),
+            events=declare.events(),
             ahead=ahead,
             declarations=(*values, *self._constraints(), *self._coverage()),
             functions=functions,
@@ -128,6 +132,11 @@ class ScenarioWriter:
             methods=self._behavior(),
             end_comments=comments(self._scenario.end_comments),
         )
+
+    def _event_class(self, scenario: str, event: str) -> PyExpr:
+        """Name the class of an event with parameters that another scenario has."""
+        name = self._all_members[scenario].names[event_class_key(event)]
+        return PyExpr(f"{self._classes[scenario]}.{name}", Level.ATOM)
 
     def _note_places(self) -> None:
         """Fill the source map: with all that the scenario has, in the order of a run."""

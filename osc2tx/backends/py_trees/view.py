@@ -139,6 +139,15 @@ class FieldView:
 
 
 @dataclass(frozen=True, slots=True)
+class EventView:
+    """The class of an event with parameters."""
+
+    class_name: PyName
+    docstring: tuple[PyDocLine, ...]
+    parameters: tuple[FieldView, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class TypeView:
     """A class for an actor or struct of the scenario's own files.
 
@@ -216,6 +225,7 @@ class ScenarioView:
         is_derived: That is one of another scenario, not of the runtime.
         docstring: Lines of its docstring.
         attributes: Its name, its source and its policies.
+        events: Classes of its events with parameters.
         ahead: What it declares before its base does.
         declarations: What it declares.
         functions: Its methods that compute a value.
@@ -231,6 +241,7 @@ class ScenarioView:
     is_derived: bool
     docstring: tuple[PyDocLine, ...]
     attributes: tuple[StatementView, ...]
+    events: tuple[EventView, ...]
     ahead: tuple[StatementView, ...]
     declarations: tuple[StatementView, ...]
     functions: tuple[FunctionView, ...]

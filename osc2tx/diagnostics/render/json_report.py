@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from osc2tx.diagnostics.codes import CODES
+from osc2tx.diagnostics.fixes import Fix
 from osc2tx.diagnostics.model import Diagnostic
 from osc2tx.diagnostics.report import FileFault, Report, display_name
 from osc2tx.diagnostics.source import Span
@@ -76,6 +77,16 @@ def _diagnostic(diagnostic: Diagnostic, folder: Path | None) -> dict[str, Any]:
         ],
         "notes": list(diagnostic.notes),
         "help": diagnostic.help,
+        "fixes": [_fix(fix, folder) for fix in diagnostic.fixes],
+    }
+
+
+def _fix(fix: Fix, folder: Path | None) -> dict[str, Any]:
+    edits = [{"location": _location(edit.span, folder), "text": edit.text} for edit in fix.edits]
+    return {
+        "title": fix.title,
+        "applicability": "safe" if fix.is_safe else "unsafe",
+        "edits": edits,
     }
 
 

@@ -16,6 +16,7 @@ from typing import Any
 from urllib.parse import quote
 
 from osc2tx.diagnostics.codes import CODES, Code
+from osc2tx.diagnostics.fixes import Fix
 from osc2tx.diagnostics.model import Diagnostic
 from osc2tx.diagnostics.render.explanation import code_block
 from osc2tx.diagnostics.report import FileFault, Report, display_name
@@ -162,21 +163,42 @@ def _result(diagnostic: Diagnostic, index: int, folder: Path | None) -> dict[str
             }
             for number, label in enumerate(diagnostic.labels, start=1)
         ]
+    if diagnostic.fixes:
+        result["fixes"] = [_fix(fix, folder) for fix in diagnostic.fixes]
     return result
 
 
-def _location(span: Span, folder: Path | None) -> dict[str, Any]:
-    source = span.source
-    line, column = _position(source, span.start)
-    end_line, end_column = _position(source, span.end)
+def _fix(fix: Fix, folder: Path | None) -> dict[str, Any]:
+    """Return a fix, whose edits SARIF wants by file."""
+    files: dict[SourceFile, list[dict[str, Any]]] = {}
+    for edit in fix.edits:
+        replacement = {
+            "deletedRegion": _region(edit.span),
+            "insertedContent": {"text": edit.text},
+        }
+        files.setdefault(edit.span.source, []).append(replacement)
     return {
-        "artifactLocation": _artifact(source, folder),
-        "region": {
-            "startLine": line,
-            "startColumn": column,
-            "endLine": end_line,
-            "endColumn": end_column,
-        },
+        "description": {"text": _escape(fix.title)},
+        "artifactChanges": [
+            {"artifactLocation": _artifact(source, folder), "replacements": replacements}
+            for source, replacements in files.items()
+        ],
+    }
+
+
+def _location(span: Span, folder: Path | None) -> dict[str, Any]:
+    artifact = _artifact(span.source, folder)
+    return {"artifactLocation": artifact, "region": _region(span)}
+
+
+def _region(span: Span) -> dict[str, int]:
+    line, column = _position(span.source, span.start)
+    end_line, end_column = _position(span.source, span.end)
+    return {
+        "startLine": line,
+        "startColumn": column,
+        "endLine": end_line,
+        "endColumn": end_column,
     }
 
 

@@ -24,6 +24,12 @@ def has_behavior(behavior: Composed) -> bool:
     return any(isinstance(statement, ast.DoDirective) for statement in statements)
 
 
+def scenario_key(behavior: Composed) -> str:
+    """Return the key of the scenario in the IR that a behavior becomes."""
+    span = behavior.node.name.span
+    return f"{span.source.name}:{span.start}"
+
+
 def actor_type_of(behavior: sym.BehaviorSymbol) -> sym.ActorSymbol | None:
     """Return the type whose objects carry out a behavior.
 

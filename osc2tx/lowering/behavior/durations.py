@@ -18,8 +18,6 @@ from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics.builtins import DURATION, TIME
 from osc2tx_shared.classes import replace
 
-__all__ = ["is_free", "is_instant", "is_open_ended", "with_bounds", "with_open_duration"]
-
 Member = TypeVar("Member", bound=ir.Serial | ir.OneOf | ir.Parallel | ir.Invoke)
 
 

@@ -18,6 +18,7 @@ from osc2tx.lowering.behavior.composed_behaviors import (
     has_behavior,
     is_composed,
     lineage_of,
+    scenario_key,
 )
 from osc2tx.lowering.behavior.durations import (
     leaves_duration_open,
@@ -225,14 +226,13 @@ class InvocationLowering:
                 f"`{callee.qualified_name}` says itself how long it takes, and leaves that open",
                 help="leave the constraint out there, or the duration here",
             )
-        span = callee.node.name.span
         return ir.InvokeScenario(
             span=node.span,
             label=label_of(node),
             name=statement_name(node.span),
             comments=comments,
             scenario=callee.qualified_name,
-            key=f"{span.source.name}:{span.start}",
+            key=scenario_key(callee),
             actor=actor,
             arguments=tuple(
                 a for a in arguments if a.parameter not in ("duration", *self._conditions(callee))

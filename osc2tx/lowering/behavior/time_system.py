@@ -37,8 +37,6 @@ from osc2tx.lowering.value_types import BOOL
 from osc2tx_shared.classes import dataclass, replace
 from osc2tx_shared.overlaps import OFFSETS
 
-__all__ = ["TimeSystem"]
-
 Composition: TypeAlias = ir.Serial | ir.Parallel | ir.OneOf
 
 

@@ -7,7 +7,7 @@ from typing import assert_never
 
 from osc2tx import ir
 from osc2tx.ir.source_text import condensed
-from osc2tx.lowering.behavior.composed_behaviors import is_composed
+from osc2tx.lowering.behavior.composed_behaviors import is_composed, scenario_key
 from osc2tx.lowering.behavior.durations import with_bounds
 from osc2tx.lowering.context import LoweringContext, Receiver, present, statement_comments
 from osc2tx.lowering.value_types import lower_type
@@ -28,7 +28,7 @@ def lower_trigger(
     """Lower an event specification; `None` if a part of it was refused."""
     event = None if node.event is None else _lower_event(ctx, node.event)
     if node.field is not None and event is not None:
-        ctx.event_fields[id(ctx.model.symbol_of(node.field))] = _name_of(event)
+        ctx.event_fields[id(ctx.model.symbol_of(node.field))] = _origin_of(ctx, node.event, event)
     condition = None if node.condition is None else _lower_condition(ctx, node.condition)
     if (node.event is None) != (event is None) or (node.condition is None) != (condition is None):
         return None
@@ -56,15 +56,21 @@ def is_own_failure(ctx: LoweringContext, path: ast.Expression | None) -> bool:
     return is_fail and not declares_event(symbol)
 
 
-def _name_of(event: ir.EventRef | ir.LabelEvent | ir.InnerEvent) -> str:
-    """Return the key of the arguments of an occurrence."""
+def _origin_of(
+    ctx: LoweringContext,
+    path: ast.Expression | None,
+    event: ir.EventRef | ir.LabelEvent | ir.InnerEvent,
+) -> tuple[str, str | None]:
+    """Return the name of an event, and the key of the invoked scenario that has it, if one has."""
     match event:
         case ir.EventRef(name=name):
-            return name
+            return name, None
         case ir.InnerEvent(label=label, name=name):
-            return f"{label}.{name}"
+            assert isinstance(path, ast.MemberAccess), "events of invoked scenarios have labels"
+            invoked = _invoked_by(ctx, _labels(ctx, path.base)[-1])
+            return f"{label}.{name}", scenario_key(invoked) if is_composed(invoked) else None
         case ir.LabelEvent(label=label, moment=moment):
-            return f"{label}.{moment.value}"
+            return f"{label}.{moment.value}", None
 
 
 def _lower_event(

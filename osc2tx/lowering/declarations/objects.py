@@ -30,6 +30,7 @@ from osc2tx.lowering.declarations.user_fields import (
     class_default,
     is_plain,
     object_default,
+    stated_default,
     user_fields,
     user_lineage,
 )
@@ -186,12 +187,9 @@ class ObjectLowering:
 
     def _is_of_class(self, member: sym.FieldSymbol, value: ir.Expression) -> bool:
         """Whether a value is the default that the class of an own type has anyway."""
-        return (
-            member.origin == "user"
-            and member.default is not None
-            and member.default.span == value.span
-            and class_default(self._ctx, member) is not None
-        )
+        stated = stated_default(self._ctx, member) if member.origin == "user" else None
+        is_stated = stated is not None and stated.span == value.span
+        return is_stated and class_default(self._ctx, member) is not None
 
     def _complete(
         self,

@@ -7,7 +7,7 @@ class if it needs nothing else; one that reads other fields or globals belongs t
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TypeAlias
+from typing import TypeAlias, TypeGuard
 
 from osc2tx import ir
 from osc2tx.lowering.context import LoweringContext, Receiver
@@ -42,6 +42,39 @@ def mentioned_fields(model: SemanticModel) -> Mapping[sym.FieldSymbol, frozenset
         if isinstance(member, sym.FieldSymbol) and _is_sampled(member.type):
             found.setdefault(member, set()).add(member.span.source.name)
     return {symbol: frozenset(names) for symbol, names in found.items()}
+
+
+def default_keeps(model: SemanticModel) -> Mapping[sym.FieldSymbol, ast.KeepConstraint]:
+    """Return what gives fields a default in the type that declares them, `keep(default it == 3)`.
+
+    The last one counts (§7.3.11.2).
+    """
+    found: dict[sym.FieldSymbol, ast.KeepConstraint] = {}
+    for symbol in model.symbols:
+        if not isinstance(symbol, sym.ActorSymbol | sym.StructSymbol):
+            continue
+        for statement in symbol.statements:
+            if isinstance(statement, ast.KeepConstraint) and _is_default(statement):
+                assert isinstance(statement.expression, ast.Binary)
+                field = model.symbol_of(statement.expression.left)
+                if isinstance(field, sym.FieldSymbol) and field.owner is symbol:
+                    found[field] = statement
+            elif isinstance(statement, ast.ParameterDeclaration):
+                named = (each for name in statement.names for each in symbol.named(name.text))
+                own = [field for field in named if isinstance(field, sym.FieldSymbol)]
+                for keep in filter(_is_default, statement.constraints):
+                    found.update((field, keep) for field in own if field.node is statement)
+    return found
+
+
+def _is_default(rule: ast.Statement) -> TypeGuard[ast.KeepConstraint]:
+    """Whether a constraint says of a name alone what it is by default."""
+    if not isinstance(rule, ast.KeepConstraint) or rule.strength is not ast.KeepStrength.DEFAULT:
+        return False
+    said = rule.expression
+    if not isinstance(said, ast.Binary) or said.operator is not ast.BinaryOperator.EQUAL:
+        return False
+    return isinstance(said.left, ast.NameExpression | ast.ItExpression)
 
 
 def _is_sampled(type_: types.Type) -> bool:
@@ -134,7 +167,9 @@ def class_default(ctx: LoweringContext, field: sym.FieldSymbol) -> ir.Expression
     lowered = object_default(
         ctx.quiet(), field, ir.ParameterRef(span=field.span, type=_OWNER, name="")
     )
-    if lowered is None or any(isinstance(part, _OF_OBJECTS) for part in ir.walk(lowered)):
+    if lowered is None or isinstance(lowered, ir.RangeValue | ir.HalfRange):
+        return None
+    if any(isinstance(part, _OF_OBJECTS) for part in ir.walk(lowered)):
         return None
     return lowered
 
@@ -143,11 +178,26 @@ def object_default(
     ctx: LoweringContext, field: sym.FieldSymbol, owner: ir.Expression
 ) -> ir.Expression | None:
     """Return the default of a field of an object."""
-    if field.default is None or isinstance(field.default, ast.SampleExpression):
+    stated = stated_default(ctx, field)
+    if stated is None:
         return None
     assert isinstance(field.owner, sym.ActorSymbol | sym.StructSymbol)
     inside = ctx.inside(Receiver(field.owner, owner))
-    return lower_expression(inside, field.default)
+    return lower_expression(inside, stated)
+
+
+def stated_default(ctx: LoweringContext, field: sym.FieldSymbol) -> ast.Expression | None:
+    """Return what a type says of a field of its own that is so unless an object differs."""
+    keep = ctx.default_keeps.get(field)
+    if keep is not None:
+        assert isinstance(keep.expression, ast.Binary)
+        return keep.expression.right
+    return None if isinstance(field.default, ast.SampleExpression) else field.default
+
+
+def class_default_keep(ctx: LoweringContext, field: sym.FieldSymbol) -> ast.KeepConstraint | None:
+    """Return the constraint that is the default of a field in its class, if it is one."""
+    return None if class_default(ctx, field) is None else ctx.default_keeps.get(field)
 
 
 def is_plain(type_: types.Type) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from itertools import takewhile
 from typing import TypeVar
 
@@ -13,6 +13,7 @@ from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.declarations.user_fields import (
     TypeSymbol,
     class_default,
+    class_default_keep,
     has_added_fields,
     is_optional,
     own_members,
@@ -190,6 +191,7 @@ def _lower_type(
     symbol: TypeSymbol,
     node: ast.ActorDeclaration | ast.StructDeclaration | None,
 ) -> ir.UserType:
+    defaults = _class_defaults(ctx, symbol)
     return ir.UserType(
         name=symbol.name,
         span=symbol.span,
@@ -199,7 +201,7 @@ def _lower_type(
         fields=tuple(_lower_field(ctx, field) for field in user_fields(ctx, symbol)),
         unused=tuple(_lower_field(ctx, field) for field in unused_fields(ctx, symbol)),
         methods=present([_lower_method(ctx, each) for each in _methods(symbol)]),
-        keeps=tuple(_keeps(symbol.statements)),
+        keeps=tuple(_keeps(symbol.statements, defaults)),
     )
 
 
@@ -212,6 +214,7 @@ def _lower_extended(ctx: LoweringContext, symbol: TypeSymbol) -> ir.UserType:
     found = [[n for s, n in _extensions(ctx) if s is each] for each in above]
     own, nodes = found[0], next(each for each in found if each)
     bases = (symbol.base,) if symbol.base is not None and len(found) > 1 else ()
+    defaults = _class_defaults(ctx, symbol)
     return ir.UserType(
         name=symbol.name,
         span=nodes[-1].span,
@@ -221,15 +224,24 @@ def _lower_extended(ctx: LoweringContext, symbol: TypeSymbol) -> ir.UserType:
         fields=tuple(_lower_field(ctx, field) for field in user_fields(ctx, symbol)),
         unused=tuple(_lower_field(ctx, field) for field in unused_fields(ctx, symbol)),
         methods=present([_lower_method(ctx, each) for each in _methods(symbol)]),
-        keeps=tuple(line for node in own for line in _keeps(node.members)),
+        keeps=tuple(line for node in own for line in _keeps(node.members, defaults)),
         is_of_library=True,
     )
 
 
-def _keeps(statements: Iterable[ast.Statement]) -> Iterator[str]:
+def _class_defaults(ctx: LoweringContext, symbol: TypeSymbol) -> frozenset[ast.Statement]:
+    """Return the constraints of a type that are defaults in its class."""
+    fields = (each for each in own_members(symbol) if isinstance(each, sym.FieldSymbol))
+    keeps = (class_default_keep(ctx, field) for field in fields)
+    return frozenset(keep for keep in keeps if keep is not None)
+
+
+def _keeps(
+    statements: Iterable[ast.Statement], defaults: Container[ast.Statement]
+) -> Iterator[str]:
     """Yield the constraints of a type as comment lines, behind those that stand above them."""
     for statement in statements:
-        if isinstance(statement, ast.KeepConstraint):
+        if isinstance(statement, ast.KeepConstraint) and statement not in defaults:
             yield from map(str, statement_comments(statement))
             yield condensed(statement.span.text)
 
@@ -260,7 +272,7 @@ def _lower_field(ctx: LoweringContext, field: sym.FieldSymbol) -> ir.UserField:
     return ir.UserField(
         name=field.name,
         span=field.span,
-        comments=_field_comments(field, node) if node is not None and is_first else (),
+        comments=_field_comments(ctx, field, node) if node is not None and is_first else (),
         type=lower_type(field.type),
         default=class_default(ctx, field),
         is_optional=is_optional(ctx, field),
@@ -268,12 +280,23 @@ def _lower_field(ctx: LoweringContext, field: sym.FieldSymbol) -> ir.UserField:
 
 
 def _field_comments(
-    field: sym.FieldSymbol, node: ast.ParameterDeclaration | ast.VariableDeclaration
+    ctx: LoweringContext,
+    field: sym.FieldSymbol,
+    node: ast.ParameterDeclaration | ast.VariableDeclaration,
 ) -> tuple[str, ...]:
-    """Return the comment lines of a field, and its constraints as the source has them."""
-    if not isinstance(node, ast.ParameterDeclaration):
-        return statement_comments(node)
-    own = {id(each) for each in node.constraints}
-    keeps = [each for each in field.constraints if id(each) in own]
-    inside = (line for each in keeps for line in (*statement_comments(each), each.span.text))
-    return (*statement_comments(node), *map(condensed, inside))
+    """Return the comment lines of a field, and its constraints as the source has them.
+
+    One that is the default in the class is there.
+    """
+    default = class_default_keep(ctx, field)
+    keeps: list[ast.KeepConstraint] = []
+    if isinstance(node, ast.ParameterDeclaration):
+        own = {id(each) for each in node.constraints}
+        keeps = [each for each in field.constraints if id(each) in own]
+    if default is not None and default not in keeps:
+        keeps.append(default)
+    lines = [*statement_comments(node)]
+    for keep in keeps:
+        lines += map(condensed, statement_comments(keep))
+        lines += () if keep is default else (condensed(keep.span.text),)
+    return tuple(lines)

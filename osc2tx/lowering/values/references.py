@@ -85,7 +85,10 @@ def lower_member(
     """Lower `base.name`."""
     event = ctx.event_fields.get(id(ctx.model.symbol_of(base)))
     if event is not None:
-        return ir.EventArgument(span=node.span, type=type_, event=event, parameter=name.text)
+        path, owner = event
+        return ir.EventArgument(
+            span=node.span, type=type_, event=path, parameter=name.text, owner=owner
+        )
     field = ctx.model.symbol_of(node)
     if not isinstance(field, sym.FieldSymbol):
         ctx.unsupported("OSC503", node.span, f"`{node.span.text}` cannot be used here yet")

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import assert_never
 
-from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.diagnostics.fixes import Help
+from osc2tx.diagnostics.suggestions import name_meant
 from osc2tx.semantics.assignability import check_duration, check_value
 from osc2tx.semantics.bodies.binding import bind_behavior, bind_call, misplaced_of, type_arguments
 from osc2tx.semantics.bodies.constraints import check_keep, check_remove_default
@@ -143,7 +144,7 @@ def _check_composition_argument(
             "OSC402",
             (argument.name or argument).span,
             f"`{node.operator.value}` has no parameter `{name}`",
-            help=did_you_mean(name, names),
+            help=name_meant(argument.name.span, names) if argument.name else None,
         )
         type_arguments(r, [argument], env)
         return
@@ -270,11 +271,11 @@ def _find_without_actor(r: Resolution, name: ast.Name, env: Environment) -> Call
         report_modifier(r, name)
         return None
     known = {n for layer in r.scope.layers() for n in layer.behaviors}
-    help_: str | None
+    help_: Help
     if name.text in OUTPUT:
         help_ = "`record(…)` keeps values, and `call …` an external method writes them"
     else:
-        help_ = did_you_mean(name.text, known)
+        help_ = name_meant(name.span, known)
         help_ = help_ or f"declare it, `scenario {name}:`, or import the file that does"
     r.report(
         "OSC211",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from osc2tx.diagnostics import Label
-from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.diagnostics.suggestions import name_meant
 from osc2tx.semantics.assignability import check_condition, check_value
 from osc2tx.semantics.bodies.constraints import paths_of, root_of
 from osc2tx.semantics.bodies.coverage_items import (
@@ -67,7 +67,7 @@ def _by_name(r: Resolution, node: ast.CoverageDeclaration) -> dict[str, ast.Expr
                 "OSC402",
                 argument.name.span if argument.name else argument.span,
                 f"`{node.kind}` has no parameter `{name}`",
-                help=did_you_mean(name, ARGUMENTS),
+                help=name_meant(argument.name.span, ARGUMENTS) if argument.name else None,
             )
         elif name in found:
             r.report("OSC403", argument.span, f"`{name}` is given twice")
@@ -128,7 +128,7 @@ def _check_unit(
     if symbol is None:
         known = [u.name for u in r.scope.all_units()]
         r.report(
-            "OSC209", unit.span, f"no unit `{unit.name}`", help=did_you_mean(unit.name.text, known)
+            "OSC209", unit.span, f"no unit `{unit.name}`", help=name_meant(unit.name.span, known)
         )
         return
     r.references[unit] = symbol
@@ -195,7 +195,7 @@ def _report_no_item(r: Resolution, name: ast.Expression, known: Mapping[str, Ite
         "OSC412",
         name.span,
         f"no coverage item `{text or name.span.text}` in this type",
-        help=did_you_mean(text or "", known),
+        help=name_meant(name.span, known),
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import assert_never
 
-from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.diagnostics.suggestions import name_meant
 from osc2tx.semantics.assignability import check_condition, check_duration, check_value
 from osc2tx.semantics.builtins import TIME
 from osc2tx.semantics.dialects import RUNNER_EVENTS
@@ -118,7 +118,7 @@ def resolve_event_name(r: Resolution, name: ast.Name, env: Environment) -> Symbo
             name.span,
             f"event `{name}` is not declared",
             help=condition
-            or did_you_mean(name.text, events)
+            or name_meant(name.span, events)
             or f"declare it in `{owner.name}`: `event {name}`",
         )
     return implicit

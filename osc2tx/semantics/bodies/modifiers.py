@@ -195,7 +195,7 @@ def _report_unknown(r: Resolution, name: ast.Name) -> None:
         r.report("OSC212", name.span, f"`{name}` is not a modifier", help=help_)
         return
     advice = advise(r, "modifier", name, sorted(known))
-    if meant := plain_word(name.text, MODIFIERS):
+    if meant := plain_word(name.span, MODIFIERS):
         advice["help"] = meant
     r.report("OSC212", name.span, f"no modifier `{name}`", **advice)
 

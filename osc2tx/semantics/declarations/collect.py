@@ -10,6 +10,7 @@ from dataclasses import field
 from typing import assert_never
 
 from osc2tx.diagnostics import DiagnosticSink, Label
+from osc2tx.diagnostics.fixes import write
 from osc2tx.semantics.declarations.members import Basics, make_field, members_of
 from osc2tx.semantics.declarations.redeclarations import Repeats
 from osc2tx.semantics.dialects import Relaxations
@@ -36,6 +37,7 @@ from osc2tx.syntax import ast
 from osc2tx_shared.classes import dataclass
 
 LIBRARY_NAMESPACES = ("std", "stdtypes")
+NULL_USES = "namespace null use std, stdtypes"
 
 
 @dataclass(slots=True, eq=False)
@@ -102,7 +104,12 @@ class Collector:
             "OSC110",
             statement.span,
             f"`use {path}` is not a statement",
-            help="write `namespace null use std, stdtypes` below the imports",
+            help=write(
+                statement.span,
+                NULL_USES,
+                f"write `{NULL_USES}` below the imports",
+                is_safe=False,
+            ),
         )
 
     def _collect_export(self, statement: ast.ExportStatement, context: Context) -> None:

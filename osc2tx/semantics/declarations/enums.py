@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.diagnostics.fixes import write_one_of
+from osc2tx.diagnostics.suggestions import name_meant
 from osc2tx.semantics.declarations.resolve_types import resolve_type_name
 from osc2tx.semantics.resolution import Resolution
 from osc2tx.semantics.scope import Context
@@ -63,13 +64,13 @@ def _target(
         found = [symbol.members[name.text]] if name.text in symbol.members else []
         found = found or r.scope.select(r.scope.enum_members_named(name.text), name, context)
     if len(found) > 1:
-        choices = ", ".join(f"`{each.enum.name}!{name}`" for each in found)
+        choices = [f"{each.enum.name}!{name}" for each in found]
         message = f"`{name}` is a member of several enums"
-        r.report("OSC313", name.span, message, help=f"write one of {choices}")
+        r.report("OSC313", name.span, message, help=write_one_of(name.span, choices))
         return None
     if not found:
         message = f"{where} no member `{name}`" if where.endswith("has") else f"{where} `{name}`"
-        r.report("OSC208", name.span, message, help=did_you_mean(name.text, known))
+        r.report("OSC208", name.span, message, help=name_meant(name.span, known))
         return None
     r.references[value] = found[0]
     return found[0]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.diagnostics.suggestions import name_meant
 from osc2tx.semantics.builtins import COMPOSITION
 from osc2tx.semantics.declarations.members import members_of
 from osc2tx.semantics.resolution import Resolution
@@ -90,5 +90,5 @@ def _report(r: Resolution, homes: Definitions, item: ast.ExportItem, context: Co
         "OSC214",
         item.span,
         f"namespace `{namespace}` has no `{item.name}` to export",
-        help=did_you_mean(item.name or "", [n for n, found in homes.items() if namespace in found]),
+        help=name_meant(item.span, [n for n, found in homes.items() if namespace in found]),
     )

@@ -7,6 +7,7 @@ from dataclasses import field
 from pathlib import PurePosixPath
 
 from osc2tx.diagnostics import DiagnosticSink, SourceFile
+from osc2tx.diagnostics.fixes import Help, write
 from osc2tx.semantics.dialects import LIBRARY_FILES, RUNNER_FILE, Relaxations
 from osc2tx.support.paths import real_path
 from osc2tx.syntax import ast
@@ -84,9 +85,11 @@ class ImportWalk:
         """Import `name.osc`, as ScenarioRunner writes it; the library is taken for granted."""
         source = statement.span.source
         if "OSC617" not in self.relaxations.dialect.relaxed:
-            advice = f'to import a file write `import "{name}"`'
+            quoted_import = f'import "{name}"'
+            help_ = f"to import a file write `{quoted_import}`"
             if name == RUNNER_FILE:
-                advice += "; for a scenario of ScenarioRunner check with `--dialect carla`"
+                help_ += "; for a scenario of ScenarioRunner check with `--dialect carla`"
+            advice = write(statement.span, quoted_import, help_, is_safe=False)
             self._report(statement, f"no module `{name}`", advice)
             return
         self.modules.add("all")
@@ -99,7 +102,7 @@ class ImportWalk:
             "OSC617",
             statement.span,
             f'`import {name}` is taken for `import "{name}"`',
-            help=f'write `import "{name}"`',
+            help=write(statement.span, f'import "{name}"'),
         )
         self._visit_once(found)
 
@@ -119,12 +122,14 @@ class ImportWalk:
                     statement.span,
                     f'`"{uri}"` is taken for {taken if name == RUNNER_FILE else whole}; '
                     "there is no such file",
-                    help="write `import osc.standard.all`",
+                    help=write(statement.span, "import osc.standard.all"),
                 )
             return
-        advice = None
+        advice: Help = None
         if name in LIBRARY_FILES:
-            advice = "for the standard library write `import osc.standard.all`"
+            library = "import osc.standard.all"
+            help_ = f"for the standard library write `{library}`"
+            advice = write(statement.span, library, help_, is_safe=False)
         elif name == RUNNER_FILE:
             advice = "for a scenario of ScenarioRunner check with `--dialect carla`"
         self._report(statement, f'no file `"{uri}"`', advice)
@@ -133,7 +138,7 @@ class ImportWalk:
         if _identity(file) not in self._seen:
             self.visit(file)
 
-    def _report(self, statement: ast.Import, message: str, help: str | None) -> None:
+    def _report(self, statement: ast.Import, message: str, help: Help) -> None:
         """Report a failed import; library names are known from then on, to avoid a flood."""
         self.sink.report("OSC205", statement.span, message, help=help)
         self.modules.add("all")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.diagnostics.suggestions import name_meant
 from osc2tx.semantics.assignability import check_value
 from osc2tx.semantics.names.member_lookup import find_member, member_names
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
@@ -34,7 +34,7 @@ def check_inheritance_condition(r: Resolution, symbol: TypeSymbol) -> None:
             "OSC208",
             condition.field.span,
             f"`{symbol.base.name}` has no field `{condition.field}`",
-            help=did_you_mean(condition.field.text, member_names(symbol.base)),
+            help=name_meant(condition.field.span, member_names(symbol.base)),
         )
         return
     r.references[condition.field] = field

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.diagnostics.fixes import Help, insert_before
+from osc2tx.diagnostics.suggestions import name_meant
 from osc2tx.semantics.builtins import LIFE_CYCLE
 from osc2tx.semantics.declarations.collect import Collector, report_duplicate
 from osc2tx.semantics.declarations.enums import resolve_enum_values
@@ -43,8 +44,6 @@ from osc2tx.semantics.symbols import (
 )
 from osc2tx.semantics.types import VOID, ActorType, StructType
 from osc2tx.syntax import ast
-
-__all__ = ["resolve_declarations"]
 
 
 def resolve_declarations(r: Resolution, collector: Collector) -> None:
@@ -236,7 +235,7 @@ def _check_redefinition(r: Resolution, owner: TypeSymbol, member: Member) -> Non
                 "OSC319",
                 member.span,
                 f"`{member.name}` overrides a method without `only`",
-                help="write `is only …`",
+                help=_with_only(member),
                 labels=declared_here(earlier, "overridden here"),
             )
         elif _signature(member) != _signature(earlier):
@@ -251,6 +250,14 @@ def _check_redefinition(r: Resolution, owner: TypeSymbol, member: Member) -> Non
         report_duplicate(r.sink, member, earlier)
 
 
+def _with_only(method: MethodSymbol) -> Help:
+    help_ = "write `is only …`"
+    node = method.node
+    if not isinstance(node, ast.MethodDeclaration):
+        return help_
+    return insert_before(node.body.span, "only ", help_)
+
+
 def _note_nothing_overridden(r: Resolution, owner: TypeSymbol, member: Member) -> None:
     """Warn about an `only` that overrides nothing, where a method has nearly that name.
 
@@ -262,7 +269,7 @@ def _note_nothing_overridden(r: Resolution, owner: TypeSymbol, member: Member) -
         for name, other in ancestor.members.items()
         if isinstance(other, MethodSymbol) and other is not member
     ]
-    meant = did_you_mean(member.name, methods, 0.75)
+    meant = name_meant(member.span, methods, 0.75)
     if meant is not None:
         what = f"`{member.name}` overrides nothing: no base of `{owner.name}` has such a method"
         r.report("OSC417", member.span, what, help=meant)

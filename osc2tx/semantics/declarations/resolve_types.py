@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TypeVar, assert_never
 
-from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.diagnostics.fixes import Help, write, write_one_of
+from osc2tx.diagnostics.suggestions import name_meant
 from osc2tx.semantics.declarations.undeclared_models import undeclared_model
 from osc2tx.semantics.dialects import PRELUDE_BEHAVIORS, TYPE_ALIASES
 from osc2tx.semantics.names.aliases import (
@@ -139,8 +140,8 @@ def resolve_type_name(r: Resolution, name: ast.Name, context: Context) -> NamedS
     else:
         known = [text for layer in r.scope.layers() for text in layer.types]
         advice = advise(r, "type", name, [*known, *PRIMITIVES])
-        help_ = write_instead(TYPE_ALIASES.get(name.text)) or plain_word(name.text, TYPES)
-        help_ = help_ or advice["help"]
+        help_: Help = write_instead(name.span, TYPE_ALIASES.get(name.text))
+        help_ = help_ or plain_word(name.span, TYPES) or advice["help"]
         r.report("OSC202", name.span, f"no type `{name}`", notes=advice["notes"], help=help_)
     return None
 
@@ -162,12 +163,12 @@ def choose(r: Resolution, candidates: Sequence[S], name: ast.Name, context: Cont
     if len(selected) == 1:
         return selected[0]
     if selected:
-        homes = ", ".join(f"`{s.namespace}::{s.name}`" for s in selected)
+        homes = [f"{symbol.namespace}::{symbol.name}" for symbol in selected]
         r.report(
             "OSC204",
             name.span,
             f"`{name}` is ambiguous",
-            help=f"write one of {homes}",
+            help=write_one_of(name.span, homes),
             labels=[label for s in selected for label in declared_here(s)],
         )
         return None
@@ -188,11 +189,12 @@ def _report_invisible(r: Resolution, found: S, name: ast.Name, context: Context)
             if home in context.uses
             else f"`namespace {context.namespace} use {home}` above it"
         )
+        qualified = f"{home}::{found.name}"
         r.report(
             "OSC215",
             name.span,
             f"`{name}` is not visible here: it lives in namespace `{home}`",
-            help=f"write `{home}::{found.name}`, or {remedy}",
+            help=write(name.span, qualified, f"write `{qualified}`, or {remedy}"),
         )
     return found
 
@@ -305,8 +307,8 @@ def report_unknown_behavior(r: Resolution, actor: ActorSymbol, name: ast.Name) -
             "OSC211",
             name.span,
             f"`{actor.name}` has no behavior `{name}`",
-            help=write_instead(standard_behavior(actor, name))
-            or (plain_word(name.text, BEHAVIORS) if BEHAVIORS.get(name.text) in known else None)
-            or did_you_mean(name.text, known)
+            help=write_instead(name.span, standard_behavior(actor, name))
+            or (plain_word(name.span, BEHAVIORS) if BEHAVIORS.get(name.text) in known else None)
+            or name_meant(name.span, known)
             or f"declare it, `scenario {actor.name}.{name}:`, or import the file that does",
         )

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.diagnostics.fixes import insert
+from osc2tx.diagnostics.suggestions import name_meant
 from osc2tx.semantics.bodies.binding import find_parameter
 from osc2tx.semantics.builtins import COMPOSITION, LIST_METHODS, RANGE_METHODS
 from osc2tx.semantics.conversions import INTEGERS, are_related, can_cast, symbol_of
@@ -40,8 +41,9 @@ def resolve_member(
     if owner is None:
         is_method = isinstance(base, ListType) and node.name.text in LIST_METHODS
         is_method |= isinstance(base, RangeType) and node.name.text in RANGE_METHODS
-        call = f"it is a method: write `{node.span.text}()`" if is_method else None
-        r.report("OSC208", node.name.span, f"`{base}` has no member `{node.name}`", help=call)
+        call = f"it is a method: write `{node.span.text}()`"
+        help_ = insert(node.span, "()", call) if is_method else None
+        r.report("OSC208", node.name.span, f"`{base}` has no member `{node.name}`", help=help_)
         return None
     member = _labelled_inside(r, node, owner) or find_member(r, owner, node.name, env.context)
     if member is None and (standard := member_alias(r, owner, node.name)):
@@ -95,9 +97,9 @@ def report_unknown_member(r: Resolution, owner: TypeSymbol, name: ast.Name) -> N
         "OSC208",
         name.span,
         f"`{owner.name}` has no member `{name}`",
-        help=write_instead(standard_member(owner, name))
-        or (plain_word(name.text, MEMBERS) if is_object else None)
-        or did_you_mean(name.text, member_names(owner)),
+        help=write_instead(name.span, standard_member(owner, name))
+        or (plain_word(name.span, MEMBERS) if is_object else None)
+        or name_meant(name.span, member_names(owner)),
         labels=declared_here(owner),
     )
 
@@ -116,7 +118,7 @@ def _infer_event_parameter(r: Resolution, node: ast.MemberAccess, env: Environme
         "OSC208",
         node.name.span,
         f"event `{event.name}` has no parameter `{node.name}`",
-        help=did_you_mean(node.name.text, [p.name for p in event.parameters]),
+        help=name_meant(node.name.span, [p.name for p in event.parameters]),
     )
     return ERROR
 

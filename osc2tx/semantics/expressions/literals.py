@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.diagnostics.fixes import write
+from osc2tx.diagnostics.suggestions import name_meant
 from osc2tx.semantics.conversions import common_type, is_numeric
 from osc2tx.semantics.declarations.redeclarations import report_disputed
 from osc2tx.semantics.dialects import UNIT_ALIASES
@@ -28,9 +29,9 @@ def infer_physical(r: Resolution, node: ast.PhysicalLiteral) -> Type:
                 "OSC209",
                 node.unit.span,
                 f"no unit `{node.unit}`",
-                help=write_instead(UNIT_ALIASES.get(node.unit.text))
-                or plain_word(node.unit.text, UNITS)
-                or did_you_mean(node.unit.text, known),
+                help=write_instead(node.unit.span, UNIT_ALIASES.get(node.unit.text))
+                or plain_word(node.unit.span, UNITS)
+                or name_meant(node.unit.span, known),
             )
         return ERROR
     if rival := r.relaxations.disputed.get(node.unit.text):
@@ -101,10 +102,11 @@ def _check_order(r: Resolution, node: ast.RangeLiteral) -> None:
     """Report a range with the upper bound first: only 2.2 says that the order is free."""
     lower, upper = constant_number(r, node.lower), constant_number(r, node.upper)
     if lower is not None and upper is not None and upper < lower:
+        ordered = f"[{node.upper.span.text}..{node.lower.span.text}]"
         r.report(
             "OSC323",
             node.span,
             "the upper bound stands first",
-            help=f"write `[{node.upper.span.text}..{node.lower.span.text}]`, which it is taken as",
+            help=write(node.span, ordered, f"write `{ordered}`, which it is taken as"),
             notes=["from 2.2 on the order is free (`--std 2.2`)"],
         )

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import assert_never
 
-from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.diagnostics.fixes import Help, write
+from osc2tx.diagnostics.suggestions import name_meant
 from osc2tx.semantics.assignability import check_condition
 from osc2tx.semantics.bodies.binding import bind_call, type_arguments
 from osc2tx.semantics.builtins import (
@@ -195,18 +196,18 @@ def _find_plain(
             "OSC201",
             callee.span,
             f"no method `{callee.name}`",
-            help=_method_meant(callee, node) or did_you_mean(word, visible_names(r, env)),
+            help=_method_meant(callee, node) or name_meant(callee.span, visible_names(r, env)),
         )
         return None
     return _as_method(r, callee, symbol)
 
 
-def _method_meant(callee: ast.NameExpression, node: ast.Call | ast.CallDirective) -> str | None:
+def _method_meant(callee: ast.NameExpression, node: ast.Call | ast.CallDirective) -> Help:
     """Return a line of help for `len(list)`, a method of what stands in the parentheses."""
     word = callee.name.text
     if word not in LIST_WORDS or len(node.arguments) != 1:
         return None
-    return f"write `{node.arguments[0].value.span.text}.{LIST_WORDS[word]}()`"
+    return write(node.span, f"{node.arguments[0].value.span.text}.{LIST_WORDS[word]}()")
 
 
 def _as_method(
@@ -274,8 +275,8 @@ def _resolve_operator(
             "OSC208",
             callee.name.span,
             f"`{base}` has no method `{callee.name}`",
-            help=plain_word(callee.name.text, LIST_WORDS if isinstance(base, ListType) else {})
-            or did_you_mean(callee.name.text, operators),
+            help=plain_word(callee.name.span, LIST_WORDS if isinstance(base, ListType) else {})
+            or name_meant(callee.name.span, operators),
         )
         type_arguments(r, node.arguments, env.with_it(ERROR))
         return ERROR

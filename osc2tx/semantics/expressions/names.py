@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from osc2tx.diagnostics.suggestions import did_you_mean, nearest, one_of
+from osc2tx.diagnostics.fixes import Help, write, write_one_of
+from osc2tx.diagnostics.suggestions import name_meant, nearest, one_of
 from osc2tx.semantics.conversions import converts, stand_in, symbol_of, type_of_owner
 from osc2tx.semantics.declarations.resolve_types import choose, resolve_type_name
 from osc2tx.semantics.dialects import ENUM_MEMBER_ALIASES
@@ -117,7 +118,7 @@ def _lookup_in_invoked(r: Resolution, node: ast.NameExpression, env: Environment
             "OSC413",
             node.span,
             f"`{node.name}` is taken as parameter of `{env.invoked.qualified_name}`",
-            help=f"write `it.{node.name}`",
+            help=write(node.span, f"it.{node.name}"),
         )
         return symbol
     return None
@@ -134,8 +135,10 @@ def _infer_unknown(
             "OSC208",
             node.span,
             f"enum `{expected.symbol.name}` has no member `{name}`",
-            help=write_instead(ENUM_MEMBER_ALIASES.get((expected.symbol.name, name.text)))
-            or _member_meant(name.text, expected.symbol),
+            help=write_instead(
+                name.span, ENUM_MEMBER_ALIASES.get((expected.symbol.name, name.text))
+            )
+            or _member_meant(name, expected.symbol),
             labels=declared_here(expected.symbol),
         )
         return ERROR
@@ -157,11 +160,11 @@ def _infer_unknown(
     return ERROR
 
 
-def _name_meant(r: Resolution, name: ast.Name, env: Environment) -> str | None:
+def _name_meant(r: Resolution, name: ast.Name, env: Environment) -> Help:
     """Say what may be meant by a name that is not defined."""
     if name.text in NOTHING:
         return "there is no empty value; leave out what has none"
-    if found := plain_word(name.text, NAMES) or _field_elsewhere(r, name):
+    if found := plain_word(name.span, NAMES) or _field_elsewhere(r, name):
         return found
     meant = nearest(name.text, visible_names(r, env))
     if meant is None:
@@ -171,14 +174,14 @@ def _name_meant(r: Resolution, name: ast.Name, env: Environment) -> str | None:
     digits = "0123456789"
     if isinstance(field, FieldSymbol) and name.text.rstrip(digits) == meant.rstrip(digits):
         help_ += f" If it is another one, declare it: `{name}: {field.type}`"
-    return help_
+    return write(name.span, meant, help_, is_safe=False)
 
 
-def _member_meant(word: str, enum: EnumSymbol) -> str | None:
+def _member_meant(name: ast.Name, enum: EnumSymbol) -> Help:
     """Say which member of an enum may be meant by a name that it does not have."""
-    if ENUM_MEMBERS.get(word) in enum.members:
-        return plain_word(word, ENUM_MEMBERS)
-    return did_you_mean(word, enum.members) or one_of("its members are", enum.members)
+    if ENUM_MEMBERS.get(name.text) in enum.members:
+        return plain_word(name.span, ENUM_MEMBERS)
+    return name_meant(name.span, enum.members) or one_of("its members are", enum.members)
 
 
 def _field_elsewhere(r: Resolution, name: ast.Name) -> str | None:
@@ -196,12 +199,12 @@ def _infer_unexpected_member(
 ) -> Type:
     if len(members) == 1:
         return _refer_to_member(r, node, members[0], env)
-    choices = ", ".join(f"`{m.enum.name}!{m.name}`" for m in members[:4])
+    choices = [f"{member.enum.name}!{member.name}" for member in members[:4]]
     r.report(
         "OSC313",
         node.span,
         f"`{node.name}` is a member of several enums",
-        help=f"write one of {choices}",
+        help=write_one_of(node.span, choices),
     )
     return ERROR
 
@@ -230,7 +233,7 @@ def infer_enum_literal(r: Resolution, node: ast.EnumLiteral, env: Environment) -
             "OSC208",
             node.member.span,
             f"enum `{symbol.name}` has no member `{node.member}`",
-            help=_member_meant(node.member.text, symbol),
+            help=_member_meant(node.member, symbol),
             labels=declared_here(symbol),
         )
         return EnumType(symbol)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from osc2tx.diagnostics.fixes import write
 from osc2tx.semantics.assignability import check_condition, check_fits
 from osc2tx.semantics.conversions import (
     are_related,
@@ -73,7 +74,7 @@ def _infer_logical(r: Resolution, node: ast.Binary, env: Environment) -> Type:
             "OSC414",
             node.span,
             "a chain of `=>` is read from the right; the standard does not say so",
-            help="set brackets",
+            help=write(node.right.span, f"({node.right.span.text})", "set brackets"),
         )
     return BOOL
 
@@ -104,7 +105,7 @@ def _divides_by_unit(r: Resolution, node: ast.Binary, env: Environment) -> bool:
     unit = QUOTIENTS.get((number.unit.text, below.name.text))
     if unit is None:
         return False
-    help_ = f"write `{number.value}{unit}`"
+    help_ = write(node.span, f"{number.span.text.removesuffix(number.unit.text)}{unit}")
     r.report("OSC201", below.span, f"`{below.name}` is not defined", help=help_)
     return True
 

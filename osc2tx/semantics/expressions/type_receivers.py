@@ -6,6 +6,7 @@ about the one object of the type.
 
 from __future__ import annotations
 
+from osc2tx.diagnostics.fixes import Help, write
 from osc2tx.semantics.conversions import type_of_owner
 from osc2tx.semantics.names.member_lookup import actor_field
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
@@ -29,7 +30,7 @@ def type_as_receiver(r: Resolution, node: ast.NameExpression, env: Environment) 
     actor = named[0]
     objects = _objects(r, actor, env)
     if len(objects) == 1:
-        _warn(r, node, f"it is taken as `{objects[0].name}`", f"write `{objects[0].name}`")
+        _warn(r, node, f"it is taken as `{objects[0].name}`", write(node.span, objects[0].name))
         return _refer(r, node, objects[0])
     declare = f"declare one: `{node.name.text}: {node.name}`"
     if objects:
@@ -103,7 +104,7 @@ def _refer(r: Resolution, node: ast.NameExpression, field: FieldSymbol) -> Type:
     return field.type
 
 
-def _warn(r: Resolution, node: ast.NameExpression, taken: str, help: str) -> None:
+def _warn(r: Resolution, node: ast.NameExpression, taken: str, help: Help) -> None:
     if r.relaxations.is_new("OSC415", node.span.source.name, node.name.text):
         r.report("OSC415", node.span, f"`{node.name}` is an actor type; {taken}", help=help)
 

@@ -9,8 +9,6 @@ from osc2tx.semantics.symbols import ActionSymbol, FieldSymbol
 from osc2tx.semantics.types import ListType, StructType, Type
 from osc2tx.syntax import ast
 
-__all__ = ["actions_on"]
-
 
 def actions_on(r: Resolution, type_: Type, node: ast.Invocation) -> str | None:
     """Return a help text that names the actions which change a struct.

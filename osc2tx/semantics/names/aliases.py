@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Container
 
+from osc2tx.diagnostics import Span
+from osc2tx.diagnostics.fixes import Remedy, write
 from osc2tx.semantics.dialects import (
     BEHAVIOR_ALIASES,
     ENUM_MEMBER_ALIASES,
@@ -84,9 +86,9 @@ def standard_parameter(callee: Symbol, name: ast.Name) -> ParameterAlias | None:
     return PARAMETER_ALIASES.get((callee.name, name.text))
 
 
-def write_instead(standard: str | None) -> str | None:
-    """Return the help line that names the standard's word."""
-    return f"write `{standard}`" if standard else None
+def write_instead(written: Span, standard: str | None) -> Remedy | None:
+    """Return the remedy that writes the standard's word."""
+    return write(written, standard) if standard else None
 
 
 def _standard_name(
@@ -99,6 +101,6 @@ def _standard_name(
         name.span,
         f"{kind} `{name}` stands for `{standard}`",
         key=f"{kind} {name}",
-        help=write_instead(standard),
+        help=write_instead(name.span, standard),
     )
     return ast.Name(span=name.span, text=standard) if read else None

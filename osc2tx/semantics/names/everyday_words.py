@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Container, Mapping
 
+from osc2tx.diagnostics import Span
+from osc2tx.diagnostics.fixes import Remedy, write
+
 TYPES: Mapping[str, str] = {
     "bike": "vehicle",
     "bicycle": "vehicle",
@@ -143,6 +146,11 @@ def fitting_word(word: str, known: Container[str]) -> str | None:
     return next((name for name in PARAMETERS.get(word, ()) if name in known), None)
 
 
-def plain_word(word: str, table: Mapping[str, str]) -> str | None:
-    """Return the line of help that names the standard's word for another one."""
-    return f"write `{table[word]}`" if word in table else None
+def plain_word(written: Span, table: Mapping[str, str]) -> Remedy | None:
+    """Return the remedy that replaces a word by the one of the standard.
+
+    It is safe where both words stand for the same value; parameters of an action may differ.
+    """
+    if written.text not in table:
+        return None
+    return write(written, table[written.text], is_safe=table is NAMES or table is UNITS)

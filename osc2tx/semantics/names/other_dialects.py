@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from functools import cache
 from typing import TypedDict
 
-from osc2tx.diagnostics.suggestions import did_you_mean
+from osc2tx.diagnostics.fixes import Help
+from osc2tx.diagnostics.suggestions import name_meant
 from osc2tx.semantics.dialects import DIALECTS
 from osc2tx.semantics.resolution import Resolution
 from osc2tx.stdlib import library_file
@@ -17,7 +18,7 @@ class Advice(TypedDict):
     """The further lines of a report."""
 
     notes: list[str]
-    help: str | None
+    help: Help
 
 
 def advise(r: Resolution, kind: str, name: ast.Name, known: list[str]) -> Advice:
@@ -31,7 +32,7 @@ def advise(r: Resolution, kind: str, name: ast.Name, known: list[str]) -> Advice
     """
     dialect = _declared_by_preludes().get((kind, name.text))
     if dialect is None or dialect == r.relaxations.dialect.name:
-        return Advice(notes=[], help=did_you_mean(name.text, known))
+        return Advice(notes=[], help=name_meant(name.span, known))
     return Advice(notes=[f"dialect `{dialect}` has it"], help=f"check with `--dialect {dialect}`")
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from osc2tx.diagnostics.suggestions import did_you_mean, one_of
+from osc2tx.diagnostics.fixes import Help, Remedy, write
+from osc2tx.diagnostics.suggestions import name_meant, one_of
 from osc2tx.semantics.dialects import LEFT_OUT, PRELUDE_PARAMETERS, PreludeHint
 from osc2tx.semantics.names.aliases import standard_parameter, write_instead
 from osc2tx.semantics.names.everyday_words import fitting_word
@@ -92,22 +93,23 @@ def report_unknown(
 
 def _help(
     r: Resolution, name: ast.Name, value: ast.Expression, parameters: Parameters, callee: Symbol
-) -> str | None:
+) -> Help:
     word, names = name.text, [p.name for p in parameters]
+    whole = name.span.to(value.span)
     if (callee.name, word) in LEFT_OUT:
         return f"leave `{word}: {value.span.text}` out; {LEFT_OUT[callee.name, word]}"
     if alias := standard_parameter(callee, name):
-        return write_instead(alias.written_out)
+        return Remedy(f"write `{alias.written_out}`")
     for parameter in parameters:
         if isinstance(parameter.type, EnumType) and word in parameter.type.symbol.members:
             given = value.span.text
             member = given if given in parameter.type.symbol.members else word
-            return write_instead(f"{parameter.name}: {member}")
+            return write_instead(whole, f"{parameter.name}: {member}")
     if parameter_name := fitting_word(word, names):
-        return write_instead(f"{parameter_name}: …")
+        return write(name.span, parameter_name, f"write `{parameter_name}: …`")
     if _is_modified_by(r, callee, word):
         return f"`{word}` is a modifier: end the line with `with:`, and write `{word}(…)` below"
-    return did_you_mean(word, names) or one_of("its parameters are", names)
+    return name_meant(name.span, names) or one_of("its parameters are", names)
 
 
 def _is_modified_by(r: Resolution, callee: Symbol, word: str) -> bool:

@@ -1,11 +1,11 @@
-# encoding: utf-8
-from osc2tx.syntax.parser_runtime import *
-from io import StringIO
-import sys
-if sys.version_info[1] > 5:
-	from typing import TextIO
-else:
-	from typing.io import TextIO
+"""The parser made from grammar/OpenSCENARIO2.g4 by `make parser`; not to be edited."""
+from osc2tx.syntax.parser_runtime import (
+    Network,
+    NoViableAltException,
+    Parser,
+    ParserRuleContext,
+    RecognitionException,
+)
 
 def serializedATN():
     return [
@@ -277,50 +277,24 @@ def serializedATN():
         544,551,556,559,562,566,569,575,581,587,593,598,607,616,626,633,
         642,644,646,654,668,671,673,676,681,687,691
     ]
-
-class OpenSCENARIO2 ( Parser ):
-
-    grammarFileName = "OpenSCENARIO2.g4"
-
-    atn = ATNDeserializer().deserialize(serializedATN())
-
-    decisionsToDFA = [ DFA(ds, i) for i, ds in enumerate(atn.decisionToState) ]
-
-    sharedContextCache = PredictionContextCache()
-
-    literalNames = [ "<INVALID>", "<INVALID>", "<INVALID>", "<INVALID>", 
-                     "<INVALID>", "<INVALID>", "<INVALID>", "<INVALID>", 
-                     "<INVALID>", "<INVALID>", "'import'", "'namespace'", 
-                     "'use'", "'export'", "'type'", "'unit'", "'enum'", 
-                     "'struct'", "'actor'", "'scenario'", "'action'", "'modifier'", 
-                     "'extend'", "'global'", "'inherits'", "'of'", "'is'", 
-                     "'event'", "'var'", "'def'", "'keep'", "'remove_default'", 
-                     "'cover'", "'record'", "'default'", "'hard'", "'only'", 
-                     "'expression'", "'undefined'", "'external'", "'sample'", 
-                     "'list'", "'range'", "'do'", "'on'", "'serial'", "'parallel'", 
-                     "'one_of'", "'wait'", "'emit'", "'call'", "'until'", 
-                     "'with'", "'as'", "'if'", "'and'", "'or'", "'not'", 
-                     "'in'", "':'", "','", "'.'", "'..'", "'='", "'@'", 
-                     "'->'", "'?'", "'!'", "'::'", "'('", "')'", "'['", 
-                     "']'", "'=>'", "'=='", "'!='", "'<'", "'<='", "'>'", 
+class OpenSCENARIO2(Parser):
+    atn = Network(serializedATN())
+    literalNames = [ "<INVALID>", "<INVALID>", "<INVALID>", "<INVALID>",
+                     "<INVALID>", "<INVALID>", "<INVALID>", "<INVALID>",
+                     "<INVALID>", "<INVALID>", "'import'", "'namespace'",
+                     "'use'", "'export'", "'type'", "'unit'", "'enum'",
+                     "'struct'", "'actor'", "'scenario'", "'action'", "'modifier'",
+                     "'extend'", "'global'", "'inherits'", "'of'", "'is'",
+                     "'event'", "'var'", "'def'", "'keep'", "'remove_default'",
+                     "'cover'", "'record'", "'default'", "'hard'", "'only'",
+                     "'expression'", "'undefined'", "'external'", "'sample'",
+                     "'list'", "'range'", "'do'", "'on'", "'serial'", "'parallel'",
+                     "'one_of'", "'wait'", "'emit'", "'call'", "'until'",
+                     "'with'", "'as'", "'if'", "'and'", "'or'", "'not'",
+                     "'in'", "':'", "','", "'.'", "'..'", "'='", "'@'",
+                     "'->'", "'?'", "'!'", "'::'", "'('", "')'", "'['",
+                     "']'", "'=>'", "'=='", "'!='", "'<'", "'<='", "'>'",
                      "'>='", "'+'", "'-'", "'*'", "'/'", "'%'" ]
-
-    symbolicNames = [ "<INVALID>", "NEWLINE", "INDENT", "DEDENT", "ID", 
-                      "INTEGER", "FLOAT", "PHYSICAL", "STRING", "NAMESPACE_STAR", 
-                      "IMPORT", "NAMESPACE", "USE", "EXPORT", "TYPE", "UNIT", 
-                      "ENUM", "STRUCT", "ACTOR", "SCENARIO", "ACTION", "MODIFIER", 
-                      "EXTEND", "GLOBAL", "INHERITS", "OF", "IS", "EVENT", 
-                      "VAR", "DEF", "KEEP", "REMOVE_DEFAULT", "COVER", "RECORD", 
-                      "DEFAULT", "HARD", "ONLY", "EXPRESSION", "UNDEFINED", 
-                      "EXTERNAL", "SAMPLE", "LIST", "RANGE", "DO", "ON", 
-                      "SERIAL", "PARALLEL", "ONE_OF", "WAIT", "EMIT", "CALL", 
-                      "UNTIL", "WITH", "AS", "IF", "AND", "OR", "NOT", "IN", 
-                      "COLON", "COMMA", "DOT", "RANGE_DOTS", "ASSIGN", "AT", 
-                      "ARROW", "QUESTION", "BANG", "DOUBLE_COLON", "LPAREN", 
-                      "RPAREN", "LBRACKET", "RBRACKET", "IMPLIES", "EQUAL", 
-                      "NOT_EQUAL", "LESS", "LESS_EQUAL", "GREATER", "GREATER_EQUAL", 
-                      "PLUS", "MINUS", "STAR", "SLASH", "PERCENT" ]
-
     RULE_sourceFile = 0
     RULE_block = 1
     RULE_statement = 2
@@ -371,23 +345,7 @@ class OpenSCENARIO2 ( Parser ):
     RULE_expression = 47
     RULE_group = 48
     RULE_arguments = 49
-
-    ruleNames =  [ "sourceFile", "block", "statement", "body", "withBlock", 
-                   "importStatement", "dottedName", "namespaceStatement", 
-                   "useStatement", "exportStatement", "exportItem", "globalParameter", 
-                   "typeName", "behaviorName", "physicalTypeDeclaration", 
-                   "unitDeclaration", "siUnit", "enumDeclaration", "enumMembers", 
-                   "enumMember", "structDeclaration", "actorDeclaration", 
-                   "scenarioDeclaration", "actionDeclaration", "modifierDeclaration", 
-                   "inheritance", "extension", "eventDeclaration", "parameters", 
-                   "parameter", "eventSpecification", "variableDeclaration", 
-                   "sampleExpression", "methodDeclaration", "keepConstraint", 
-                   "removeDefault", "coverageDeclaration", "nameStatement", 
-                   "typedRest", "ending", "onDirective", "doDirective", 
-                   "composition", "waitDirective", "emitDirective", "callDirective", 
-                   "untilDirective", "expression", "group", "arguments" ]
-
-    EOF = Token.EOF
+    EOF = -1
     NEWLINE=1
     INDENT=2
     DEDENT=3
@@ -473,1175 +431,507 @@ class OpenSCENARIO2 ( Parser ):
     SLASH=83
     PERCENT=84
 
-    def __init__(self, input:TokenStream, output:TextIO = sys.stdout):
-        super().__init__(input, output)
-        self.checkVersion("4.13.2")
-        self._interp = ParserATNSimulator(self, self.atn, self.decisionsToDFA, self.sharedContextCache)
-        self._predicates = None
-
-
-
 
     class SourceFileContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def EOF(self):
-            return self.getToken(OpenSCENARIO2.EOF, 0)
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def statement(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.StatementContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.StatementContext,i)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_sourceFile
-
-
-
+        __slots__ = ()
 
     def sourceFile(self):
-
-        localctx = OpenSCENARIO2.SourceFileContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.SourceFileContext(self._ctx, self.state)
         self.enterRule(localctx, 0, self.RULE_sourceFile)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 101
             self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 100
                 self.block()
-
-
             self.state = 106
             self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             while (((_la) & ~0x3f) == 0 and ((1 << _la) & 148610008672632304) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
                 self.state = 103
                 self.statement()
                 self.state = 108
                 self._errHandler.sync(self)
-                _la = self._input.LA(1)
-
+                _la = stream.types[stream.index]
             self.state = 109
             self.match(OpenSCENARIO2.EOF)
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class BlockContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def INDENT(self):
-            return self.getToken(OpenSCENARIO2.INDENT, 0)
-
-        def DEDENT(self):
-            return self.getToken(OpenSCENARIO2.DEDENT, 0)
-
-        def statement(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.StatementContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.StatementContext,i)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_block
-
-
-
+        __slots__ = ()
 
     def block(self):
-
-        localctx = OpenSCENARIO2.BlockContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.BlockContext(self._ctx, self.state)
         self.enterRule(localctx, 2, self.RULE_block)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 111
             self.match(OpenSCENARIO2.INDENT)
             self.state = 115
             self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             while (((_la) & ~0x3f) == 0 and ((1 << _la) & 148610008672632304) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
                 self.state = 112
                 self.statement()
                 self.state = 117
                 self._errHandler.sync(self)
-                _la = self._input.LA(1)
-
+                _la = stream.types[stream.index]
             self.state = 118
             self.match(OpenSCENARIO2.DEDENT)
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class StatementContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def nameStatement(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.NameStatementContext,0)
-
-
-        def composition(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.CompositionContext,0)
-
-
-        def waitDirective(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.WaitDirectiveContext,0)
-
-
-        def keepConstraint(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.KeepConstraintContext,0)
-
-
-        def variableDeclaration(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.VariableDeclarationContext,0)
-
-
-        def eventDeclaration(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.EventDeclarationContext,0)
-
-
-        def methodDeclaration(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.MethodDeclarationContext,0)
-
-
-        def emitDirective(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.EmitDirectiveContext,0)
-
-
-        def callDirective(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.CallDirectiveContext,0)
-
-
-        def untilDirective(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.UntilDirectiveContext,0)
-
-
-        def onDirective(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.OnDirectiveContext,0)
-
-
-        def doDirective(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.DoDirectiveContext,0)
-
-
-        def structDeclaration(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.StructDeclarationContext,0)
-
-
-        def actorDeclaration(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ActorDeclarationContext,0)
-
-
-        def scenarioDeclaration(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ScenarioDeclarationContext,0)
-
-
-        def actionDeclaration(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ActionDeclarationContext,0)
-
-
-        def modifierDeclaration(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ModifierDeclarationContext,0)
-
-
-        def enumDeclaration(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.EnumDeclarationContext,0)
-
-
-        def unitDeclaration(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.UnitDeclarationContext,0)
-
-
-        def physicalTypeDeclaration(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.PhysicalTypeDeclarationContext,0)
-
-
-        def extension(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ExtensionContext,0)
-
-
-        def globalParameter(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.GlobalParameterContext,0)
-
-
-        def removeDefault(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.RemoveDefaultContext,0)
-
-
-        def coverageDeclaration(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.CoverageDeclarationContext,0)
-
-
-        def importStatement(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ImportStatementContext,0)
-
-
-        def namespaceStatement(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.NamespaceStatementContext,0)
-
-
-        def useStatement(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.UseStatementContext,0)
-
-
-        def exportStatement(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ExportStatementContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_statement
-
-
-
+        __slots__ = ()
 
     def statement(self):
-
-        localctx = OpenSCENARIO2.StatementContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.StatementContext(self._ctx, self.state)
         self.enterRule(localctx, 4, self.RULE_statement)
         try:
             self.state = 148
-            self._errHandler.sync(self)
-            token = self._input.LA(1)
+            token = stream.types[stream.index]
             if token in [4, 5, 6, 7, 8, 57, 69, 71, 80, 81]:
-                self.enterOuterAlt(localctx, 1)
                 self.state = 120
                 self.nameStatement()
-                pass
             elif token in [45, 46, 47]:
-                self.enterOuterAlt(localctx, 2)
                 self.state = 121
                 self.composition()
-                pass
             elif token in [48]:
-                self.enterOuterAlt(localctx, 3)
                 self.state = 122
                 self.waitDirective()
-                pass
             elif token in [30]:
-                self.enterOuterAlt(localctx, 4)
                 self.state = 123
                 self.keepConstraint()
-                pass
             elif token in [28]:
-                self.enterOuterAlt(localctx, 5)
                 self.state = 124
                 self.variableDeclaration()
-                pass
             elif token in [27]:
-                self.enterOuterAlt(localctx, 6)
                 self.state = 125
                 self.eventDeclaration()
-                pass
             elif token in [29]:
-                self.enterOuterAlt(localctx, 7)
                 self.state = 126
                 self.methodDeclaration()
-                pass
             elif token in [49]:
-                self.enterOuterAlt(localctx, 8)
                 self.state = 127
                 self.emitDirective()
-                pass
             elif token in [50]:
-                self.enterOuterAlt(localctx, 9)
                 self.state = 128
                 self.callDirective()
-                pass
             elif token in [51]:
-                self.enterOuterAlt(localctx, 10)
                 self.state = 129
                 self.untilDirective()
-                pass
             elif token in [44]:
-                self.enterOuterAlt(localctx, 11)
                 self.state = 130
                 self.onDirective()
-                pass
             elif token in [43]:
-                self.enterOuterAlt(localctx, 12)
                 self.state = 131
                 self.doDirective()
-                pass
             elif token in [17]:
-                self.enterOuterAlt(localctx, 13)
                 self.state = 132
                 self.structDeclaration()
-                pass
             elif token in [18]:
-                self.enterOuterAlt(localctx, 14)
                 self.state = 133
                 self.actorDeclaration()
-                pass
             elif token in [19]:
-                self.enterOuterAlt(localctx, 15)
                 self.state = 134
                 self.scenarioDeclaration()
-                pass
             elif token in [20]:
-                self.enterOuterAlt(localctx, 16)
                 self.state = 135
                 self.actionDeclaration()
-                pass
             elif token in [21]:
-                self.enterOuterAlt(localctx, 17)
                 self.state = 136
                 self.modifierDeclaration()
-                pass
             elif token in [16]:
-                self.enterOuterAlt(localctx, 18)
                 self.state = 137
                 self.enumDeclaration()
-                pass
             elif token in [15]:
-                self.enterOuterAlt(localctx, 19)
                 self.state = 138
                 self.unitDeclaration()
-                pass
             elif token in [14]:
-                self.enterOuterAlt(localctx, 20)
                 self.state = 139
                 self.physicalTypeDeclaration()
-                pass
             elif token in [22]:
-                self.enterOuterAlt(localctx, 21)
                 self.state = 140
                 self.extension()
-                pass
             elif token in [23]:
-                self.enterOuterAlt(localctx, 22)
                 self.state = 141
                 self.globalParameter()
-                pass
             elif token in [31]:
-                self.enterOuterAlt(localctx, 23)
                 self.state = 142
                 self.removeDefault()
-                pass
             elif token in [32, 33]:
-                self.enterOuterAlt(localctx, 24)
                 self.state = 143
                 self.coverageDeclaration()
-                pass
             elif token in [10]:
-                self.enterOuterAlt(localctx, 25)
                 self.state = 144
                 self.importStatement()
-                pass
             elif token in [11]:
-                self.enterOuterAlt(localctx, 26)
                 self.state = 145
                 self.namespaceStatement()
-                pass
             elif token in [12]:
-                self.enterOuterAlt(localctx, 27)
                 self.state = 146
                 self.useStatement()
-                pass
             elif token in [13]:
-                self.enterOuterAlt(localctx, 28)
                 self.state = 147
                 self.exportStatement()
-                pass
             else:
                 raise NoViableAltException(self)
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class BodyContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def COLON(self):
-            return self.getToken(OpenSCENARIO2.COLON, 0)
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_body
-
-
-
+        __slots__ = ()
 
     def body(self):
-
-        localctx = OpenSCENARIO2.BodyContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.BodyContext(self._ctx, self.state)
         self.enterRule(localctx, 6, self.RULE_body)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 151
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==59:
                 self.state = 150
                 self.match(OpenSCENARIO2.COLON)
-
-
             self.state = 153
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 155
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 154
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class WithBlockContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def WITH(self):
-            return self.getToken(OpenSCENARIO2.WITH, 0)
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def statement(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.StatementContext,0)
-
-
-        def COLON(self):
-            return self.getToken(OpenSCENARIO2.COLON, 0)
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_withBlock
-
-
-
+        __slots__ = ()
 
     def withBlock(self):
-
-        localctx = OpenSCENARIO2.WithBlockContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.WithBlockContext(self._ctx, self.state)
         self.enterRule(localctx, 8, self.RULE_withBlock)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 157
             self.match(OpenSCENARIO2.WITH)
             self.state = 159
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==59:
                 self.state = 158
                 self.match(OpenSCENARIO2.COLON)
-
-
             self.state = 166
-            self._errHandler.sync(self)
-            token = self._input.LA(1)
+            token = stream.types[stream.index]
             if token in [1]:
                 self.state = 161
                 self.match(OpenSCENARIO2.NEWLINE)
                 self.state = 163
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
+                _la = stream.types[stream.index]
                 if _la==2:
                     self.state = 162
                     self.block()
-
-
-                pass
             elif token in [4, 5, 6, 7, 8, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 27, 28, 29, 30, 31, 32, 33, 43, 44, 45, 46, 47, 48, 49, 50, 51, 57, 69, 71, 80, 81]:
                 self.state = 165
                 self.statement()
-                pass
             else:
                 raise NoViableAltException(self)
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class ImportStatementContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def IMPORT(self):
-            return self.getToken(OpenSCENARIO2.IMPORT, 0)
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def STRING(self):
-            return self.getToken(OpenSCENARIO2.STRING, 0)
-
-        def dottedName(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.DottedNameContext,0)
-
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_importStatement
-
-
-
+        __slots__ = ()
 
     def importStatement(self):
-
-        localctx = OpenSCENARIO2.ImportStatementContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.ImportStatementContext(self._ctx, self.state)
         self.enterRule(localctx, 10, self.RULE_importStatement)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 168
             self.match(OpenSCENARIO2.IMPORT)
             self.state = 171
-            self._errHandler.sync(self)
-            token = self._input.LA(1)
+            token = stream.types[stream.index]
             if token in [8]:
                 self.state = 169
                 self.match(OpenSCENARIO2.STRING)
-                pass
             elif token in [4]:
                 self.state = 170
                 self.dottedName()
-                pass
             else:
                 raise NoViableAltException(self)
-
             self.state = 173
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 175
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 174
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class DottedNameContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def ID(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.ID)
-            else:
-                return self.getToken(OpenSCENARIO2.ID, i)
-
-        def DOT(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.DOT)
-            else:
-                return self.getToken(OpenSCENARIO2.DOT, i)
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_dottedName
-
-
-
+        __slots__ = ()
 
     def dottedName(self):
-
-        localctx = OpenSCENARIO2.DottedNameContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.DottedNameContext(self._ctx, self.state)
         self.enterRule(localctx, 12, self.RULE_dottedName)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 177
             self.match(OpenSCENARIO2.ID)
             self.state = 182
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             while _la==61:
                 self.state = 178
                 self.match(OpenSCENARIO2.DOT)
                 self.state = 179
                 self.match(OpenSCENARIO2.ID)
                 self.state = 184
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
-
+                _la = stream.types[stream.index]
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class NamespaceStatementContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def NAMESPACE(self):
-            return self.getToken(OpenSCENARIO2.NAMESPACE, 0)
-
-        def ID(self):
-            return self.getToken(OpenSCENARIO2.ID, 0)
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def USE(self):
-            return self.getToken(OpenSCENARIO2.USE, 0)
-
-        def dottedName(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.DottedNameContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.DottedNameContext,i)
-
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def COMMA(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.COMMA)
-            else:
-                return self.getToken(OpenSCENARIO2.COMMA, i)
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_namespaceStatement
-
-
-
+        __slots__ = ()
 
     def namespaceStatement(self):
-
-        localctx = OpenSCENARIO2.NamespaceStatementContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.NamespaceStatementContext(self._ctx, self.state)
         self.enterRule(localctx, 14, self.RULE_namespaceStatement)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 185
             self.match(OpenSCENARIO2.NAMESPACE)
             self.state = 186
             self.match(OpenSCENARIO2.ID)
             self.state = 196
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==12:
                 self.state = 187
                 self.match(OpenSCENARIO2.USE)
                 self.state = 188
                 self.dottedName()
                 self.state = 193
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
+                _la = stream.types[stream.index]
                 while _la==60:
                     self.state = 189
                     self.match(OpenSCENARIO2.COMMA)
                     self.state = 190
                     self.dottedName()
                     self.state = 195
-                    self._errHandler.sync(self)
-                    _la = self._input.LA(1)
-
-
-
+                    _la = stream.types[stream.index]
             self.state = 198
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 200
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 199
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class UseStatementContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def USE(self):
-            return self.getToken(OpenSCENARIO2.USE, 0)
-
-        def dottedName(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.DottedNameContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.DottedNameContext,i)
-
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def COMMA(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.COMMA)
-            else:
-                return self.getToken(OpenSCENARIO2.COMMA, i)
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_useStatement
-
-
-
+        __slots__ = ()
 
     def useStatement(self):
-
-        localctx = OpenSCENARIO2.UseStatementContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.UseStatementContext(self._ctx, self.state)
         self.enterRule(localctx, 16, self.RULE_useStatement)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 202
             self.match(OpenSCENARIO2.USE)
             self.state = 203
             self.dottedName()
             self.state = 208
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             while _la==60:
                 self.state = 204
                 self.match(OpenSCENARIO2.COMMA)
                 self.state = 205
                 self.dottedName()
                 self.state = 210
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
-
+                _la = stream.types[stream.index]
             self.state = 211
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 213
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 212
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class ExportStatementContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def EXPORT(self):
-            return self.getToken(OpenSCENARIO2.EXPORT, 0)
-
-        def exportItem(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.ExportItemContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.ExportItemContext,i)
-
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def COMMA(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.COMMA)
-            else:
-                return self.getToken(OpenSCENARIO2.COMMA, i)
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_exportStatement
-
-
-
+        __slots__ = ()
 
     def exportStatement(self):
-
-        localctx = OpenSCENARIO2.ExportStatementContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.ExportStatementContext(self._ctx, self.state)
         self.enterRule(localctx, 18, self.RULE_exportStatement)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 215
             self.match(OpenSCENARIO2.EXPORT)
             self.state = 216
             self.exportItem()
             self.state = 221
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             while _la==60:
                 self.state = 217
                 self.match(OpenSCENARIO2.COMMA)
                 self.state = 218
                 self.exportItem()
                 self.state = 223
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
-
+                _la = stream.types[stream.index]
             self.state = 224
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 226
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 225
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class ExportItemContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def ID(self):
-            return self.getToken(OpenSCENARIO2.ID, 0)
-
-        def STAR(self):
-            return self.getToken(OpenSCENARIO2.STAR, 0)
-
-        def NAMESPACE_STAR(self):
-            return self.getToken(OpenSCENARIO2.NAMESPACE_STAR, 0)
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_exportItem
-
-
-
+        __slots__ = ()
 
     def exportItem(self):
-
-        localctx = OpenSCENARIO2.ExportItemContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.ExportItemContext(self._ctx, self.state)
         self.enterRule(localctx, 20, self.RULE_exportItem)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 228
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if not(_la==4 or _la==9 or _la==82):
                 self._errHandler.recoverInline(self)
             else:
-                self._errHandler.reportMatch(self)
                 self.consume()
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class GlobalParameterContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def GLOBAL(self):
-            return self.getToken(OpenSCENARIO2.GLOBAL, 0)
-
-        def nameStatement(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.NameStatementContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_globalParameter
-
-
-
+        __slots__ = ()
 
     def globalParameter(self):
-
-        localctx = OpenSCENARIO2.GlobalParameterContext(self, self._ctx, self.state)
+        localctx = OpenSCENARIO2.GlobalParameterContext(self._ctx, self.state)
         self.enterRule(localctx, 22, self.RULE_globalParameter)
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 230
             self.match(OpenSCENARIO2.GLOBAL)
             self.state = 231
             self.nameStatement()
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class TypeNameContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def behaviorName(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,0)
-
-
-        def OF(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.OF)
-            else:
-                return self.getToken(OpenSCENARIO2.OF, i)
-
-        def LIST(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.LIST)
-            else:
-                return self.getToken(OpenSCENARIO2.LIST, i)
-
-        def RANGE(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.RANGE)
-            else:
-                return self.getToken(OpenSCENARIO2.RANGE, i)
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_typeName
-
-
-
+        __slots__ = ()
 
     def typeName(self):
-
-        localctx = OpenSCENARIO2.TypeNameContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.TypeNameContext(self._ctx, self.state)
         self.enterRule(localctx, 24, self.RULE_typeName)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 237
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             while _la==41 or _la==42:
                 self.state = 233
-                _la = self._input.LA(1)
+                _la = stream.types[stream.index]
                 if not(_la==41 or _la==42):
                     self._errHandler.recoverInline(self)
                 else:
-                    self._errHandler.reportMatch(self)
                     self.consume()
                 self.state = 234
                 self.match(OpenSCENARIO2.OF)
                 self.state = 239
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
-
+                _la = stream.types[stream.index]
             self.state = 240
             self.behaviorName()
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class BehaviorNameContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def ID(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.ID)
-            else:
-                return self.getToken(OpenSCENARIO2.ID, i)
-
-        def DOT(self):
-            return self.getToken(OpenSCENARIO2.DOT, 0)
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_behaviorName
-
-
-
+        __slots__ = ()
 
     def behaviorName(self):
-
-        localctx = OpenSCENARIO2.BehaviorNameContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.BehaviorNameContext(self._ctx, self.state)
         self.enterRule(localctx, 26, self.RULE_behaviorName)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 242
             self.match(OpenSCENARIO2.ID)
             self.state = 245
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==61:
                 self.state = 243
                 self.match(OpenSCENARIO2.DOT)
                 self.state = 244
                 self.match(OpenSCENARIO2.ID)
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class PhysicalTypeDeclarationContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def TYPE(self):
-            return self.getToken(OpenSCENARIO2.TYPE, 0)
-
-        def ID(self):
-            return self.getToken(OpenSCENARIO2.ID, 0)
-
-        def IS(self):
-            return self.getToken(OpenSCENARIO2.IS, 0)
-
-        def siUnit(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.SiUnitContext,0)
-
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_physicalTypeDeclaration
-
-
-
+        __slots__ = ()
 
     def physicalTypeDeclaration(self):
-
-        localctx = OpenSCENARIO2.PhysicalTypeDeclarationContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.PhysicalTypeDeclarationContext(self._ctx, self.state)
         self.enterRule(localctx, 28, self.RULE_physicalTypeDeclaration)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 247
             self.match(OpenSCENARIO2.TYPE)
             self.state = 248
@@ -1653,68 +943,25 @@ class OpenSCENARIO2 ( Parser ):
             self.state = 251
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 253
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 252
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class UnitDeclarationContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def UNIT(self):
-            return self.getToken(OpenSCENARIO2.UNIT, 0)
-
-        def ID(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.ID)
-            else:
-                return self.getToken(OpenSCENARIO2.ID, i)
-
-        def OF(self):
-            return self.getToken(OpenSCENARIO2.OF, 0)
-
-        def IS(self):
-            return self.getToken(OpenSCENARIO2.IS, 0)
-
-        def siUnit(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.SiUnitContext,0)
-
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_unitDeclaration
-
-
-
+        __slots__ = ()
 
     def unitDeclaration(self):
-
-        localctx = OpenSCENARIO2.UnitDeclarationContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.UnitDeclarationContext(self._ctx, self.state)
         self.enterRule(localctx, 30, self.RULE_unitDeclaration)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 255
             self.match(OpenSCENARIO2.UNIT)
             self.state = 256
@@ -1730,118 +977,51 @@ class OpenSCENARIO2 ( Parser ):
             self.state = 261
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 263
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 262
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class SiUnitContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def ID(self):
-            return self.getToken(OpenSCENARIO2.ID, 0)
-
-        def LPAREN(self):
-            return self.getToken(OpenSCENARIO2.LPAREN, 0)
-
-        def RPAREN(self):
-            return self.getToken(OpenSCENARIO2.RPAREN, 0)
-
-        def arguments(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ArgumentsContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_siUnit
-
-
-
+        __slots__ = ()
 
     def siUnit(self):
-
-        localctx = OpenSCENARIO2.SiUnitContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.SiUnitContext(self._ctx, self.state)
         self.enterRule(localctx, 32, self.RULE_siUnit)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 265
             self.match(OpenSCENARIO2.ID)
             self.state = 266
             self.match(OpenSCENARIO2.LPAREN)
             self.state = 268
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
                 self.state = 267
                 self.arguments()
-
-
             self.state = 270
             self.match(OpenSCENARIO2.RPAREN)
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class EnumDeclarationContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def ENUM(self):
-            return self.getToken(OpenSCENARIO2.ENUM, 0)
-
-        def ID(self):
-            return self.getToken(OpenSCENARIO2.ID, 0)
-
-        def COLON(self):
-            return self.getToken(OpenSCENARIO2.COLON, 0)
-
-        def enumMembers(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.EnumMembersContext,0)
-
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_enumDeclaration
-
-
-
+        __slots__ = ()
 
     def enumDeclaration(self):
-
-        localctx = OpenSCENARIO2.EnumDeclarationContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.EnumDeclarationContext(self._ctx, self.state)
         self.enterRule(localctx, 34, self.RULE_enumDeclaration)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 272
             self.match(OpenSCENARIO2.ENUM)
             self.state = 273
@@ -1853,477 +1033,217 @@ class OpenSCENARIO2 ( Parser ):
             self.state = 276
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 278
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 277
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class EnumMembersContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def LBRACKET(self):
-            return self.getToken(OpenSCENARIO2.LBRACKET, 0)
-
-        def enumMember(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.EnumMemberContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.EnumMemberContext,i)
-
-
-        def RBRACKET(self):
-            return self.getToken(OpenSCENARIO2.RBRACKET, 0)
-
-        def COMMA(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.COMMA)
-            else:
-                return self.getToken(OpenSCENARIO2.COMMA, i)
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_enumMembers
-
-
-
+        __slots__ = ()
 
     def enumMembers(self):
-
-        localctx = OpenSCENARIO2.EnumMembersContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.EnumMembersContext(self._ctx, self.state)
         self.enterRule(localctx, 36, self.RULE_enumMembers)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 280
             self.match(OpenSCENARIO2.LBRACKET)
             self.state = 281
             self.enumMember()
             self.state = 286
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             while _la==60:
                 self.state = 282
                 self.match(OpenSCENARIO2.COMMA)
                 self.state = 283
                 self.enumMember()
                 self.state = 288
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
-
+                _la = stream.types[stream.index]
             self.state = 289
             self.match(OpenSCENARIO2.RBRACKET)
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class EnumMemberContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def ID(self):
-            return self.getToken(OpenSCENARIO2.ID, 0)
-
-        def ASSIGN(self):
-            return self.getToken(OpenSCENARIO2.ASSIGN, 0)
-
-        def expression(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_enumMember
-
-
-
+        __slots__ = ()
 
     def enumMember(self):
-
-        localctx = OpenSCENARIO2.EnumMemberContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.EnumMemberContext(self._ctx, self.state)
         self.enterRule(localctx, 38, self.RULE_enumMember)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 291
             self.match(OpenSCENARIO2.ID)
             self.state = 294
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==63:
                 self.state = 292
                 self.match(OpenSCENARIO2.ASSIGN)
                 self.state = 293
                 self.expression()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class StructDeclarationContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def STRUCT(self):
-            return self.getToken(OpenSCENARIO2.STRUCT, 0)
-
-        def behaviorName(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,0)
-
-
-        def body(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BodyContext,0)
-
-
-        def inheritance(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.InheritanceContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_structDeclaration
-
-
-
+        __slots__ = ()
 
     def structDeclaration(self):
-
-        localctx = OpenSCENARIO2.StructDeclarationContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.StructDeclarationContext(self._ctx, self.state)
         self.enterRule(localctx, 40, self.RULE_structDeclaration)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 296
             self.match(OpenSCENARIO2.STRUCT)
             self.state = 297
             self.behaviorName()
             self.state = 299
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==24:
                 self.state = 298
                 self.inheritance()
-
-
             self.state = 301
             self.body()
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class ActorDeclarationContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def ACTOR(self):
-            return self.getToken(OpenSCENARIO2.ACTOR, 0)
-
-        def behaviorName(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,0)
-
-
-        def body(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BodyContext,0)
-
-
-        def inheritance(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.InheritanceContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_actorDeclaration
-
-
-
+        __slots__ = ()
 
     def actorDeclaration(self):
-
-        localctx = OpenSCENARIO2.ActorDeclarationContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.ActorDeclarationContext(self._ctx, self.state)
         self.enterRule(localctx, 42, self.RULE_actorDeclaration)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 303
             self.match(OpenSCENARIO2.ACTOR)
             self.state = 304
             self.behaviorName()
             self.state = 306
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==24:
                 self.state = 305
                 self.inheritance()
-
-
             self.state = 308
             self.body()
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class ScenarioDeclarationContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def SCENARIO(self):
-            return self.getToken(OpenSCENARIO2.SCENARIO, 0)
-
-        def behaviorName(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,0)
-
-
-        def body(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BodyContext,0)
-
-
-        def inheritance(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.InheritanceContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_scenarioDeclaration
-
-
-
+        __slots__ = ()
 
     def scenarioDeclaration(self):
-
-        localctx = OpenSCENARIO2.ScenarioDeclarationContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.ScenarioDeclarationContext(self._ctx, self.state)
         self.enterRule(localctx, 44, self.RULE_scenarioDeclaration)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 310
             self.match(OpenSCENARIO2.SCENARIO)
             self.state = 311
             self.behaviorName()
             self.state = 313
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==24:
                 self.state = 312
                 self.inheritance()
-
-
             self.state = 315
             self.body()
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class ActionDeclarationContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def ACTION(self):
-            return self.getToken(OpenSCENARIO2.ACTION, 0)
-
-        def behaviorName(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,0)
-
-
-        def body(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BodyContext,0)
-
-
-        def inheritance(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.InheritanceContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_actionDeclaration
-
-
-
+        __slots__ = ()
 
     def actionDeclaration(self):
-
-        localctx = OpenSCENARIO2.ActionDeclarationContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.ActionDeclarationContext(self._ctx, self.state)
         self.enterRule(localctx, 46, self.RULE_actionDeclaration)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 317
             self.match(OpenSCENARIO2.ACTION)
             self.state = 318
             self.behaviorName()
             self.state = 320
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==24:
                 self.state = 319
                 self.inheritance()
-
-
             self.state = 322
             self.body()
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class ModifierDeclarationContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def MODIFIER(self):
-            return self.getToken(OpenSCENARIO2.MODIFIER, 0)
-
-        def behaviorName(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.BehaviorNameContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,i)
-
-
-        def body(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BodyContext,0)
-
-
-        def OF(self):
-            return self.getToken(OpenSCENARIO2.OF, 0)
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_modifierDeclaration
-
-
-
+        __slots__ = ()
 
     def modifierDeclaration(self):
-
-        localctx = OpenSCENARIO2.ModifierDeclarationContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.ModifierDeclarationContext(self._ctx, self.state)
         self.enterRule(localctx, 48, self.RULE_modifierDeclaration)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 324
             self.match(OpenSCENARIO2.MODIFIER)
             self.state = 325
             self.behaviorName()
             self.state = 328
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==25:
                 self.state = 326
                 self.match(OpenSCENARIO2.OF)
                 self.state = 327
                 self.behaviorName()
-
-
             self.state = 330
             self.body()
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class InheritanceContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def INHERITS(self):
-            return self.getToken(OpenSCENARIO2.INHERITS, 0)
-
-        def behaviorName(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,0)
-
-
-        def LPAREN(self):
-            return self.getToken(OpenSCENARIO2.LPAREN, 0)
-
-        def expression(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
-
-
-        def RPAREN(self):
-            return self.getToken(OpenSCENARIO2.RPAREN, 0)
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_inheritance
-
-
-
+        __slots__ = ()
 
     def inheritance(self):
-
-        localctx = OpenSCENARIO2.InheritanceContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.InheritanceContext(self._ctx, self.state)
         self.enterRule(localctx, 50, self.RULE_inheritance)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 332
             self.match(OpenSCENARIO2.INHERITS)
             self.state = 333
             self.behaviorName()
             self.state = 338
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==69:
                 self.state = 334
                 self.match(OpenSCENARIO2.LPAREN)
@@ -2331,291 +1251,128 @@ class OpenSCENARIO2 ( Parser ):
                 self.expression()
                 self.state = 336
                 self.match(OpenSCENARIO2.RPAREN)
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class ExtensionContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def EXTEND(self):
-            return self.getToken(OpenSCENARIO2.EXTEND, 0)
-
-        def behaviorName(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,0)
-
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def COLON(self):
-            return self.getToken(OpenSCENARIO2.COLON, 0)
-
-        def enumMembers(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.EnumMembersContext,0)
-
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_extension
-
-
-
+        __slots__ = ()
 
     def extension(self):
-
-        localctx = OpenSCENARIO2.ExtensionContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.ExtensionContext(self._ctx, self.state)
         self.enterRule(localctx, 52, self.RULE_extension)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 340
             self.match(OpenSCENARIO2.EXTEND)
             self.state = 341
             self.behaviorName()
             self.state = 343
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==59:
                 self.state = 342
                 self.match(OpenSCENARIO2.COLON)
-
-
             self.state = 346
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==71:
                 self.state = 345
                 self.enumMembers()
-
-
             self.state = 348
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 350
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 349
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class EventDeclarationContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def EVENT(self):
-            return self.getToken(OpenSCENARIO2.EVENT, 0)
-
-        def ID(self):
-            return self.getToken(OpenSCENARIO2.ID, 0)
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def LPAREN(self):
-            return self.getToken(OpenSCENARIO2.LPAREN, 0)
-
-        def RPAREN(self):
-            return self.getToken(OpenSCENARIO2.RPAREN, 0)
-
-        def IS(self):
-            return self.getToken(OpenSCENARIO2.IS, 0)
-
-        def eventSpecification(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.EventSpecificationContext,0)
-
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def parameters(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ParametersContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_eventDeclaration
-
-
-
+        __slots__ = ()
 
     def eventDeclaration(self):
-
-        localctx = OpenSCENARIO2.EventDeclarationContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.EventDeclarationContext(self._ctx, self.state)
         self.enterRule(localctx, 54, self.RULE_eventDeclaration)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 352
             self.match(OpenSCENARIO2.EVENT)
             self.state = 353
             self.match(OpenSCENARIO2.ID)
             self.state = 359
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==69:
                 self.state = 354
                 self.match(OpenSCENARIO2.LPAREN)
                 self.state = 356
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
+                _la = stream.types[stream.index]
                 if _la==4:
                     self.state = 355
                     self.parameters()
-
-
                 self.state = 358
                 self.match(OpenSCENARIO2.RPAREN)
-
-
             self.state = 363
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==26:
                 self.state = 361
                 self.match(OpenSCENARIO2.IS)
                 self.state = 362
                 self.eventSpecification()
-
-
             self.state = 365
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 367
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 366
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class ParametersContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def parameter(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.ParameterContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.ParameterContext,i)
-
-
-        def COMMA(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.COMMA)
-            else:
-                return self.getToken(OpenSCENARIO2.COMMA, i)
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_parameters
-
-
-
+        __slots__ = ()
 
     def parameters(self):
-
-        localctx = OpenSCENARIO2.ParametersContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.ParametersContext(self._ctx, self.state)
         self.enterRule(localctx, 56, self.RULE_parameters)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 369
             self.parameter()
             self.state = 374
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             while _la==60:
                 self.state = 370
                 self.match(OpenSCENARIO2.COMMA)
                 self.state = 371
                 self.parameter()
                 self.state = 376
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
-
+                _la = stream.types[stream.index]
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class ParameterContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def ID(self):
-            return self.getToken(OpenSCENARIO2.ID, 0)
-
-        def COLON(self):
-            return self.getToken(OpenSCENARIO2.COLON, 0)
-
-        def typeName(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.TypeNameContext,0)
-
-
-        def ASSIGN(self):
-            return self.getToken(OpenSCENARIO2.ASSIGN, 0)
-
-        def expression(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_parameter
-
-
-
+        __slots__ = ()
 
     def parameter(self):
-
-        localctx = OpenSCENARIO2.ParameterContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.ParameterContext(self._ctx, self.state)
         self.enterRule(localctx, 58, self.RULE_parameter)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 377
             self.match(OpenSCENARIO2.ID)
             self.state = 378
@@ -2623,258 +1380,112 @@ class OpenSCENARIO2 ( Parser ):
             self.state = 379
             self.typeName()
             self.state = 382
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==63:
                 self.state = 380
                 self.match(OpenSCENARIO2.ASSIGN)
                 self.state = 381
                 self.expression()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class EventSpecificationContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def expression(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.ExpressionContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,i)
-
-
-        def AT(self):
-            return self.getToken(OpenSCENARIO2.AT, 0)
-
-        def AS(self):
-            return self.getToken(OpenSCENARIO2.AS, 0)
-
-        def ID(self):
-            return self.getToken(OpenSCENARIO2.ID, 0)
-
-        def IF(self):
-            return self.getToken(OpenSCENARIO2.IF, 0)
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_eventSpecification
-
-
-
+        __slots__ = ()
 
     def eventSpecification(self):
-
-        localctx = OpenSCENARIO2.EventSpecificationContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.EventSpecificationContext(self._ctx, self.state)
         self.enterRule(localctx, 60, self.RULE_eventSpecification)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 385
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==64:
                 self.state = 384
                 self.match(OpenSCENARIO2.AT)
-
-
             self.state = 387
             self.expression()
             self.state = 390
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==53:
                 self.state = 388
                 self.match(OpenSCENARIO2.AS)
                 self.state = 389
                 self.match(OpenSCENARIO2.ID)
-
-
             self.state = 394
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==54:
                 self.state = 392
                 self.match(OpenSCENARIO2.IF)
                 self.state = 393
                 self.expression()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class VariableDeclarationContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def VAR(self):
-            return self.getToken(OpenSCENARIO2.VAR, 0)
-
-        def ID(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.ID)
-            else:
-                return self.getToken(OpenSCENARIO2.ID, i)
-
-        def COLON(self):
-            return self.getToken(OpenSCENARIO2.COLON, 0)
-
-        def typeName(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.TypeNameContext,0)
-
-
-        def ending(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.EndingContext,0)
-
-
-        def COMMA(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.COMMA)
-            else:
-                return self.getToken(OpenSCENARIO2.COMMA, i)
-
-        def ASSIGN(self):
-            return self.getToken(OpenSCENARIO2.ASSIGN, 0)
-
-        def sampleExpression(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.SampleExpressionContext,0)
-
-
-        def expression(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_variableDeclaration
-
-
-
+        __slots__ = ()
 
     def variableDeclaration(self):
-
-        localctx = OpenSCENARIO2.VariableDeclarationContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.VariableDeclarationContext(self._ctx, self.state)
         self.enterRule(localctx, 62, self.RULE_variableDeclaration)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 396
             self.match(OpenSCENARIO2.VAR)
             self.state = 397
             self.match(OpenSCENARIO2.ID)
             self.state = 402
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             while _la==60:
                 self.state = 398
                 self.match(OpenSCENARIO2.COMMA)
                 self.state = 399
                 self.match(OpenSCENARIO2.ID)
                 self.state = 404
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
-
+                _la = stream.types[stream.index]
             self.state = 405
             self.match(OpenSCENARIO2.COLON)
             self.state = 406
             self.typeName()
             self.state = 412
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==63:
                 self.state = 407
                 self.match(OpenSCENARIO2.ASSIGN)
                 self.state = 410
-                self._errHandler.sync(self)
-                token = self._input.LA(1)
+                token = stream.types[stream.index]
                 if token in [40]:
                     self.state = 408
                     self.sampleExpression()
-                    pass
                 elif token in [4, 5, 6, 7, 8, 57, 69, 71, 80, 81]:
                     self.state = 409
                     self.expression()
-                    pass
                 else:
                     raise NoViableAltException(self)
-
-
-
             self.state = 414
             self.ending()
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class SampleExpressionContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def SAMPLE(self):
-            return self.getToken(OpenSCENARIO2.SAMPLE, 0)
-
-        def LPAREN(self):
-            return self.getToken(OpenSCENARIO2.LPAREN, 0)
-
-        def expression(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.ExpressionContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,i)
-
-
-        def COMMA(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.COMMA)
-            else:
-                return self.getToken(OpenSCENARIO2.COMMA, i)
-
-        def eventSpecification(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.EventSpecificationContext,0)
-
-
-        def RPAREN(self):
-            return self.getToken(OpenSCENARIO2.RPAREN, 0)
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_sampleExpression
-
-
-
+        __slots__ = ()
 
     def sampleExpression(self):
-
-        localctx = OpenSCENARIO2.SampleExpressionContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.SampleExpressionContext(self._ctx, self.state)
         self.enterRule(localctx, 64, self.RULE_sampleExpression)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 416
             self.match(OpenSCENARIO2.SAMPLE)
             self.state = 417
@@ -2886,109 +1497,29 @@ class OpenSCENARIO2 ( Parser ):
             self.state = 420
             self.eventSpecification()
             self.state = 423
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==60:
                 self.state = 421
                 self.match(OpenSCENARIO2.COMMA)
                 self.state = 422
                 self.expression()
-
-
             self.state = 425
             self.match(OpenSCENARIO2.RPAREN)
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class MethodDeclarationContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def DEF(self):
-            return self.getToken(OpenSCENARIO2.DEF, 0)
-
-        def ID(self):
-            return self.getToken(OpenSCENARIO2.ID, 0)
-
-        def LPAREN(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.LPAREN)
-            else:
-                return self.getToken(OpenSCENARIO2.LPAREN, i)
-
-        def RPAREN(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.RPAREN)
-            else:
-                return self.getToken(OpenSCENARIO2.RPAREN, i)
-
-        def IS(self):
-            return self.getToken(OpenSCENARIO2.IS, 0)
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def EXPRESSION(self):
-            return self.getToken(OpenSCENARIO2.EXPRESSION, 0)
-
-        def expression(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
-
-
-        def UNDEFINED(self):
-            return self.getToken(OpenSCENARIO2.UNDEFINED, 0)
-
-        def EXTERNAL(self):
-            return self.getToken(OpenSCENARIO2.EXTERNAL, 0)
-
-        def dottedName(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.DottedNameContext,0)
-
-
-        def parameters(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ParametersContext,0)
-
-
-        def ARROW(self):
-            return self.getToken(OpenSCENARIO2.ARROW, 0)
-
-        def typeName(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.TypeNameContext,0)
-
-
-        def ONLY(self):
-            return self.getToken(OpenSCENARIO2.ONLY, 0)
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def arguments(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ArgumentsContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_methodDeclaration
-
-
-
+        __slots__ = ()
 
     def methodDeclaration(self):
-
-        localctx = OpenSCENARIO2.MethodDeclarationContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.MethodDeclarationContext(self._ctx, self.state)
         self.enterRule(localctx, 66, self.RULE_methodDeclaration)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 427
             self.match(OpenSCENARIO2.DEF)
             self.state = 428
@@ -2996,48 +1527,36 @@ class OpenSCENARIO2 ( Parser ):
             self.state = 429
             self.match(OpenSCENARIO2.LPAREN)
             self.state = 431
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==4:
                 self.state = 430
                 self.parameters()
-
-
             self.state = 433
             self.match(OpenSCENARIO2.RPAREN)
             self.state = 436
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==65:
                 self.state = 434
                 self.match(OpenSCENARIO2.ARROW)
                 self.state = 435
                 self.typeName()
-
-
             self.state = 438
             self.match(OpenSCENARIO2.IS)
             self.state = 440
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==36:
                 self.state = 439
                 self.match(OpenSCENARIO2.ONLY)
-
-
             self.state = 453
-            self._errHandler.sync(self)
-            token = self._input.LA(1)
+            token = stream.types[stream.index]
             if token in [37]:
                 self.state = 442
                 self.match(OpenSCENARIO2.EXPRESSION)
                 self.state = 443
                 self.expression()
-                pass
             elif token in [38]:
                 self.state = 444
                 self.match(OpenSCENARIO2.UNDEFINED)
-                pass
             elif token in [39]:
                 self.state = 445
                 self.match(OpenSCENARIO2.EXTERNAL)
@@ -3046,101 +1565,49 @@ class OpenSCENARIO2 ( Parser ):
                 self.state = 447
                 self.match(OpenSCENARIO2.LPAREN)
                 self.state = 449
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
+                _la = stream.types[stream.index]
                 if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
                     self.state = 448
                     self.arguments()
-
-
                 self.state = 451
                 self.match(OpenSCENARIO2.RPAREN)
-                pass
             else:
                 raise NoViableAltException(self)
-
             self.state = 455
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 457
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 456
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class KeepConstraintContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def KEEP(self):
-            return self.getToken(OpenSCENARIO2.KEEP, 0)
-
-        def LPAREN(self):
-            return self.getToken(OpenSCENARIO2.LPAREN, 0)
-
-        def expression(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
-
-
-        def RPAREN(self):
-            return self.getToken(OpenSCENARIO2.RPAREN, 0)
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def DEFAULT(self):
-            return self.getToken(OpenSCENARIO2.DEFAULT, 0)
-
-        def HARD(self):
-            return self.getToken(OpenSCENARIO2.HARD, 0)
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_keepConstraint
-
-
-
+        __slots__ = ()
 
     def keepConstraint(self):
-
-        localctx = OpenSCENARIO2.KeepConstraintContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.KeepConstraintContext(self._ctx, self.state)
         self.enterRule(localctx, 68, self.RULE_keepConstraint)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 459
             self.match(OpenSCENARIO2.KEEP)
             self.state = 460
             self.match(OpenSCENARIO2.LPAREN)
             self.state = 462
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==34 or _la==35:
                 self.state = 461
-                _la = self._input.LA(1)
+                _la = stream.types[stream.index]
                 if not(_la==34 or _la==35):
                     self._errHandler.recoverInline(self)
                 else:
-                    self._errHandler.reportMatch(self)
                     self.consume()
-
-
             self.state = 464
             self.expression()
             self.state = 465
@@ -3148,62 +1615,25 @@ class OpenSCENARIO2 ( Parser ):
             self.state = 466
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 468
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 467
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class RemoveDefaultContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def REMOVE_DEFAULT(self):
-            return self.getToken(OpenSCENARIO2.REMOVE_DEFAULT, 0)
-
-        def LPAREN(self):
-            return self.getToken(OpenSCENARIO2.LPAREN, 0)
-
-        def expression(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
-
-
-        def RPAREN(self):
-            return self.getToken(OpenSCENARIO2.RPAREN, 0)
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_removeDefault
-
-
-
+        __slots__ = ()
 
     def removeDefault(self):
-
-        localctx = OpenSCENARIO2.RemoveDefaultContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.RemoveDefaultContext(self._ctx, self.state)
         self.enterRule(localctx, 70, self.RULE_removeDefault)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 470
             self.match(OpenSCENARIO2.REMOVE_DEFAULT)
             self.state = 471
@@ -3215,437 +1645,200 @@ class OpenSCENARIO2 ( Parser ):
             self.state = 474
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 476
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 475
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class CoverageDeclarationContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def LPAREN(self):
-            return self.getToken(OpenSCENARIO2.LPAREN, 0)
-
-        def RPAREN(self):
-            return self.getToken(OpenSCENARIO2.RPAREN, 0)
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def COVER(self):
-            return self.getToken(OpenSCENARIO2.COVER, 0)
-
-        def RECORD(self):
-            return self.getToken(OpenSCENARIO2.RECORD, 0)
-
-        def arguments(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ArgumentsContext,0)
-
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_coverageDeclaration
-
-
-
+        __slots__ = ()
 
     def coverageDeclaration(self):
-
-        localctx = OpenSCENARIO2.CoverageDeclarationContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.CoverageDeclarationContext(self._ctx, self.state)
         self.enterRule(localctx, 72, self.RULE_coverageDeclaration)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 478
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if not(_la==32 or _la==33):
                 self._errHandler.recoverInline(self)
             else:
-                self._errHandler.reportMatch(self)
                 self.consume()
             self.state = 479
             self.match(OpenSCENARIO2.LPAREN)
             self.state = 481
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
                 self.state = 480
                 self.arguments()
-
-
             self.state = 483
             self.match(OpenSCENARIO2.RPAREN)
             self.state = 484
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 486
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 485
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class NameStatementContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def expression(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.ExpressionContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,i)
-
-
-        def COLON(self):
-            return self.getToken(OpenSCENARIO2.COLON, 0)
-
-        def ending(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.EndingContext,0)
-
-
-        def COMMA(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.COMMA)
-            else:
-                return self.getToken(OpenSCENARIO2.COMMA, i)
-
-        def composition(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.CompositionContext,0)
-
-
-        def waitDirective(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.WaitDirectiveContext,0)
-
-
-        def emitDirective(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.EmitDirectiveContext,0)
-
-
-        def callDirective(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.CallDirectiveContext,0)
-
-
-        def typedRest(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.TypedRestContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_nameStatement
-
-
-
+        __slots__ = ()
 
     def nameStatement(self):
-
-        localctx = OpenSCENARIO2.NameStatementContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.NameStatementContext(self._ctx, self.state)
         self.enterRule(localctx, 74, self.RULE_nameStatement)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 488
             self.expression()
             self.state = 493
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             while _la==60:
                 self.state = 489
                 self.match(OpenSCENARIO2.COMMA)
                 self.state = 490
                 self.expression()
                 self.state = 495
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
-
+                _la = stream.types[stream.index]
             self.state = 505
-            self._errHandler.sync(self)
-            token = self._input.LA(1)
+            token = stream.types[stream.index]
             if token in [59]:
                 self.state = 496
                 self.match(OpenSCENARIO2.COLON)
                 self.state = 502
-                self._errHandler.sync(self)
-                token = self._input.LA(1)
+                token = stream.types[stream.index]
                 if token in [45, 46, 47]:
                     self.state = 497
                     self.composition()
-                    pass
                 elif token in [48]:
                     self.state = 498
                     self.waitDirective()
-                    pass
                 elif token in [49]:
                     self.state = 499
                     self.emitDirective()
-                    pass
                 elif token in [50]:
                     self.state = 500
                     self.callDirective()
-                    pass
                 elif token in [4, 5, 6, 7, 8, 41, 42, 57, 69, 71, 80, 81]:
                     self.state = 501
                     self.typedRest()
-                    pass
                 else:
                     raise NoViableAltException(self)
-
-                pass
             elif token in [1, 52]:
                 self.state = 504
                 self.ending()
-                pass
             else:
                 raise NoViableAltException(self)
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class TypedRestContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def ending(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.EndingContext,0)
-
-
-        def behaviorName(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BehaviorNameContext,0)
-
-
-        def expression(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.ExpressionContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,i)
-
-
-        def ASSIGN(self):
-            return self.getToken(OpenSCENARIO2.ASSIGN, 0)
-
-        def OF(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.OF)
-            else:
-                return self.getToken(OpenSCENARIO2.OF, i)
-
-        def LIST(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.LIST)
-            else:
-                return self.getToken(OpenSCENARIO2.LIST, i)
-
-        def RANGE(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.RANGE)
-            else:
-                return self.getToken(OpenSCENARIO2.RANGE, i)
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_typedRest
-
-
-
+        __slots__ = ()
 
     def typedRest(self):
-
-        localctx = OpenSCENARIO2.TypedRestContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.TypedRestContext(self._ctx, self.state)
         self.enterRule(localctx, 76, self.RULE_typedRest)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 515
-            self._errHandler.sync(self)
-            token = self._input.LA(1)
+            token = stream.types[stream.index]
             if token in [41, 42]:
-                self.state = 509 
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
+                self.state = 509
+                _la = stream.types[stream.index]
                 while True:
                     self.state = 507
-                    _la = self._input.LA(1)
+                    _la = stream.types[stream.index]
                     if not(_la==41 or _la==42):
                         self._errHandler.recoverInline(self)
                     else:
-                        self._errHandler.reportMatch(self)
                         self.consume()
                     self.state = 508
                     self.match(OpenSCENARIO2.OF)
-                    self.state = 511 
-                    self._errHandler.sync(self)
-                    _la = self._input.LA(1)
+                    self.state = 511
+                    _la = stream.types[stream.index]
                     if not (_la==41 or _la==42):
                         break
-
                 self.state = 513
                 self.behaviorName()
-                pass
             elif token in [4, 5, 6, 7, 8, 57, 69, 71, 80, 81]:
                 self.state = 514
                 self.expression()
-                pass
             else:
                 raise NoViableAltException(self)
-
             self.state = 519
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==63:
                 self.state = 517
                 self.match(OpenSCENARIO2.ASSIGN)
                 self.state = 518
                 self.expression()
-
-
             self.state = 521
             self.ending()
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class EndingContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def withBlock(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.WithBlockContext,0)
-
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_ending
-
-
-
+        __slots__ = ()
 
     def ending(self):
-
-        localctx = OpenSCENARIO2.EndingContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.EndingContext(self._ctx, self.state)
         self.enterRule(localctx, 78, self.RULE_ending)
-        self._la = 0 # Token type
         try:
             self.state = 531
-            self._errHandler.sync(self)
-            token = self._input.LA(1)
+            token = stream.types[stream.index]
             if token in [52]:
-                self.enterOuterAlt(localctx, 1)
                 self.state = 523
                 self.withBlock()
-                pass
             elif token in [1]:
-                self.enterOuterAlt(localctx, 2)
                 self.state = 524
                 self.match(OpenSCENARIO2.NEWLINE)
                 self.state = 526
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
+                _la = stream.types[stream.index]
                 if _la==2:
                     self.state = 525
                     self.block()
-
-
                 self.state = 529
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
+                _la = stream.types[stream.index]
                 if _la==52:
                     self.state = 528
                     self.withBlock()
-
-
-                pass
             else:
                 raise NoViableAltException(self)
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class OnDirectiveContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def ON(self):
-            return self.getToken(OpenSCENARIO2.ON, 0)
-
-        def eventSpecification(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.EventSpecificationContext,0)
-
-
-        def body(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BodyContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_onDirective
-
-
-
+        __slots__ = ()
 
     def onDirective(self):
-
-        localctx = OpenSCENARIO2.OnDirectiveContext(self, self._ctx, self.state)
+        localctx = OpenSCENARIO2.OnDirectiveContext(self._ctx, self.state)
         self.enterRule(localctx, 80, self.RULE_onDirective)
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 533
             self.match(OpenSCENARIO2.ON)
             self.state = 534
@@ -3653,277 +1846,121 @@ class OpenSCENARIO2 ( Parser ):
             self.state = 535
             self.body()
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class DoDirectiveContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def DO(self):
-            return self.getToken(OpenSCENARIO2.DO, 0)
-
-        def COLON(self):
-            return self.getToken(OpenSCENARIO2.COLON, 0)
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def composition(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.CompositionContext,0)
-
-
-        def waitDirective(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.WaitDirectiveContext,0)
-
-
-        def emitDirective(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.EmitDirectiveContext,0)
-
-
-        def callDirective(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.CallDirectiveContext,0)
-
-
-        def nameStatement(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.NameStatementContext,0)
-
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def withBlock(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.WithBlockContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_doDirective
-
-
-
+        __slots__ = ()
 
     def doDirective(self):
-
-        localctx = OpenSCENARIO2.DoDirectiveContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.DoDirectiveContext(self._ctx, self.state)
         self.enterRule(localctx, 82, self.RULE_doDirective)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 537
             self.match(OpenSCENARIO2.DO)
             self.state = 551
-            self._errHandler.sync(self)
-            token = self._input.LA(1)
+            token = stream.types[stream.index]
             if token in [59]:
                 self.state = 538
                 self.match(OpenSCENARIO2.COLON)
                 self.state = 539
                 self.match(OpenSCENARIO2.NEWLINE)
                 self.state = 541
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
+                _la = stream.types[stream.index]
                 if _la==2:
                     self.state = 540
                     self.block()
-
-
                 self.state = 544
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
+                _la = stream.types[stream.index]
                 if _la==52:
                     self.state = 543
                     self.withBlock()
-
-
-                pass
             elif token in [45, 46, 47]:
                 self.state = 546
                 self.composition()
-                pass
             elif token in [48]:
                 self.state = 547
                 self.waitDirective()
-                pass
             elif token in [49]:
                 self.state = 548
                 self.emitDirective()
-                pass
             elif token in [50]:
                 self.state = 549
                 self.callDirective()
-                pass
             elif token in [4, 5, 6, 7, 8, 57, 69, 71, 80, 81]:
                 self.state = 550
                 self.nameStatement()
-                pass
             else:
                 raise NoViableAltException(self)
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class CompositionContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def SERIAL(self):
-            return self.getToken(OpenSCENARIO2.SERIAL, 0)
-
-        def PARALLEL(self):
-            return self.getToken(OpenSCENARIO2.PARALLEL, 0)
-
-        def ONE_OF(self):
-            return self.getToken(OpenSCENARIO2.ONE_OF, 0)
-
-        def LPAREN(self):
-            return self.getToken(OpenSCENARIO2.LPAREN, 0)
-
-        def RPAREN(self):
-            return self.getToken(OpenSCENARIO2.RPAREN, 0)
-
-        def COLON(self):
-            return self.getToken(OpenSCENARIO2.COLON, 0)
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def withBlock(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.WithBlockContext,0)
-
-
-        def arguments(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ArgumentsContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_composition
-
-
-
+        __slots__ = ()
 
     def composition(self):
-
-        localctx = OpenSCENARIO2.CompositionContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.CompositionContext(self._ctx, self.state)
         self.enterRule(localctx, 84, self.RULE_composition)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 553
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if not((((_la) & ~0x3f) == 0 and ((1 << _la) & 246290604621824) != 0)):
                 self._errHandler.recoverInline(self)
             else:
-                self._errHandler.reportMatch(self)
                 self.consume()
             self.state = 559
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==69:
                 self.state = 554
                 self.match(OpenSCENARIO2.LPAREN)
                 self.state = 556
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
+                _la = stream.types[stream.index]
                 if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
                     self.state = 555
                     self.arguments()
-
-
                 self.state = 558
                 self.match(OpenSCENARIO2.RPAREN)
-
-
             self.state = 562
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==59:
                 self.state = 561
                 self.match(OpenSCENARIO2.COLON)
-
-
             self.state = 564
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 566
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 565
                 self.block()
-
-
             self.state = 569
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==52:
                 self.state = 568
                 self.withBlock()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class WaitDirectiveContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def WAIT(self):
-            return self.getToken(OpenSCENARIO2.WAIT, 0)
-
-        def eventSpecification(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.EventSpecificationContext,0)
-
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_waitDirective
-
-
-
+        __slots__ = ()
 
     def waitDirective(self):
-
-        localctx = OpenSCENARIO2.WaitDirectiveContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.WaitDirectiveContext(self._ctx, self.state)
         self.enterRule(localctx, 86, self.RULE_waitDirective)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 571
             self.match(OpenSCENARIO2.WAIT)
             self.state = 572
@@ -3931,56 +1968,25 @@ class OpenSCENARIO2 ( Parser ):
             self.state = 573
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 575
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 574
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class EmitDirectiveContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def EMIT(self):
-            return self.getToken(OpenSCENARIO2.EMIT, 0)
-
-        def expression(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
-
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_emitDirective
-
-
-
+        __slots__ = ()
 
     def emitDirective(self):
-
-        localctx = OpenSCENARIO2.EmitDirectiveContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.EmitDirectiveContext(self._ctx, self.state)
         self.enterRule(localctx, 88, self.RULE_emitDirective)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 577
             self.match(OpenSCENARIO2.EMIT)
             self.state = 578
@@ -3988,56 +1994,25 @@ class OpenSCENARIO2 ( Parser ):
             self.state = 579
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 581
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 580
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class CallDirectiveContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def CALL(self):
-            return self.getToken(OpenSCENARIO2.CALL, 0)
-
-        def expression(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,0)
-
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_callDirective
-
-
-
+        __slots__ = ()
 
     def callDirective(self):
-
-        localctx = OpenSCENARIO2.CallDirectiveContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.CallDirectiveContext(self._ctx, self.state)
         self.enterRule(localctx, 90, self.RULE_callDirective)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 583
             self.match(OpenSCENARIO2.CALL)
             self.state = 584
@@ -4045,56 +2020,25 @@ class OpenSCENARIO2 ( Parser ):
             self.state = 585
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 587
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 586
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class UntilDirectiveContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def UNTIL(self):
-            return self.getToken(OpenSCENARIO2.UNTIL, 0)
-
-        def eventSpecification(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.EventSpecificationContext,0)
-
-
-        def NEWLINE(self):
-            return self.getToken(OpenSCENARIO2.NEWLINE, 0)
-
-        def block(self):
-            return self.getTypedRuleContext(OpenSCENARIO2.BlockContext,0)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_untilDirective
-
-
-
+        __slots__ = ()
 
     def untilDirective(self):
-
-        localctx = OpenSCENARIO2.UntilDirectiveContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.UntilDirectiveContext(self._ctx, self.state)
         self.enterRule(localctx, 92, self.RULE_untilDirective)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 589
             self.match(OpenSCENARIO2.UNTIL)
             self.state = 590
@@ -4102,319 +2046,77 @@ class OpenSCENARIO2 ( Parser ):
             self.state = 591
             self.match(OpenSCENARIO2.NEWLINE)
             self.state = 593
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==2:
                 self.state = 592
                 self.block()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class ExpressionContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def ID(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.ID)
-            else:
-                return self.getToken(OpenSCENARIO2.ID, i)
-
-        def INTEGER(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.INTEGER)
-            else:
-                return self.getToken(OpenSCENARIO2.INTEGER, i)
-
-        def FLOAT(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.FLOAT)
-            else:
-                return self.getToken(OpenSCENARIO2.FLOAT, i)
-
-        def PHYSICAL(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.PHYSICAL)
-            else:
-                return self.getToken(OpenSCENARIO2.PHYSICAL, i)
-
-        def STRING(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.STRING)
-            else:
-                return self.getToken(OpenSCENARIO2.STRING, i)
-
-        def group(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.GroupContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.GroupContext,i)
-
-
-        def DOT(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.DOT)
-            else:
-                return self.getToken(OpenSCENARIO2.DOT, i)
-
-        def BANG(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.BANG)
-            else:
-                return self.getToken(OpenSCENARIO2.BANG, i)
-
-        def LBRACKET(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.LBRACKET)
-            else:
-                return self.getToken(OpenSCENARIO2.LBRACKET, i)
-
-        def expression(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.ExpressionContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,i)
-
-
-        def RBRACKET(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.RBRACKET)
-            else:
-                return self.getToken(OpenSCENARIO2.RBRACKET, i)
-
-        def LPAREN(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.LPAREN)
-            else:
-                return self.getToken(OpenSCENARIO2.LPAREN, i)
-
-        def RPAREN(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.RPAREN)
-            else:
-                return self.getToken(OpenSCENARIO2.RPAREN, i)
-
-        def QUESTION(self):
-            return self.getToken(OpenSCENARIO2.QUESTION, 0)
-
-        def COLON(self):
-            return self.getToken(OpenSCENARIO2.COLON, 0)
-
-        def MINUS(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.MINUS)
-            else:
-                return self.getToken(OpenSCENARIO2.MINUS, i)
-
-        def PLUS(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.PLUS)
-            else:
-                return self.getToken(OpenSCENARIO2.PLUS, i)
-
-        def NOT(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.NOT)
-            else:
-                return self.getToken(OpenSCENARIO2.NOT, i)
-
-        def IMPLIES(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.IMPLIES)
-            else:
-                return self.getToken(OpenSCENARIO2.IMPLIES, i)
-
-        def OR(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.OR)
-            else:
-                return self.getToken(OpenSCENARIO2.OR, i)
-
-        def AND(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.AND)
-            else:
-                return self.getToken(OpenSCENARIO2.AND, i)
-
-        def EQUAL(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.EQUAL)
-            else:
-                return self.getToken(OpenSCENARIO2.EQUAL, i)
-
-        def NOT_EQUAL(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.NOT_EQUAL)
-            else:
-                return self.getToken(OpenSCENARIO2.NOT_EQUAL, i)
-
-        def LESS(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.LESS)
-            else:
-                return self.getToken(OpenSCENARIO2.LESS, i)
-
-        def LESS_EQUAL(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.LESS_EQUAL)
-            else:
-                return self.getToken(OpenSCENARIO2.LESS_EQUAL, i)
-
-        def GREATER(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.GREATER)
-            else:
-                return self.getToken(OpenSCENARIO2.GREATER, i)
-
-        def GREATER_EQUAL(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.GREATER_EQUAL)
-            else:
-                return self.getToken(OpenSCENARIO2.GREATER_EQUAL, i)
-
-        def IN(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.IN)
-            else:
-                return self.getToken(OpenSCENARIO2.IN, i)
-
-        def STAR(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.STAR)
-            else:
-                return self.getToken(OpenSCENARIO2.STAR, i)
-
-        def SLASH(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.SLASH)
-            else:
-                return self.getToken(OpenSCENARIO2.SLASH, i)
-
-        def PERCENT(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.PERCENT)
-            else:
-                return self.getToken(OpenSCENARIO2.PERCENT, i)
-
-        def typeName(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.TypeNameContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.TypeNameContext,i)
-
-
-        def AS(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.AS)
-            else:
-                return self.getToken(OpenSCENARIO2.AS, i)
-
-        def IS(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.IS)
-            else:
-                return self.getToken(OpenSCENARIO2.IS, i)
-
-        def arguments(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.ArgumentsContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.ArgumentsContext,i)
-
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_expression
-
-
-
+        __slots__ = ()
 
     def expression(self):
-
-        localctx = OpenSCENARIO2.ExpressionContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.ExpressionContext(self._ctx, self.state)
         self.enterRule(localctx, 94, self.RULE_expression)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 598
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             while ((((_la - 57)) & ~0x3f) == 0 and ((1 << (_la - 57)) & 25165825) != 0):
                 self.state = 595
-                _la = self._input.LA(1)
+                _la = stream.types[stream.index]
                 if not(((((_la - 57)) & ~0x3f) == 0 and ((1 << (_la - 57)) & 25165825) != 0)):
                     self._errHandler.recoverInline(self)
                 else:
-                    self._errHandler.reportMatch(self)
                     self.consume()
                 self.state = 600
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
-
+                _la = stream.types[stream.index]
             self.state = 607
-            self._errHandler.sync(self)
-            token = self._input.LA(1)
+            token = stream.types[stream.index]
             if token in [4]:
                 self.state = 601
                 self.match(OpenSCENARIO2.ID)
-                pass
             elif token in [5]:
                 self.state = 602
                 self.match(OpenSCENARIO2.INTEGER)
-                pass
             elif token in [6]:
                 self.state = 603
                 self.match(OpenSCENARIO2.FLOAT)
-                pass
             elif token in [7]:
                 self.state = 604
                 self.match(OpenSCENARIO2.PHYSICAL)
-                pass
             elif token in [8]:
                 self.state = 605
                 self.match(OpenSCENARIO2.STRING)
-                pass
             elif token in [69, 71]:
                 self.state = 606
                 self.group()
-                pass
             else:
                 raise NoViableAltException(self)
-
             self.state = 646
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             while ((((_la - 55)) & ~0x3f) == 0 and ((1 << (_la - 55)) & 1073565771) != 0):
                 self.state = 644
-                self._errHandler.sync(self)
-                token = self._input.LA(1)
+                token = stream.types[stream.index]
                 if token in [61]:
                     self.state = 609
                     self.match(OpenSCENARIO2.DOT)
                     self.state = 616
-                    self._errHandler.sync(self)
-                    token = self._input.LA(1)
+                    token = stream.types[stream.index]
                     if token in [4]:
                         self.state = 610
                         self.match(OpenSCENARIO2.ID)
-                        pass
                     elif token in [26, 53]:
                         self.state = 611
-                        _la = self._input.LA(1)
+                        _la = stream.types[stream.index]
                         if not(_la==26 or _la==53):
                             self._errHandler.recoverInline(self)
                         else:
-                            self._errHandler.reportMatch(self)
                             self.consume()
                         self.state = 612
                         self.match(OpenSCENARIO2.LPAREN)
@@ -4422,17 +2124,13 @@ class OpenSCENARIO2 ( Parser ):
                         self.typeName()
                         self.state = 614
                         self.match(OpenSCENARIO2.RPAREN)
-                        pass
                     else:
                         raise NoViableAltException(self)
-
-                    pass
                 elif token in [67]:
                     self.state = 618
                     self.match(OpenSCENARIO2.BANG)
                     self.state = 619
                     self.match(OpenSCENARIO2.ID)
-                    pass
                 elif token in [71]:
                     self.state = 620
                     self.match(OpenSCENARIO2.LBRACKET)
@@ -4440,85 +2138,62 @@ class OpenSCENARIO2 ( Parser ):
                     self.expression()
                     self.state = 622
                     self.match(OpenSCENARIO2.RBRACKET)
-                    pass
                 elif token in [69]:
                     self.state = 624
                     self.match(OpenSCENARIO2.LPAREN)
                     self.state = 626
-                    self._errHandler.sync(self)
-                    _la = self._input.LA(1)
+                    _la = stream.types[stream.index]
                     if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
                         self.state = 625
                         self.arguments()
-
-
                     self.state = 628
                     self.match(OpenSCENARIO2.RPAREN)
-                    pass
                 elif token in [55, 56, 58, 73, 74, 75, 76, 77, 78, 79, 80, 81, 82, 83, 84]:
                     self.state = 629
-                    _la = self._input.LA(1)
+                    _la = stream.types[stream.index]
                     if not(((((_la - 55)) & ~0x3f) == 0 and ((1 << (_la - 55)) & 1073479691) != 0)):
                         self._errHandler.recoverInline(self)
                     else:
-                        self._errHandler.reportMatch(self)
                         self.consume()
                     self.state = 633
-                    self._errHandler.sync(self)
-                    _la = self._input.LA(1)
+                    _la = stream.types[stream.index]
                     while ((((_la - 57)) & ~0x3f) == 0 and ((1 << (_la - 57)) & 25165825) != 0):
                         self.state = 630
-                        _la = self._input.LA(1)
+                        _la = stream.types[stream.index]
                         if not(((((_la - 57)) & ~0x3f) == 0 and ((1 << (_la - 57)) & 25165825) != 0)):
                             self._errHandler.recoverInline(self)
                         else:
-                            self._errHandler.reportMatch(self)
                             self.consume()
                         self.state = 635
-                        self._errHandler.sync(self)
-                        _la = self._input.LA(1)
-
+                        _la = stream.types[stream.index]
                     self.state = 642
-                    self._errHandler.sync(self)
-                    token = self._input.LA(1)
+                    token = stream.types[stream.index]
                     if token in [4]:
                         self.state = 636
                         self.match(OpenSCENARIO2.ID)
-                        pass
                     elif token in [5]:
                         self.state = 637
                         self.match(OpenSCENARIO2.INTEGER)
-                        pass
                     elif token in [6]:
                         self.state = 638
                         self.match(OpenSCENARIO2.FLOAT)
-                        pass
                     elif token in [7]:
                         self.state = 639
                         self.match(OpenSCENARIO2.PHYSICAL)
-                        pass
                     elif token in [8]:
                         self.state = 640
                         self.match(OpenSCENARIO2.STRING)
-                        pass
                     elif token in [69, 71]:
                         self.state = 641
                         self.group()
-                        pass
                     else:
                         raise NoViableAltException(self)
-
-                    pass
                 else:
                     raise NoViableAltException(self)
-
                 self.state = 648
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
-
+                _la = stream.types[stream.index]
             self.state = 654
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==66:
                 self.state = 649
                 self.match(OpenSCENARIO2.QUESTION)
@@ -4528,211 +2203,103 @@ class OpenSCENARIO2 ( Parser ):
                 self.match(OpenSCENARIO2.COLON)
                 self.state = 652
                 self.expression()
-
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class GroupContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def LPAREN(self):
-            return self.getToken(OpenSCENARIO2.LPAREN, 0)
-
-        def expression(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.ExpressionContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,i)
-
-
-        def RPAREN(self):
-            return self.getToken(OpenSCENARIO2.RPAREN, 0)
-
-        def LBRACKET(self):
-            return self.getToken(OpenSCENARIO2.LBRACKET, 0)
-
-        def RBRACKET(self):
-            return self.getToken(OpenSCENARIO2.RBRACKET, 0)
-
-        def RANGE_DOTS(self):
-            return self.getToken(OpenSCENARIO2.RANGE_DOTS, 0)
-
-        def COMMA(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.COMMA)
-            else:
-                return self.getToken(OpenSCENARIO2.COMMA, i)
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_group
-
-
-
+        __slots__ = ()
 
     def group(self):
-
-        localctx = OpenSCENARIO2.GroupContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.GroupContext(self._ctx, self.state)
         self.enterRule(localctx, 96, self.RULE_group)
-        self._la = 0 # Token type
         try:
             self.state = 676
-            self._errHandler.sync(self)
-            token = self._input.LA(1)
+            token = stream.types[stream.index]
             if token in [69]:
-                self.enterOuterAlt(localctx, 1)
                 self.state = 656
                 self.match(OpenSCENARIO2.LPAREN)
                 self.state = 657
                 self.expression()
                 self.state = 658
                 self.match(OpenSCENARIO2.RPAREN)
-                pass
             elif token in [71]:
-                self.enterOuterAlt(localctx, 2)
                 self.state = 660
                 self.match(OpenSCENARIO2.LBRACKET)
                 self.state = 673
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
+                _la = stream.types[stream.index]
                 if (((_la) & ~0x3f) == 0 and ((1 << _la) & 144115188075856368) != 0) or ((((_la - 69)) & ~0x3f) == 0 and ((1 << (_la - 69)) & 6149) != 0):
                     self.state = 661
                     self.expression()
                     self.state = 671
-                    self._errHandler.sync(self)
-                    token = self._input.LA(1)
+                    token = stream.types[stream.index]
                     if token in [62]:
                         self.state = 662
                         self.match(OpenSCENARIO2.RANGE_DOTS)
                         self.state = 663
                         self.expression()
-                        pass
                     elif token in [60, 72]:
                         self.state = 668
-                        self._errHandler.sync(self)
-                        _la = self._input.LA(1)
+                        _la = stream.types[stream.index]
                         while _la==60:
                             self.state = 664
                             self.match(OpenSCENARIO2.COMMA)
                             self.state = 665
                             self.expression()
                             self.state = 670
-                            self._errHandler.sync(self)
-                            _la = self._input.LA(1)
-
-                        pass
+                            _la = stream.types[stream.index]
                     else:
                         raise NoViableAltException(self)
-
-
-
                 self.state = 675
                 self.match(OpenSCENARIO2.RBRACKET)
-                pass
             else:
                 raise NoViableAltException(self)
-
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
 
 
     class ArgumentsContext(ParserRuleContext):
-        __slots__ = 'parser'
-
-        def __init__(self, parser, parent:ParserRuleContext=None, invokingState:int=-1):
-            super().__init__(parent, invokingState)
-            self.parser = parser
-
-        def expression(self, i:int=None):
-            if i is None:
-                return self.getTypedRuleContexts(OpenSCENARIO2.ExpressionContext)
-            else:
-                return self.getTypedRuleContext(OpenSCENARIO2.ExpressionContext,i)
-
-
-        def COLON(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.COLON)
-            else:
-                return self.getToken(OpenSCENARIO2.COLON, i)
-
-        def COMMA(self, i:int=None):
-            if i is None:
-                return self.getTokens(OpenSCENARIO2.COMMA)
-            else:
-                return self.getToken(OpenSCENARIO2.COMMA, i)
-
-        def getRuleIndex(self):
-            return OpenSCENARIO2.RULE_arguments
-
-
-
+        __slots__ = ()
 
     def arguments(self):
-
-        localctx = OpenSCENARIO2.ArgumentsContext(self, self._ctx, self.state)
+        stream = self._input
+        localctx = OpenSCENARIO2.ArgumentsContext(self._ctx, self.state)
         self.enterRule(localctx, 98, self.RULE_arguments)
-        self._la = 0 # Token type
         try:
-            self.enterOuterAlt(localctx, 1)
             self.state = 678
             self.expression()
             self.state = 681
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             if _la==59:
                 self.state = 679
                 self.match(OpenSCENARIO2.COLON)
                 self.state = 680
                 self.expression()
-
-
             self.state = 691
-            self._errHandler.sync(self)
-            _la = self._input.LA(1)
+            _la = stream.types[stream.index]
             while _la==60:
                 self.state = 683
                 self.match(OpenSCENARIO2.COMMA)
                 self.state = 684
                 self.expression()
                 self.state = 687
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
+                _la = stream.types[stream.index]
                 if _la==59:
                     self.state = 685
                     self.match(OpenSCENARIO2.COLON)
                     self.state = 686
                     self.expression()
-
-
                 self.state = 693
-                self._errHandler.sync(self)
-                _la = self._input.LA(1)
-
+                _la = stream.types[stream.index]
         except RecognitionException as re:
-            localctx.exception = re
-            self._errHandler.reportError(self, re)
-            self._errHandler.recover(self, re)
+            self.recover(localctx, re)
         finally:
             self.exitRule()
         return localctx
-
-
-
-
-

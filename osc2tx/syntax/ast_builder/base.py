@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Mapping
 from typing import Any
 
 from osc2tx.diagnostics import DiagnosticSink, Span
+from osc2tx.diagnostics.fixes import Help
 from osc2tx.syntax import ast
 from osc2tx.syntax import tokens as t
 from osc2tx.syntax.comments import CommentTable
@@ -58,7 +59,7 @@ class Builder:
         self.damaged = sorted(table.damaged)
         self.damaged_lines = {table.source.position(start)[0] for start in table.damaged}
 
-    def report(self, code: str, span: Span, message: str, help_: str | None = None) -> None:
+    def report(self, code: str, span: Span, message: str, help_: Help = None) -> None:
         """Report a mistake, unless it is allowed or follows from a lexical one."""
         if code in self.allow:
             return

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from osc2tx.diagnostics.fixes import write
 from osc2tx.syntax import ast
 from osc2tx.syntax import tokens as t
 from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
@@ -46,7 +47,8 @@ def _implicit_serial(b: Builder, tree: Tree) -> ast.Composition:
     """`do:` without an operator, as in some examples of the standard."""
     colon = tree.children[1]
     message = "`do:` without an operator is taken as `do serial:`"
-    b.report("OSC113", b.span(tree.start, colon), message, "write `do serial:`")
+    span = b.span(tree.start, colon)
+    b.report("OSC113", span, message, write(span, "do serial:"))
     return _members_of(b, tree, Head(b.span(colon, b.last_token(tree))), None, "serial", ())
 
 

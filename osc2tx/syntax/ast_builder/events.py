@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from osc2tx.diagnostics.fixes import insert_before
 from osc2tx.syntax import ast
 from osc2tx.syntax import tokens as t
 from osc2tx.syntax.ast_builder.base import Builder, Tree
@@ -39,7 +40,8 @@ def build_event_specification(b: Builder, tree: Tree) -> ast.EventSpecification:
         return ast.EventSpecification(span=span, event=None, field=None, condition=condition)
     path = _event_path(b, children[1 if kinds[0] == _AT else 0])
     if kinds[0] != _AT:
-        b.report("OSC100", path.span, "`@` is missing before the event", "write `@event`")
+        help_ = insert_before(path.span, "@", "write `@event`")
+        b.report("OSC100", path.span, "`@` is missing before the event", help_)
     field = b.name(children[kinds.index(_AS) + 1]) if _AS in kinds else None
     clause = _condition(b, children[-1]) if _IF in kinds else None
     if field is not None and clause is None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from osc2tx.diagnostics import Span
+from osc2tx.diagnostics.fixes import leave_out, write
 from osc2tx.syntax import ast
 from osc2tx.syntax import tokens as t
 from osc2tx.syntax.ast_builder.base import Builder, Tree
@@ -138,7 +139,7 @@ def _check_plus(b: Builder, children: list[Tree], position: int) -> None:
         b.report("OSC100", span, "a sign `+` stands before a number only")
     elif kind == t.INTEGER or (kind == t.PHYSICAL and is_integer(split_physical(text)[0])):
         message = "a sign `+` stands before numbers with a point or an exponent only"
-        b.report("OSC100", span, message, f"write `{text}`")
+        b.report("OSC100", span, message, leave_out(span, f"write `{text}`"))
 
 
 def _reduce(b: Builder, operands: list[_Operand], pending: list[_Pending], level: int) -> None:
@@ -213,7 +214,8 @@ def _float(b: Builder, text: str, span: Span) -> float:
     value = float(text)
     if value == float("inf"):
         message = "the number is too large for a float of 64 bits"
-        b.report("OSC107", span, message, "write `inf` for an infinite value")
+        help_ = write(span, "inf", "write `inf` for an infinite value", is_safe=False)
+        b.report("OSC107", span, message, help_)
     return value
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from osc2tx.diagnostics import Span
+from osc2tx.diagnostics.fixes import leave_out
 from osc2tx.syntax import ast
 from osc2tx.syntax import tokens as t
 from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
@@ -43,7 +44,7 @@ def _event(b: Builder, tree: Tree, head: Head, place: Place) -> ast.Statement:
 def report_empty_parentheses(b: Builder, span: Span) -> None:
     """Report `()` where the grammar of the standard has none."""
     message = "empty parentheses are not part of the language here"
-    b.report("OSC114", span, message, "leave them out")
+    b.report("OSC114", span, message, leave_out(span, "leave them out"))
 
 
 def _variable(b: Builder, tree: Tree, head: Head, place: Place) -> ast.Statement:

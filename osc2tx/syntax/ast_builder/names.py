@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from osc2tx.diagnostics import Span
+from osc2tx.diagnostics.fixes import Help, write
 from osc2tx.syntax import ast
 from osc2tx.syntax import tokens as t
 from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
@@ -188,11 +189,12 @@ def _report_no_type(b: Builder, tree: Tree) -> None:
         return
     found = describe_token(b.table, tree.start)
     span: Span = b.tree_span(tree)
-    help_ = "a field is declared `name: type = value`"
+    help_: Help = "a field is declared `name: type = value`"
     if listed := _BRACKETED_TYPE.fullmatch(span.text):
-        help_ = f"write `list of {listed[1]}`"
+        help_ = write(span, f"list of {listed[1]}")
     elif compared := _COMPARED_TYPE.fullmatch(span.text):
-        help_ = f"a value is given with one `=`: `{compared[1]} = {compared[2]}`"
+        given = f"{compared[1]} = {compared[2]}"
+        help_ = write(span, given, f"a value is given with one `=`: `{given}`")
     b.report("OSC100", span, f"expected a type name, found {found}", help_)
 
 

@@ -6,6 +6,7 @@ from bisect import bisect_left
 from typing import Any, NamedTuple, TypedDict
 
 from osc2tx.diagnostics import Span
+from osc2tx.diagnostics.fixes import Help, insert, leave_out
 from osc2tx.syntax import ast
 from osc2tx.syntax import tokens as t
 from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
@@ -183,12 +184,16 @@ def check_body(b: Builder, tree: Tree, what: str, *, optional: bool = True) -> T
     block = block_of(b, tree)
     colon = b.tokens(tree, _COLON)
     newline = b.tokens(tree, t.NEWLINE)[0]
+    help_: Help
     if block is not None and not colon:
         end = Span(b.source, b.ends[newline - 1], b.ends[newline - 1])
-        b.report("OSC100", end, f"missing `:` at the end of {what}", "add a `:`")
+        help_ = insert(end, ":", "add a `:`")
+        b.report("OSC100", end, f"missing `:` at the end of {what}", help_)
     elif block is None and colon:
-        help_ = "indent its lines, or leave the `:` out" if optional else "indent its lines"
-        b.report("OSC112", b.span(colon[0], colon[0]), f"{what} has no lines", help_)
+        span = b.span(colon[0], colon[0])
+        without = leave_out(span, "indent its lines, or leave the `:` out", is_safe=False)
+        help_ = without if optional else "indent its lines"
+        b.report("OSC112", span, f"{what} has no lines", help_)
     elif block is None and not optional:
         end = Span(b.source, b.ends[newline - 1], b.ends[newline - 1])
         b.report("OSC100", end, f"missing `:` and indented lines after {what}")

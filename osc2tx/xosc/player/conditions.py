@@ -221,6 +221,3 @@ def _part(node: Element, along: float, across: float) -> float:
         case "vertical":
             return 0.0
     return math.hypot(along, across)
-
-
-__all__ = ["BY_THE_STANDARD", "Conditions", "Reading", "World"]

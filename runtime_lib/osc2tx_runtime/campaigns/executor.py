@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
 import time
 from functools import lru_cache
@@ -26,8 +25,6 @@ from .rows import Plan, Row, RowResult
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.monitoring.phase import Violation
-
-__all__ = ["Executor", "trace_digest"]
 
 
 class Executor:
@@ -103,7 +100,7 @@ class Executor:
             return made[-1]
 
         settings = replace(self.settings_of(row), trace=trace, report=report)
-        result = run_scenario(make, settings)
+        result = run_scenario(make, settings, keep_trace=False, digest=True)
         return result, dict(made[-1].parameters)
 
     def run(self, row: Row) -> RowResult:
@@ -121,7 +118,8 @@ class Executor:
             result = run_scenario(
                 make,
                 self.settings_of(row),
-                keep_trace=self._plan.digests,
+                keep_trace=False,
+                digest=self._plan.digests,
                 observer=measuring,
                 read=lambda path: self._read(path, path.stat().st_mtime_ns),
             )
@@ -149,7 +147,7 @@ class Executor:
             collisions=measuring.collisions,
             violations=() if result is None else tuple(map(reported, result.violations)),
             samples=tuple((kind, to_json(values)) for kind, values in measuring.samples),
-            digest=digest_of(result) if self._plan.digests and result is not None else None,
+            digest=None if result is None else result.digest,
             seconds=time.perf_counter() - begin,
         )
 
@@ -157,16 +155,6 @@ class Executor:
 def reported(violation: Violation) -> str:
     """Return a condition that did not hold, as one line."""
     return f"{violation.code} {violation.source}: {violation}"
-
-
-def digest_of(result: RunResult) -> str:
-    """Return the SHA-256 of a trace, as a file of it has it."""
-    return trace_digest("".join(f"{line}\n" for line in result.trace_lines))
-
-
-def trace_digest(text: str) -> str:
-    """Return the SHA-256 of the text of a trace."""
-    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def _read(path: Path, changed: int) -> RoadMap:

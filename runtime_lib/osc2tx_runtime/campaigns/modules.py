@@ -21,8 +21,6 @@ from osc2tx_runtime.errors import OwnCode, SettingsError
 if sys.platform != "win32":
     import fcntl
 
-__all__ = ["Modules", "scenarios_of"]
-
 PREFIX = "osc2tx-campaign-"
 """How the names of the folders begin."""
 

@@ -8,8 +8,6 @@ from typing import Any, Literal
 
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["Column", "Point"]
-
 
 @dataclass(frozen=True, slots=True)
 class Column:

@@ -21,8 +21,6 @@ from .executor import Executor
 from .rows import Plan, Row, RowResult
 from .worker import Refused
 
-__all__ = ["Parcel", "parcel_of", "run_rows", "unchanged"]
-
 
 @dataclass(frozen=True, slots=True)
 class Parcel:

@@ -12,8 +12,6 @@ from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.plain_numbers import to_float
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["CRASHED", "Condition", "Plan", "Row", "RowResult"]
-
 CRASHED = "crashed"
 """Status of a row that ended its process, each time."""
 

@@ -20,8 +20,6 @@ from osc2tx_shared.classes import dataclass
 from .executor import Executor
 from .rows import Plan, Row
 
-__all__ = ["ALIVE", "READY", "Refused", "work"]
-
 ALIVE = "alive"
 READY = "ready"
 

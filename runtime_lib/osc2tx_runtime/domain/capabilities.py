@@ -21,8 +21,6 @@ from osc2tx_runtime.language.actions.registry import RegisteredMethod, methods
 from osc2tx_runtime.language.declared import DeclaredObject
 from osc2tx_shared.rules import Rule
 
-__all__ = ["actions", "modifiers", "objects"]
-
 
 def actions() -> dict[str, dict[str, Any]]:
     """List the registered actions of actors, `vehicle.drive`, in sorted order.

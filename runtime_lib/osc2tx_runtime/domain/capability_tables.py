@@ -14,8 +14,6 @@ from osc2tx_runtime.domain.paths import path_values
 from osc2tx_runtime.domain.signals import stop_lines, traffic_lights
 from osc2tx_runtime.world.measuring import velocities
 
-__all__ = ["FIELDS", "MANDATORY", "METHODS", "OBJECTS", "UNKNOWN"]
-
 METHODS: Mapping[str, Callable[..., Any]] = {
     "physical_object.object_distance": actors.PhysicalObject.object_distance,
     "physical_object.road_distance": actors.PhysicalObject.road_distance,

@@ -8,21 +8,6 @@ from typing import Literal
 from osc2tx_runtime.errors import PlacementError, ScenarioError
 from osc2tx_shared.classes import dataclass
 
-__all__ = [
-    "AnyPoint",
-    "GeodeticPoint",
-    "NetworkPoint",
-    "OdrPoint",
-    "Orientation",
-    "Point",
-    "Pose",
-    "Rgb",
-    "RoadRoute",
-    "RouteAxis",
-    "RoutePoint",
-    "XyzPoint",
-]
-
 
 class Rgb(str):
     """A colour as red, green and blue from 0 to 255: `0,128,0`."""

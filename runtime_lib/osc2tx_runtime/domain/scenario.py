@@ -11,8 +11,6 @@ from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.scenario import BaseScenario
 from osc2tx_runtime.language.tree.base import Behaviour
 
-__all__ = ["Scenario", "bind_all"]
-
 
 class Scenario(BaseScenario):
     """A scenario. Generated classes write `declare`, `placement` and `behavior`."""

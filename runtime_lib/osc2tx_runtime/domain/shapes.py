@@ -26,20 +26,6 @@ from osc2tx_runtime.world.geometry.profiles import (
 )
 from osc2tx_shared.classes import dataclass
 
-__all__ = [
-    "AnyAccelerationShape",
-    "AnyLateralShape",
-    "AnyPositionShape",
-    "AnyShape",
-    "AnySpeedShape",
-    "CommonAccelerationShape",
-    "CommonLateralShape",
-    "CommonPositionShape",
-    "CommonShape",
-    "CommonSpeedShape",
-    "OwnShape",
-]
-
 
 @dataclass(frozen=True, slots=True)
 class AnyShape:

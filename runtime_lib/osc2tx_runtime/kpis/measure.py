@@ -9,8 +9,6 @@ from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.world.measuring.collision import Box, box_of
 from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["Measure", "Moving", "Scene", "pairs_of", "scene_of"]
-
 
 class Moving(NamedTuple):
     """An actor at one step.

@@ -11,8 +11,6 @@ from osc2tx_runtime.language.context import ExecutionContext
 from .measure import Measure, scene_of
 from .rules import Collisions
 
-__all__ = ["Measuring"]
-
 
 class Measuring:
     """The measures of one run, as its observer; it also keeps what coverage items sample.

@@ -13,8 +13,6 @@ from osc2tx_runtime.world.measuring.collision import Box, contact_interval
 
 from .measure import Moving, Scene, pairs_of
 
-__all__ = ["MinGap", "MinTimeGap", "MinTimeToCollision", "box_distance"]
-
 _STILL = 1e-9  # m/s
 
 

@@ -10,8 +10,6 @@ from osc2tx_runtime.running.criteria import Criteria
 
 from .measure import Moving, Scene
 
-__all__ = ["Collisions", "OffRoad", "RedLights"]
-
 
 class Collisions:
     """How many contacts began; `collision_speed` is the greatest difference of velocities (m/s).

@@ -27,8 +27,6 @@ from osc2tx_runtime.world.checks.commands import command_problem
 from osc2tx_runtime.world.commands import Command
 from osc2tx_runtime.world.protocol import EXACT, LATERAL, LONGITUDINAL, World
 
-__all__ = ["MAX_PASSES", "ExecutionContext"]
-
 MAX_PASSES = 1000
 
 
@@ -134,7 +132,7 @@ class ExecutionContext:
         self.actors: dict[str, BaseActor] = dict(actors or {})
         self.objects = tuple(objects)
         self.events = dict(events or {})
-        self.trace = trace or TraceWriter(enabled=False)
+        self.trace = trace or TraceWriter()
         self.label_events = dict(label_events or {})
         self.one_of = one_of
         self.first_come = first_come

@@ -6,8 +6,6 @@ from typing import Any, ClassVar, NoReturn, TypeVar
 
 from osc2tx_runtime.errors import ScenarioError
 
-__all__ = ["BaseActor", "DeclaredObject", "as_type", "not_given", "undefined"]
-
 
 class _NotGiven:
     def __repr__(self) -> str:

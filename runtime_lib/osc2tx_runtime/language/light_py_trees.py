@@ -13,8 +13,6 @@ from importlib.machinery import ModuleSpec, PathFinder
 from importlib.util import LazyLoader
 from types import ModuleType
 
-__all__: list[str] = []
-
 
 class _Later:
     """Finds modules of py_trees, to be loaded later."""

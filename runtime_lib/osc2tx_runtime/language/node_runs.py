@@ -7,8 +7,6 @@ from collections.abc import Iterable, Mapping
 
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["NodeRuns"]
-
 _LEFT = {"SUCCESS": "success", "FAILURE": "failure", "INVALID": "stopped"}
 
 

@@ -10,8 +10,6 @@ from osc2tx_runtime.language.tree.compositions import Composition
 from osc2tx_runtime.language.tree.events import describe
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["OutlineNode", "outline"]
-
 
 @dataclass(frozen=True, slots=True)
 class OutlineNode:

@@ -15,8 +15,6 @@ from py_trees.behaviour import Behaviour
 
 from osc2tx_runtime.errors import ScenarioError
 
-__all__ = ["Resting"]
-
 NEVER = sys.maxsize
 
 

@@ -26,10 +26,9 @@ from osc2tx_runtime.language.tree.recursion import Recursion, is_recursive
 from osc2tx_runtime.language.tree.variables import MISSING, Boundary, Sampled
 from osc2tx_runtime.language.values.broken_values import not_computed
 
-__all__ = ["BaseScenario"]
-
 AnyT = TypeVar("AnyT")
 ActorT = TypeVar("ActorT", bound=BaseActor)
+EventT = TypeVar("EventT", bound=Event)
 
 
 class BaseScenario(ScenarioParts):
@@ -229,11 +228,24 @@ class BaseScenario(ScenarioParts):
         """Return the event at which the node with this label fails."""
         return self._label_event(label, "fail")
 
-    def event(self, path: str) -> Event:
-        """Return an event of an invoked scenario: `self.event("p1.near")`, `"p1.cut.end"`."""
-        found = self._inner_events.setdefault(path, Event())
+    @overload
+    def event(self, path: str, /) -> Event: ...
+    @overload
+    def event(self, path: str, kind: type[EventT], /) -> EventT: ...
+    def event(self, path: str, kind: type[Event] = Event, /) -> Event:
+        """Return an event of an invoked scenario: `self.event("p1.near")`, `"p1.cut.end"`.
+
+        Args:
+            path: Its name below the labels of invocations.
+            kind: Its class, to read its parameters: `self.event("p1.near", Approach.Near).gap`.
+        """
+        found = self._inner_events.setdefault(path, kind())
         found.name = path
-        return found
+        if isinstance(found, kind):
+            return found
+        read = kind(name=path)
+        read.alias = found
+        return read
 
     # --- used by the runtime ---
 

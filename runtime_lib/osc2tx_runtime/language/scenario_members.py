@@ -12,8 +12,6 @@ from osc2tx_runtime.language.tree.events import Event
 if TYPE_CHECKING:
     from osc2tx_runtime.language.scenario_parts import ScenarioParts
 
-__all__ = ["check_arguments", "check_settings", "name_members"]
-
 
 def name_members(scenario: ScenarioParts) -> None:
     """Give actors, map objects and events their names, and note them."""

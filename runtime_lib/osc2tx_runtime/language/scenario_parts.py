@@ -16,8 +16,6 @@ from osc2tx_runtime.language.tree.variables import Sampled
 from osc2tx_runtime.language.values.scenario_values import ScenarioValues
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["Caller", "ScenarioParts"]
-
 ActorT = TypeVar("ActorT", bound=BaseActor)
 
 

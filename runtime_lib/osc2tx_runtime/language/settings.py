@@ -17,8 +17,6 @@ from osc2tx_shared.classes import dataclass
 MOST_STEPS = 100_000_000
 """Upper limit of the length of a run: hours of computing."""
 
-__all__ = ["FAIL_ON", "RunSettings", "check_known", "near"]
-
 FAIL_ON = ("collision", "off_road", "red_light")
 """The criteria of a failed run."""
 

@@ -16,8 +16,6 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.commands import Command
 from osc2tx_runtime.world.protocol import World
 
-__all__ = ["Effect", "Effects", "Owner", "Slots"]
-
 SlotKey = tuple[str, str]  # (actor id, slot)
 
 

@@ -15,8 +15,6 @@ from typing import Any, TypeGuard
 from osc2tx_runtime.errors import SourcePlace
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["SourceMap", "read_source_map"]
-
 VERSION = 3
 
 Entry = tuple[int, int]

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.measuring.deviation import Deviation
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["TRACE_VERSION", "OnSample", "TraceWriter", "number", "to_json"]
-
 TRACE_VERSION = 1
 ACTION_ORDER = {"start": 0, "end": 1, "fail": 2}
 
@@ -56,6 +54,9 @@ def to_json(value: Any, *, exact: bool = False) -> str:
 OnSample = Callable[[str, Mapping[str, Any]], None]
 """Takes `cover` or `record`, and the fields of the value in the trace."""
 
+TakeLines = Callable[[Sequence[str]], object]
+"""Takes the next lines of a trace, without line ends."""
+
 
 class TracedAction(Protocol):
     """The fields of an action in the trace."""
@@ -71,23 +72,23 @@ class TracedAction(Protocol):
 
 
 class TraceWriter:
-    """Collects the lines of a run.
+    """Makes the lines of a run.
 
     What happens at one instant is kept until `end_instant` and written in a fixed order, so that
     the order in which the tree visits parallel members does not show.
 
     Args:
-        enabled: Keep lines at all.
-        on_sample: Called with the value of each coverage item, also if no lines are kept.
+        *takers: Called with the lines of each instant; the writer keeps none of them.
+        on_sample: Called with the value of each coverage item, also if nothing takes the lines.
 
     Attributes:
-        lines: The lines so far, without line ends.
+        enabled: Whether something takes the lines.
     """
 
-    def __init__(self, enabled: bool = True, on_sample: OnSample | None = None) -> None:
-        self.enabled = enabled
+    def __init__(self, *takers: TakeLines, on_sample: OnSample | None = None) -> None:
+        self.enabled = bool(takers)
+        self._takers = takers
         self._on_sample = on_sample
-        self.lines: list[str] = []
         self._events: set[tuple[str, str]] = set()
         self._actions: list[tuple[tuple[int, str], int, str]] = []
         self._others: dict[tuple[int, str, str], str] = {}
@@ -231,14 +232,14 @@ class TraceWriter:
                 f"{json.dumps(name)}:{to_json(value, exact=name == 'parameters')}"
                 for name, value in head.items()
             )
-            self.lines.append("{" + ",".join(members) + "}")
+            self._hand_over(["{" + ",".join(members) + "}"])
 
     def end_instant(self, time: float, states: Iterable[tuple[str, ActorState]] = ()) -> None:
         """Write the lines of one instant: states, events, actions, then the other kinds."""
         if not self.enabled:
             return
         t = f'{{"t":{number(time)},'
-        lines = self.lines
+        lines: list[str] = []
         written = self._written
         for actor_id, state in states:
             before = written.get(actor_id)
@@ -257,18 +258,23 @@ class TraceWriter:
         self._events.clear()
         self._actions.clear()
         self._others.clear()
+        self._hand_over(lines)
 
     def tree(self, nodes: Iterable[tuple[object, Mapping[str, int | str]]]) -> None:
         """Write when each node of the tree ran, see `NodeRuns`; after the last instant."""
         if self.enabled:
-            self.lines.append(f'{{"kind":"tree","nodes":{self._runs.to_json(nodes)}}}')
+            self._hand_over([f'{{"kind":"tree","nodes":{self._runs.to_json(nodes)}}}'])
 
     def result(self, status: str, reason: str, steps: int, warnings: Sequence[str] = ()) -> None:
         """Write the last line."""
         if self.enabled:
             values = {"kind": "result", "status": status, "reason": reason, "steps": steps}
             said = {"warnings": list(warnings)} if warnings else {}
-            self.lines.append(to_json({**values, **said}))
+            self._hand_over([to_json({**values, **said})])
+
+    def _hand_over(self, lines: Sequence[str]) -> None:
+        for take in self._takers:
+            take(lines)
 
 
 def state_json(state: ActorState) -> str:

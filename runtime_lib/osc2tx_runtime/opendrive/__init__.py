@@ -7,8 +7,7 @@ Input is a file; output is a `RoadMap`, which answers everything and never chang
     a `MapError`; `unread`: unread elements; `seams`: lanes that do not continue where they end;
     `map_snapshots`, `packed_map`: large maps are parsed once.
   * `polynomials`, `geometry`, `model`: the parts of a road.
-* `lane_table`: lanes by id; `network`: which follows which; `lane_line`: `arc_length` along one;
-  `lane_bends`: where it bends.
+* `lane_table`: lanes by id; `network`: which follows which; `lane_line`: `arc_length` along one.
 * `lane_advance`: moving along lanes, `lane_cursor`: the same step by step; `lane_distances`:
   distances over the lane graph.
 * `poses`: from a lane to (x, y, z); `road_index`, `projection`: back to a lane.

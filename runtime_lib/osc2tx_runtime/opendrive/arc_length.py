@@ -15,8 +15,6 @@ from bisect import bisect_right
 
 from .polynomials import Row
 
-__all__ = ["SLOWEST_RATE", "LaneLine"]
-
 SLOWEST_RATE = 1e-3
 """Lane metres per metre of s: a lane inside the centre of curvature must not run backwards."""
 

@@ -13,8 +13,6 @@ from osc2tx_shared.classes import dataclass
 from .polynomials import ZERO, Piecewise, Row
 from .xml_reader import Attributes
 
-__all__ = ["CrossSection", "Height", "read_cross_section"]
-
 Height = tuple[float, float, float]
 """A height (m), and how it changes along s and along t."""
 

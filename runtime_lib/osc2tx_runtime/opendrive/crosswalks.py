@@ -19,8 +19,6 @@ from .model import Road, road_order
 from .poses import surface_pose
 from .xml_reader import Attributes
 
-__all__ = ["Crosswalk", "read_crosswalks"]
-
 Point = tuple[float, float]
 
 _THIN = 1e-3  # m: an outline of two corners has no width

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-__all__ = ["MapError"]
-
 
 class MapError(Exception):
     """A map cannot be read, or a query names something the map does not have.

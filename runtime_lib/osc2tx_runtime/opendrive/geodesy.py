@@ -13,8 +13,6 @@ from collections.abc import Callable, Mapping
 from osc2tx_runtime.plain_numbers import to_float
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["GeoReference", "GeoReferenceError", "TransverseMercator"]
-
 SEMI_MAJOR = 6_378_137.0
 """Semi-major axis of WGS 84 (m)."""
 FLATTENING = 1.0 / 298.257_223_563

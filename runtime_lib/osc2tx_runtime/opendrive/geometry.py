@@ -12,19 +12,6 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Protocol
 
-__all__ = [
-    "GAUSS",
-    "Arc",
-    "Line",
-    "ParamPoly",
-    "ReferenceLine",
-    "Segment",
-    "Spiral",
-    "hermite",
-    "make_spiral",
-    "wrap",
-]
-
 
 def wrap(angle: float) -> float:
     """An angle in (-pi, pi]."""

@@ -12,8 +12,6 @@ from .lane_line import lane_line
 from .model import Advance, Lane, LanePosition
 from .network import lane_order
 
-__all__ = ["Forks", "advance", "lane_heading"]
-
 _PROBE = 50.0  # m into a branch at which its direction is compared
 _IDLE_HOPS = 1000  # lanes without length in a row: a loop of them would never end
 

@@ -18,8 +18,6 @@ from .lane_line import lane_line
 from .model import Lane, LanePosition, Pose, new_tuple
 from .poses import lane_pose
 
-__all__ = ["LaneCursor", "Stretch"]
-
 _SHORT = 1e-3  # m before the joints at which a stretch ends; seams are a little beside them
 
 

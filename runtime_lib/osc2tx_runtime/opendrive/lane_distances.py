@@ -16,8 +16,6 @@ from .lane_line import lane_length, lane_line
 from .model import DRIVING, Lane, LanePosition, LaneSection, Road
 from .network import lane_order
 
-__all__ = ["LaneGroups", "Route", "RouteField", "passable"]
-
 _NARROW = 0.5  # m: a narrower lane does not separate others
 
 
@@ -39,18 +37,18 @@ class RouteField:
 
     Attributes:
         goal: The goal group.
-        gap: Metres from the end of a group to the begin of the goal; infinite if not connected,
-            or not searched yet.
-        following: Next group on the way, -1 if none.
+        gap: Metres from the end of a group to the begin of the goal, of the groups searched so far
+            that are connected.
+        following: Next group on the way, of the same groups.
         open: What to search next: distance (m), group, and the group after it.
     """
 
     __slots__ = ("following", "gap", "goal", "open")
 
-    def __init__(self, goal: int, count: int) -> None:
+    def __init__(self, goal: int) -> None:
         self.goal = goal
-        self.gap = [math.inf] * count
-        self.following = [-1] * count
+        self.gap: dict[int, float] = {}
+        self.following: dict[int, int] = {}
         self.open: list[tuple[float, int, int]] = []
 
 
@@ -103,7 +101,7 @@ class LaneGroups:
         """The field of a goal group, cached; `gap_from` searches it as far as it is asked for."""
         field = self._fields.get(goal)
         if field is None:
-            field = self._fields[goal] = RouteField(goal, len(self.groups))
+            field = self._fields[goal] = RouteField(goal)
             field.open = [(0.0, before, goal) for before in self.leading(goal)]
         return field
 
@@ -113,16 +111,16 @@ class LaneGroups:
         Backward Dijkstra from the goal, over all groups that are not farther than this one.
         """
         gap, following, heap = field.gap, field.following, field.open
-        while heap and heap[0][0] <= gap[group]:
+        while heap and heap[0][0] <= gap.get(group, math.inf):
             distance, nearest, target = heapq.heappop(heap)
-            if distance >= gap[nearest]:
+            if nearest in gap:  # distances leave the heap in order
                 continue
             gap[nearest], following[nearest] = distance, target
             onward = distance + self.length(nearest)
             for before in self.leading(nearest):
-                if onward < gap[before]:
+                if before not in gap:
                     heapq.heappush(heap, (onward, before, nearest))
-        return gap[group]
+        return gap.get(group, math.inf)
 
     def length(self, group: int) -> float:
         """Length (m) of the middle lane of a group, used to compare ways."""
@@ -157,7 +155,7 @@ class LaneGroups:
             is_middle = group[len(group) // 2] is lane  # its length is known from the search
             total += self.length(lane.group) if is_middle else lane_length(lane)
 
-    def _step(self, lane: Lane, target: int, goal: Lane, following: list[int]) -> Lane:
+    def _step(self, lane: Lane, target: int, goal: Lane, following: dict[int, int]) -> Lane:
         """Next lane of the path: the one that needs the fewest lane changes.
 
         In a junction each lane often has a connecting road of its own. Those that end in the same
@@ -178,7 +176,7 @@ class LaneGroups:
             )
             for i, beside in enumerate(lanes)
             for onward in beside.successors
-            if onward.group == target or (then >= 0 and following[onward.group] == then)
+            if onward.group == target or (then >= 0 and following.get(onward.group) == then)
         ]
         return min(candidates, key=lambda candidate: candidate[:4])[4]
 

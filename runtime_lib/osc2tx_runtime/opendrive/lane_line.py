@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left, bisect_right
 from itertools import pairwise
 
 from .arc_length import SLOWEST_RATE, LaneLine
 from .geometry import GAUSS, Segment, hermite
 from .model import Lane
-from .polynomials import Row
-
-__all__ = ["lane_length", "lane_line"]
+from .polynomials import Row, between
 
 _STEP = 2.0  # m between nodes where curvature or width change
 _MOST = 10_000  # nodes of one piece: its steps are longer from 20 km on
@@ -55,13 +54,14 @@ def _turn(lane: Lane, t: float) -> float | None:
     None as well inside of the centre of an arc, where the length of the lane is not that simple.
     """
     reference, begin, end = lane.road.reference, lane.section.begin, lane.section.end
+    starts = reference.starts
+    first = max(bisect_right(starts, begin) - 1, 0)
+    ends = [*starts[first + 1 : bisect_left(starts, end, first + 1)], end]
     total = 0.0
-    for i, segment in enumerate(reference.segments):
-        low = reference.starts[i] if i else begin
-        high = reference.starts[i + 1] if i + 1 < len(reference.starts) else end
-        span = min(high, end) - max(low, begin)
+    for i, (low, high) in enumerate(pairwise([begin, *ends]), start=first):
+        span = high - low
         if span > 0.0:
-            curvature = segment.constant_curvature()
+            curvature = reference.segments[i].constant_curvature()
             if curvature is None or 1.0 - curvature * t < SLOWEST_RATE:
                 return None
             total += curvature * span
@@ -82,11 +82,11 @@ def _build(lane: Lane) -> LaneLine:
 
 
 def _breaks(lane: Lane, line: LaneLine) -> list[float]:
-    starts = [*lane.road.reference.starts, *lane.centre.starts]
-    if lane.road.superelevation is not None:
-        starts.extend(lane.road.superelevation.starts)
-    inner = (s for s in starts if line.begin < s < line.end)
-    return sorted(dict.fromkeys((line.begin, *inner, line.end)))
+    found = {line.begin, line.end}
+    for each in (lane.road.reference, lane.centre, lane.road.superelevation):
+        if each is not None:
+            found.update(between(each.starts, line.begin, line.end))
+    return sorted(found)
 
 
 def _add_piece(line: LaneLine, lane: Lane, begin: float, end: float) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from itertools import pairwise
 from sys import intern
 
@@ -10,8 +11,6 @@ from lxml import etree
 from .model import Lane, LaneSection
 from .polynomials import Piecewise, Row
 from .xml_reader import Attributes, source_line
-
-__all__ = ["read_reversed", "read_sections"]
 
 NARROWEST = -0.05
 """Metres below nothing that are the rounding of whoever wrote the map."""
@@ -50,8 +49,11 @@ def read_sections(
             element = elements[first][1].find(side)
             if element is not None:
                 span = begins[first], ends[after - 1]
+                lanes_here = [
+                    _lane(each, span, attributes) for each in element.iterchildren("lane")
+                ]
                 for i in range(first, after):
-                    found[i].extend(_lanes(element, span, (i == first, i == after - 1), attributes))
+                    found[i].extend(_part(e, i == first, i == after - 1) for e in lanes_here)
     for (_, element), section in zip(elements, found, strict=True):
         # Edges are stacked from the centre outwards, so a repeated id would be an overlap.
         if len({lane.id for lane in section}) != len(section):
@@ -87,22 +89,14 @@ def _says(section: etree._Element, side: str) -> bool:
     return not one_side or section.find(side) is not None
 
 
-def _lanes(
-    side: etree._Element, span: _Span, is_end: tuple[bool, bool], attributes: Attributes
-) -> list[Lane]:
-    """Lanes of one side in one of the sections that its element holds for.
-
-    Args:
-        side: The element `left` or `right`.
-        span: Where it holds (m of s).
-        is_end: Whether this is the first, and the last, of these sections.
-        attributes: Of the file.
-    """
-    lanes = [_lane(element, span, attributes) for element in side.iterchildren("lane")]
-    for lane in lanes:
-        lane.previous_ids = lane.previous_ids if is_end[0] else (lane.id,)
-        lane.next_ids = lane.next_ids if is_end[1] else (lane.id,)
-    return lanes
+def _part(lane: Lane, is_first: bool, is_last: bool) -> Lane:
+    """The part of a lane in one of the sections that its element holds for."""
+    if is_first and is_last:
+        return lane
+    part = copy(lane)
+    part.previous_ids = lane.previous_ids if is_first else (lane.id,)
+    part.next_ids = lane.next_ids if is_last else (lane.id,)
+    return part
 
 
 def _lane(element: etree._Element, span: _Span, attributes: Attributes) -> Lane:

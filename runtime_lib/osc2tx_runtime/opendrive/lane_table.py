@@ -7,8 +7,6 @@ from collections.abc import Mapping
 from .errors import MapError
 from .model import Lane, LaneKey, Road
 
-__all__ = ["LaneTable"]
-
 
 class LaneTable:
     """The roads and lanes of a map by id.

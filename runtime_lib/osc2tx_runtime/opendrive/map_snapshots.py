@@ -14,8 +14,6 @@ from osc2tx_shared.cache import Snapshots, forget_the_oldest
 from .packed_map import PackingError, pack, unpack
 from .reader import MapContent, read_content
 
-__all__ = ["read_content_once"]
-
 SMALLEST = 200_000
 """Bytes of a map that is worth a file."""
 

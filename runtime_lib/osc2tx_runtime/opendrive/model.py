@@ -15,24 +15,6 @@ if TYPE_CHECKING:
     from .cross_sections import CrossSection
     from .geometry import ReferenceLine
 
-__all__ = [
-    "DRIVING",
-    "Advance",
-    "Junction",
-    "JunctionConnection",
-    "Lane",
-    "LaneBends",
-    "LaneKey",
-    "LaneOutline",
-    "LanePosition",
-    "LaneSection",
-    "Link",
-    "Pose",
-    "Road",
-    "new_tuple",
-    "road_order",
-]
-
 new_tuple = tuple.__new__
 """Makes a named tuple of all its fields in half the time of a call: `new_tuple(Pose, (x, ...))`."""
 
@@ -176,7 +158,7 @@ class Lane:
         outer: t of the edge away from the reference line (m).
         level: Whether it stays level where its road is not.
         level_from: t of the edge (m) whose height it then has, None if it is as its road is.
-        bends: Where it bends; see `lane_bends`.
+        bends: Where it bends.
         heights: Of its surface above the road at the inner and at the outer edge (m); None if
             it lies on the road.
     """

@@ -6,8 +6,6 @@ from collections.abc import Iterator, Mapping
 
 from .model import Junction, JunctionConnection, Lane, LaneSection, Link, Road
 
-__all__ = ["connect_lanes", "lane_order", "linked_ends"]
-
 _Edge = tuple[Lane, Lane]
 
 

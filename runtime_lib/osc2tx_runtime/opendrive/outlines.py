@@ -7,8 +7,6 @@ from collections.abc import Iterable, Iterator
 
 from .model import DRIVING, Lane, LaneOutline, LanePosition, LaneSection, Road
 
-__all__ = ["lane_outlines", "spawn_points"]
-
 _Bounds = tuple[float, float, float, float]
 _Edge = list[tuple[float, float]]
 

@@ -16,8 +16,6 @@ from typing import Any
 from . import cross_sections, crosswalks, geodesy, geometry, model, polynomials, signals
 from .reader import MapContent
 
-__all__ = ["PackingError", "pack", "unpack"]
-
 Column = tuple[str, list[Any]]
 Group = tuple[str, int, list[Column]]  # name of the class, number of objects, columns of its fields
 Packed = list[Group]

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Sequence
-
-__all__ = ["ZERO", "Piecewise", "Row", "combine"]
 
 Row = tuple[float, float, float, float]
 """Coefficients a, b, c, d of a + b u + c u^2 + d u^3 with u = s - start."""
@@ -106,6 +104,11 @@ def _roots(a: float, b: float, c: float) -> tuple[float, ...]:
 ZERO = Piecewise([0.0], [(0.0, 0.0, 0.0, 0.0)])
 
 
+def between(starts: list[float], begin: float, end: float) -> list[float]:
+    """Those of sorted places that lie between two others, and on neither."""
+    return starts[bisect_right(starts, begin) : bisect_left(starts, end)]
+
+
 def combine(terms: Sequence[tuple[float, Piecewise]], begin: float, end: float) -> Piecewise:
     """Weighted sum of piecewise polynomials on [begin, end], as one table.
 
@@ -114,7 +117,7 @@ def combine(terms: Sequence[tuple[float, Piecewise]], begin: float, end: float) 
     starts = [begin]
     for _, term in terms:
         if len(term.starts) > 1:
-            starts.extend(start for start in term.starts if begin < start < end)
+            starts.extend(between(term.starts, begin, end))
     if len(starts) > 1:
         starts = sorted(dict.fromkeys(starts))
     rows: list[Row] = []

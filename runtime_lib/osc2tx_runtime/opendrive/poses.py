@@ -7,8 +7,6 @@ import math
 from .geometry import wrap
 from .model import Lane, Pose, Road
 
-__all__ = ["lane_pose", "surface_pose"]
-
 
 def lane_pose(lane: Lane, s: float, offset: float) -> Pose:
     """Pose on a lane at an offset (m, left in direction of travel)."""

@@ -11,16 +11,6 @@ from .lane_advance import lane_heading
 from .model import Lane, LanePosition, Road
 from .road_index import RoadIndex
 
-__all__ = [
-    "Projection",
-    "best_place",
-    "height",
-    "lane_at",
-    "place_score",
-    "position_of",
-    "project",
-]
-
 
 @dataclass(frozen=True, slots=True)
 class Projection:

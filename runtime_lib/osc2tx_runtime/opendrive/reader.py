@@ -35,8 +35,6 @@ ROUNDING = 0.01
 LONGEST = 2e7
 """Upper limit of the total length (m) of all roads, which has to fit into memory."""
 
-__all__ = ["MapContent", "read_content", "read_content_text"]
-
 
 @dataclass(frozen=True, slots=True)
 class MapContent:

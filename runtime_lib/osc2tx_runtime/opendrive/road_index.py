@@ -14,8 +14,6 @@ from osc2tx_shared.classes import dataclass
 
 from .model import LaneSection, Road
 
-__all__ = ["RoadIndex"]
-
 _SAMPLE = 4.0  # m between samples along a road
 _ACROSS = 8.0  # m between points of the cross-section of a sample
 _CELL = 16.0  # m, edge of a grid cell

@@ -37,8 +37,6 @@ from .road_index import RoadIndex
 from .seams import Seam, seams
 from .signals import Controller, Signal
 
-__all__ = ["RoadMap", "read_map", "read_map_text"]
-
 _THIN = 0.05  # m: lanes narrower than this do not exist at that place
 
 

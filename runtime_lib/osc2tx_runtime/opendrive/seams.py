@@ -13,9 +13,8 @@ from osc2tx_shared.classes import dataclass, replace
 
 from .geometry import wrap
 from .model import DRIVING, Lane, Pose, Road
+from .polynomials import between
 from .poses import lane_pose
-
-__all__ = ["SMALLEST_GAP", "SMALLEST_TURN", "Seam", "seams"]
 
 SMALLEST_GAP = 0.01
 """Metres up to which a step is the rounding of whoever wrote the map."""
@@ -79,14 +78,14 @@ def _within(lane: Lane) -> Iterator[Seam]:
     begin, end, road = lane.section.begin, lane.section.end, lane.road
     if not lane.section.ready:
         lane.section.prepare()
-    starts = {*road.reference.starts[1:], *lane.centre.starts[1:]}
-    for profile in (road.elevation, road.superelevation):
-        starts.update(() if profile is None else profile.starts[1:])
-    for s in sorted(starts):
-        if begin + _BEFORE < s < end:
-            before, after = lane_pose(lane, s - _BEFORE, 0.0), lane_pose(lane, s, 0.0)
-            ends = (before, after) if lane.direction > 0 else (after, before)
-            yield from _seam(lane, s, (road.id, lane.id), *ends)
+    joints: set[float] = set()
+    for each in (road.reference, lane.centre, road.elevation, road.superelevation):
+        if each is not None:
+            joints.update(between(each.starts, max(begin + _BEFORE, each.starts[0]), end))
+    for s in sorted(joints):
+        before, after = lane_pose(lane, s - _BEFORE, 0.0), lane_pose(lane, s, 0.0)
+        ends = (before, after) if lane.direction > 0 else (after, before)
+        yield from _seam(lane, s, (road.id, lane.id), *ends)
 
 
 def _onward(lane: Lane) -> Iterator[Seam]:

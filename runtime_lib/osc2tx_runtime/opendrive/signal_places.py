@@ -8,8 +8,6 @@ from typing import NamedTuple
 from .model import DRIVING, Road
 from .signals import Signal, SignalReference
 
-__all__ = ["SignalPlace", "signal_places"]
-
 
 class SignalPlace(NamedTuple):
     """A place on a lane where a signal holds.

@@ -10,8 +10,6 @@ from .model import Junction, road_order
 from .signals import Controller, Signal, SignalReference
 from .xml_reader import Attributes
 
-__all__ = ["read_controllers", "read_signals"]
-
 
 def read_signals(roads: Iterable[etree._Element], attributes: Attributes) -> tuple[Signal, ...]:
     """All signals of a map, sorted by id, with their references."""

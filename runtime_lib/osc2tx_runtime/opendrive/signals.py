@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["Controller", "Signal", "SignalReference"]
-
 
 @dataclass(frozen=True, slots=True)
 class SignalReference:

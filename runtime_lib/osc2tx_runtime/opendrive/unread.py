@@ -9,8 +9,6 @@ from lxml import etree
 
 from .xml_reader import parse_xml
 
-__all__ = ["READ", "unread_elements"]
-
 READ = frozenset(
     {
         *("OpenDRIVE", "header", "geoReference", "offset"),

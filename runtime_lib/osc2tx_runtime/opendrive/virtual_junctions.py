@@ -14,8 +14,6 @@ from osc2tx_shared.classes import replace
 
 from .model import Lane, LaneSection, Road
 
-__all__ = ["cut_where_roads_branch_off"]
-
 _SHORT = 0.01
 """Metres from the end of a section at which a branch begins there."""
 

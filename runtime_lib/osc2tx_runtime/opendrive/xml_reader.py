@@ -13,8 +13,6 @@ from osc2tx_runtime.plain_numbers import to_float, to_int
 from .errors import MapError
 from .polynomials import Piecewise, Row
 
-__all__ = ["Attributes", "parse_stream", "parse_xml", "source_line"]
-
 _REQUIRED = object()
 _LARGEST = 1e9  # beyond it, products of three attributes would leave the range of floats
 _CHUNK = 1 << 16  # bytes

@@ -10,8 +10,6 @@ from string import Template
 
 from .json_values import Json
 
-__all__ = ["fill", "resource"]
-
 
 def resource(name: str) -> str:
     """Return the text of a file of this package."""

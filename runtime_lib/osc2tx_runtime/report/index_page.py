@@ -4,44 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from osc2tx_shared.classes import dataclass
-
 from .html import fill, resource
 from .json_values import Json, number, plain, text
 from .page import Trace
-from .trace_reader import read_run
-
-__all__ = ["RunRow", "render_index"]
 
 
-@dataclass(frozen=True, slots=True)
-class RunRow:
-    """A run in the index.
-
-    Attributes:
-        page: Its page, relative to the index, with `/`.
-        trace: Its trace.
-    """
-
-    page: str
-    trace: Trace
-
-
-def render_index(rows: Sequence[RunRow]) -> str:
-    """The index as text; the same arguments give the same text."""
-    data: Json = {"runs": [_row(row) for row in rows]}
+def render_index(rows: Sequence[Json]) -> str:
+    """The index of rows (`index_row`) as text; the same arguments give the same text."""
+    data: Json = {"runs": list(rows)}
     script = resource("base.js") + "\n" + resource("index.js")
     return fill(resource("index.html"), resource("report.css"), script, data)
 
 
-def _row(row: RunRow) -> Json:
-    run = read_run(row.trace.lines)
+def index_row(page: str, trace: Trace) -> Json:
+    """A run in the index.
+
+    Args:
+        page: Its page, relative to the index, with `/`.
+        trace: Its trace.
+    """
+    run = trace.run
     result = run.result or {}
     warnings = result.get("warnings")
     parameters, units = run.header.get("parameters"), run.header.get("units")
     return {
-        "page": row.page,
-        "name": row.trace.name,
+        "page": page,
+        "name": trace.name,
         "scenario": text(run.header.get("scenario")),
         "world": text(run.header.get("world")) or "embedded",
         "seed": text(run.header.get("seed")),

@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-__all__ = ["Json", "is_flat", "number", "plain", "short", "text"]
-
 Json = dict[str, object]
 """A JSON object."""
 

@@ -7,8 +7,6 @@ from collections.abc import Callable, Mapping
 
 from .json_values import Json, number, text
 
-__all__ = ["mark_name"]
-
 _DEGREES = 180.0 / math.pi
 # Values of the environment: words before, factor and offset from SI units, unit behind.
 _WEATHER = {

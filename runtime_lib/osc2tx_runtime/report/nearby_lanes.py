@@ -8,8 +8,6 @@ from typing import Protocol
 
 from .json_values import Json, short
 
-__all__ = ["Bounds", "LaneShape", "OutlineSource", "nearby_crosswalks", "nearby_lanes"]
-
 MARGIN = 100.0
 """How far from a path lanes are drawn (m)."""
 
@@ -140,12 +138,13 @@ def _near_test(points: Sequence[Point]) -> Callable[[Point], bool]:
         for j in range(-reach, reach + 1)
         if math.hypot(i, j) <= reach
     ]
-    visited = {_cell(point) for point in points}
+    visited = {cell(point) for point in points}
     cells = {(column + i, row + j) for column, row in visited for i, j in disc}
-    return lambda point: _cell(point) in cells
+    return lambda point: cell(point) in cells
 
 
-def _cell(point: Point) -> tuple[int, int]:
+def cell(point: Point) -> tuple[int, int]:
+    """The grid cell of a point."""
     return math.floor(point[0] / _CELL), math.floor(point[1] / _CELL)
 
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Protocol
-
-from osc2tx_shared.classes import dataclass
 
 from .html import fill, resource
 from .json_values import Json
@@ -14,8 +12,6 @@ from .nearby_lanes import OutlineSource, nearby_crosswalks, nearby_lanes
 from .surroundings import SignalSource
 from .trace_reader import read_run
 from .tracks import DIGITS
-
-__all__ = ["Trace", "render_campaign", "render_report", "render_runs", "write_report"]
 
 
 def render_campaign(data: Json) -> str:
@@ -27,6 +23,17 @@ def render_campaign(data: Json) -> str:
     script = "\n".join(resource(name) for name in ("base.js", "campaign.js", "parallel.js"))
     style = "\n".join(resource(name) for name in ("report.css", "campaign.css"))
     return fill(resource("campaign.html"), style, script, data)
+
+
+def render_project(data: Json) -> str:
+    """Return the page of a project as text; the same data give the same text.
+
+    Args:
+        data: Verdicts of scenarios, XML by reason, and campaigns, as `osc2tx test --page` and
+            `osc2tx campaign report` of several stores collect them.
+    """
+    script = "\n".join(resource(name) for name in ("base.js", "project.js"))
+    return fill(resource("project.html"), resource("report.css"), script, data)
 
 
 _VENDOR_SCRIPT, _VENDOR_STYLE, _VENDOR_LICENCE = (
@@ -59,20 +66,24 @@ class MapSource(OutlineSource, SignalSource, Protocol):
     """The part of `osc2tx_runtime.opendrive.RoadMap` that is drawn."""
 
 
-@dataclass(frozen=True, slots=True)
 class Trace:
-    """A trace that a page is made of.
+    """A trace that a page is made of, read.
 
-    Attributes:
+    Args:
         lines: Its lines; broken and unknown ones are counted on the page.
         name: What tells it from another on the same page.
+
+    Attributes:
+        run: Its content; takes further lines.
+        name: As above.
     """
 
-    lines: Sequence[str]
-    name: str = ""
+    def __init__(self, lines: Iterable[str] = (), name: str = "") -> None:
+        self.run = read_run(lines)
+        self.name = name
 
 
-def write_report(path: Path, trace_lines: Sequence[str], road_map: MapSource | None = None) -> None:
+def write_report(path: Path, trace_lines: Iterable[str], road_map: MapSource | None = None) -> None:
     """Write the report of one run.
 
     Args:
@@ -84,7 +95,7 @@ def write_report(path: Path, trace_lines: Sequence[str], road_map: MapSource | N
     path.write_text(page, encoding="utf-8", newline="\n")
 
 
-def render_report(trace_lines: Sequence[str], road_map: MapSource | None = None) -> str:
+def render_report(trace_lines: Iterable[str], road_map: MapSource | None = None) -> str:
     """The page of one run as text; the same arguments give the same text."""
     return render_runs([Trace(trace_lines)], road_map)
 
@@ -96,7 +107,7 @@ def render_runs(traces: Sequence[Trace], road_map: MapSource | None = None) -> s
         traces: One or two.
         road_map: The map under the paths of both; None to leave it out.
     """
-    runs = [read_run(trace.lines) for trace in traces]
+    runs = [trace.run for trace in traces]
     paths = [track.points() for run in runs for track in run.tracks.values()]
     named = zip(_LETTERS, traces, runs, strict=False)
     data: Json = {

@@ -10,8 +10,6 @@ from osc2tx_shared.classes import dataclass
 
 from .json_values import Json, number, short, text
 
-__all__ = ["SignalShape", "SignalSource", "Surroundings"]
-
 
 class SignalShape(Protocol):
     """The used part of a signal (`osc2tx_runtime.opendrive.Signal`)."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import field
 
 from osc2tx_shared.classes import dataclass
@@ -12,8 +12,6 @@ from .json_values import Json, is_flat, number, plain, short, text
 from .marks import mark_name
 from .surroundings import Surroundings
 from .tracks import Track
-
-__all__ = ["ActionLog", "Run", "node_list", "read_run"]
 
 _Key = tuple[str, str, str]
 
@@ -162,8 +160,22 @@ class Run:
     end: float = 0.0
     skipped: int = 0
 
-    def add(self, line: Json) -> None:
-        """Take one line of the trace."""
+    def take(self, lines: Iterable[str]) -> None:
+        """Take lines of the trace; what is broken or of unknown kind is counted, not refused."""
+        for line in lines:
+            if not line.strip():
+                continue
+            try:
+                value = json.loads(line)
+            except (ValueError, RecursionError):
+                value = None
+            is_deep = line.count("[") + line.count("{") > _BRACKETS
+            if isinstance(value, dict) and (not is_deep or is_flat(value)):
+                self._add(value)
+            else:
+                self.skipped += 1
+
+    def _add(self, line: Json) -> None:
         kind = line.get("kind")
         if kind == "header":
             self.header = line
@@ -180,7 +192,12 @@ class Run:
 
     def _add_timed(self, kind: str, time: float, line: Json) -> bool:
         if kind == "state":
-            return self.tracks.setdefault(text(line.get("actor")), Track()).add(time, line)
+            actor = text(line.get("actor"))
+            track = self.tracks.get(actor, Track())
+            if track.add(time, line):
+                self.tracks[actor] = track
+                return True
+            return False
         if kind == "action":
             self.actions.add(time, line)
             return True
@@ -237,23 +254,12 @@ class Run:
             "width": short(width, 3),
             "rear": short(length / 2 if rear is None else rear, 3),
             "movable": not any(word in kind.lower() for word in _FIXED_KINDS),
-            "track": track.as_json() if track is not None and track.times else None,
+            "track": track.as_json() if track is not None else None,
         }
 
 
-def read_run(trace_lines: Sequence[str]) -> Run:
-    """Read a trace; lines that are broken or of unknown kind are counted, not refused."""
+def read_run(trace_lines: Iterable[str]) -> Run:
+    """Read a trace; see `Run.take`."""
     run = Run()
-    for line in trace_lines:
-        if not line.strip():
-            continue
-        try:
-            value = json.loads(line)
-        except (ValueError, RecursionError):
-            value = None
-        is_deep = line.count("[") + line.count("{") > _BRACKETS
-        if isinstance(value, dict) and (not is_deep or is_flat(value)):
-            run.add(value)
-        else:
-            run.skipped += 1
+    run.take(trace_lines)
     return run

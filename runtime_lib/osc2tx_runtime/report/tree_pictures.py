@@ -9,8 +9,6 @@ from osc2tx_runtime.language.tree import Behaviour
 from osc2tx_shared.classes import replace
 from osc2tx_shared.text import visible
 
-__all__ = ["tree_svg", "tree_text"]
-
 ROW = 26
 STEP = 28
 MARGIN = 16

@@ -12,8 +12,6 @@ from osc2tx_runtime.world.measuring.kinematics import Kinematics
 from osc2tx_runtime.world.protocol import LightState, Progress, World
 from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["checked_world"]
-
 # Types of attributes, and of results of methods; other results are not used.
 ANSWERS: Mapping[str, Any] = {
     "actors": Sequence[str],

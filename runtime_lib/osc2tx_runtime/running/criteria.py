@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["Criteria"]
-
 _REACH = 1.0  # m beyond the way of one step in which a stop line is looked for
 
 

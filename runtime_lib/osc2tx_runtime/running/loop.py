@@ -31,8 +31,6 @@ from osc2tx_runtime.running.criteria import Criteria
 if TYPE_CHECKING:
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["Observer", "OnProgress", "Outcome", "overloads", "run_tree", "settle"]
-
 
 class Observer(Protocol):
     """Called during a run; its exceptions end the run."""

@@ -28,8 +28,6 @@ from osc2tx_shared.text import (
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.scenario import Scenario
 
-__all__ = ["choose_scenario", "main", "verdict"]
-
 EXIT_SUCCESS = 0
 EXIT_UNREADABLE = 4
 EXIT_FAILED = 5

@@ -13,8 +13,6 @@ from osc2tx_runtime.world.protocol import ControlMode
 from osc2tx_runtime.worlds import Option, find_world
 from osc2tx_runtime.worlds.option import NUMBER_AND_UNIT, parse_pair, parse_seconds
 
-__all__ = ["OPTIONS", "parse_signal", "parse_spawn", "read_options"]
-
 CONTROLS: tuple[str, ...] = get_args(ControlMode)
 
 

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import os
-from contextlib import suppress
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import TextIO
 
 from osc2tx_runtime.errors import InputError, SettingsError
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_shared.links import target_outside
 
-__all__ = ["check_outputs", "problem_of", "write_output"]
-
 BEGINS = {
     "trace": (b'{"kind":"header"',),
     "report": (b"<!DOCTYPE html>",),
+    "page": (b"<!DOCTYPE html>",),
     "table": (b"number,seed,", b'{"number": '),
     "summary": (b'{\n "format": ',),
     "junit": tuple(  # of campaigns, and of pytest
@@ -73,22 +74,80 @@ def _may_replace(name: str, path: Path) -> bool:
         return True
 
 
+class OutputFile:
+    """A file that is written line by line, and the folders above it.
+
+    It has a temporary name until it is whole, and then replaces the one that is there at once. It
+    is opened with its first lines.
+
+    Args:
+        name: What it is, for messages.
+        path: Its path.
+    """
+
+    def __init__(self, name: str, path: Path) -> None:
+        self._name = name
+        self._place = Path(os.path.realpath(path))
+        self._temporary = self._place.with_name(
+            f".{self._place.name[:200]}.{os.getpid()}.osc2tx-tmp"
+        )
+        self._file: TextIO | None = None
+        self._is_given_up = False
+
+    def take(self, lines: Iterable[str]) -> None:
+        """Write lines, which have no line ends.
+
+        Raises:
+            InputError: If that is not possible; the file that was there still is.
+        """
+        self.write("".join(f"{line}\n" for line in lines))
+
+    def write(self, text: str) -> None:
+        """Write a text; errors as in `take`."""
+        if not self._is_given_up:
+            with self._giving_up():
+                self._file = self._file or self._opened()
+                self._file.write(text)
+
+    def close(self) -> None:
+        """Put the file to its place, if anything was written.
+
+        Raises:
+            InputError: If that is not possible; the file that was there still is.
+        """
+        if self._file is not None and not self._is_given_up:
+            with self._giving_up():
+                self._file.close()
+                if self._temporary.exists():
+                    os.replace(self._temporary, self._place)
+
+    def _opened(self) -> TextIO:
+        self._place.parent.mkdir(parents=True, exist_ok=True)
+        is_special = self._place.exists() and not self._place.is_file()  # a device, a pipe
+        place = self._place if is_special else self._temporary
+        return place.open("w", encoding="utf-8", newline="\n")
+
+    @contextmanager
+    def _giving_up(self) -> Iterator[None]:
+        """Remove what is written of a file that cannot be written to its end."""
+        try:
+            yield
+        except (OSError, ValueError) as error:
+            self._is_given_up = True
+            with suppress(OSError, ValueError):
+                if self._file is not None:
+                    self._file.close()
+            with suppress(OSError, ValueError):
+                self._temporary.unlink(missing_ok=True)
+            raise InputError(f"the {self._name} cannot be written: {error}") from error
+
+
 def write_output(name: str, path: Path, text: str) -> None:
     """Write a file and the folders above it; one that is there is replaced at once.
 
     Raises:
         InputError: If that is not possible; the file that was there still is.
     """
-    place = Path(os.path.realpath(path))
-    temporary = place.with_name(f".{place.name[:200]}.{os.getpid()}.osc2tx-tmp")
-    try:
-        place.parent.mkdir(parents=True, exist_ok=True)
-        if place.exists() and not place.is_file():  # a device, a pipe
-            place.write_text(text, encoding="utf-8", newline="\n")
-            return
-        temporary.write_text(text, encoding="utf-8", newline="\n")
-        os.replace(temporary, place)
-    except (OSError, ValueError) as error:
-        with suppress(OSError, ValueError):
-            temporary.unlink(missing_ok=True)
-        raise InputError(f"the {name} cannot be written: {error}") from error
+    file = OutputFile(name, path)
+    file.write(text)
+    file.close()

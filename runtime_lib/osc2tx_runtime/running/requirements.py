@@ -14,8 +14,6 @@ from osc2tx_runtime.world.protocol import EXTERNAL
 if TYPE_CHECKING:
     from osc2tx_runtime.language.tree.base import Behaviour
 
-__all__ = ["check_requirements"]
-
 
 def check_requirements(root: Behaviour, context: ExecutionContext) -> None:
     """Compare the actions of a tree that is set up with the capabilities of the world.

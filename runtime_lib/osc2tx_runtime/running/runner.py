@@ -19,9 +19,9 @@ from osc2tx_runtime.language.trace import TraceWriter
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.running.checked_world import checked_world
 from osc2tx_runtime.running.loop import Observer, OnProgress, overloads, run_tree
-from osc2tx_runtime.running.map_warnings import map_warnings
-from osc2tx_runtime.running.output_files import check_outputs, write_output
+from osc2tx_runtime.running.output_files import check_outputs
 from osc2tx_runtime.running.requirements import check_requirements
+from osc2tx_runtime.running.run_outputs import RunOutputs
 from osc2tx_runtime.running.world_choice import make_world
 from osc2tx_runtime.world.embedded import EmbeddedWorld
 from osc2tx_shared.classes import dataclass, replace
@@ -33,8 +33,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.scenario import Scenario
     from osc2tx_runtime.language.tree.base import Behaviour
     from osc2tx_runtime.world.protocol import World
-
-__all__ = ["RunResult", "run_scenario", "setup_tree"]
 
 REDRAWS = 100  # draws of one seed, where the map has no room for the drawn values
 
@@ -48,7 +46,8 @@ class RunResult:
         reason: Empty for success.
         steps: Steps the world made.
         time: Simulated seconds.
-        trace_lines: Lines of the trace, without line ends.
+        trace_lines: Lines of the trace, without line ends, if they are kept.
+        digest: SHA-256 of the trace, if it is asked for.
         collisions: Time in seconds and the two actors of each new contact.
         warnings: Warnings of a run that continues all the same.
         place: Position of the failed element in the scenario; empty where it has none.
@@ -64,6 +63,7 @@ class RunResult:
     warnings: tuple[str, ...] = ()
     place: str = ""
     violations: tuple[Violation, ...] = ()
+    digest: str | None = None
 
 
 def run_scenario(
@@ -73,6 +73,7 @@ def run_scenario(
     *,
     world: World | None = None,
     keep_trace: bool = True,
+    digest: bool = False,
     observer: Observer | None = None,
     read: Callable[[Path], RoadMap] = read_map,
 ) -> RunResult:
@@ -84,7 +85,8 @@ def run_scenario(
         on_progress: Called about once per simulated second with time and `max_time`, in seconds.
         world: The world to run in; by default the one of the settings, on the scenario's map. It
             is closed at the end.
-        keep_trace: Keep the lines of the trace even if no file is requested.
+        keep_trace: Keep the lines of the trace; memory then grows with the length of the run.
+        digest: Compute the digest of the trace.
         observer: Observes the run.
         read: Reads the map; callers with many runs can cache it.
 
@@ -93,7 +95,8 @@ def run_scenario(
     """
     settings = settings or RunSettings()
     check_outputs(settings)
-    run = partial(_run, scenario_class, on_progress, observer, read, keep_trace=keep_trace)
+    outputs = partial(RunOutputs, keep_lines=keep_trace, digest=digest)
+    run = partial(_run, scenario_class, on_progress, observer, read, outputs)
     may_redraw = world is None and settings.world == "embedded" and settings.draws is None
     for draw in range(REDRAWS if may_redraw else 0):
         scenario = scenario_class(replace(settings, draw=settings.draw + draw))
@@ -111,10 +114,10 @@ def _run(
     on_progress: OnProgress | None,
     observer: Observer | None,
     read: Callable[[Path], RoadMap],
+    outputs_of: Callable[[RunSettings], RunOutputs],
     scenario: Scenario,
     world: World | None,
     *,
-    keep_trace: bool,
     is_last: bool,
 ) -> RunResult:
     """Run a scenario with the values that are drawn.
@@ -123,9 +126,11 @@ def _run(
         BeyondMapError: The map surely has no room for the request, unless it `is_last`.
     """
     root, settings = scenario.create_tree(), scenario.settings
+    outputs = outputs_of(settings)
+    on_sample = None if observer is None else observer.sampled
     world = checked_world(world or make_world(scenario, read))
     try:
-        context = make_context(scenario, world, keep_trace, observer)
+        context = make_context(scenario, world, TraceWriter(*outputs.takers, on_sample=on_sample))
         entering = [actor for actor in entering_actors(root) if actor not in settings.spawn]
         if entering:
             context.entries = Entries(rehearsed(scenario_class, settings, entering, world.map))
@@ -140,7 +145,7 @@ def _run(
             world.begin()
             outcome = run_tree(root, context, on_progress, observer)
         finally:
-            write_files(context)
+            outputs.close(world.map)
     finally:
         world.close()
     return RunResult(
@@ -148,11 +153,12 @@ def _run(
         outcome.reason,
         outcome.steps,
         outcome.steps * context.dt,
-        tuple(context.trace.lines),
+        tuple(outputs.lines),
         tuple(context.collisions),
         (*map_warnings(world.map), *world.warnings(), *overloads(context)),
         outcome.place,
         tuple(monitors.violations),
+        None if outputs.digest is None else str(outputs.digest),
     )
 
 
@@ -168,7 +174,7 @@ def rehearsed(
     def play(rehearsal: Rehearsal) -> None:
         scenario = scenario_class(quiet)
         root = scenario.create_tree()
-        context = make_context(scenario, EmbeddedWorld(road_map, quiet.dt), keep_trace=False)
+        context = make_context(scenario, EmbeddedWorld(road_map, quiet.dt))
         context.entries = rehearsal
         place_actors(scenario, context)
         setup_tree(root, context)
@@ -193,18 +199,17 @@ def look_ahead(root: Behaviour) -> None:
 
 
 def make_context(
-    scenario: Scenario, world: World, keep_trace: bool, observer: Observer | None = None
+    scenario: Scenario, world: World, trace: TraceWriter | None = None
 ) -> ExecutionContext:
     """Return the context of a run."""
     settings = scenario.settings
-    enabled = keep_trace or settings.trace is not None or settings.report is not None
     return ExecutionContext(
         world,
         settings,
         scenario.actors,
         events=scenario.events,
         objects=scenario.map_objects,
-        trace=TraceWriter(enabled, None if observer is None else observer.sampled),
+        trace=trace,
         label_events=scenario.label_events,
         one_of=scenario.one_of,
         first_come=scenario.first_come,
@@ -273,13 +278,19 @@ def _path(parameter: tuple[str, Any]) -> str:
     return parameter[0].rpartition(".")[0]
 
 
-def write_files(context: ExecutionContext) -> None:
-    """Write trace and report where the settings want them."""
-    settings = context.settings
-    if settings.trace is not None:
-        write_output("trace", settings.trace, "".join(f"{line}\n" for line in context.trace.lines))
-    if settings.report is not None:
-        from osc2tx_runtime.report import render_report
+_NAMED = 3  # remarks; `osc2tx map` lists all
 
-        page = render_report(context.trace.lines, context.world.map)
-        write_output("report", settings.report, page)
+
+def map_warnings(road_map: RoadMap) -> tuple[str, ...]:
+    """Return a sentence for each of the first remarks, and one for all seams."""
+    name, remarks, seams = road_map.name, road_map.remarks, road_map.seams()
+    found = [f"map {name}: {remark}" for remark in remarks[:_NAMED]]
+    if len(remarks) > _NAMED:
+        found.append(f"map {name}: {len(remarks) - _NAMED} more remarks; `osc2tx map` lists them")
+    if seams:
+        worst = max(seams, key=lambda seam: (seam.gap, seam.turn))
+        found.append(
+            f"map {name}: lanes do not fit together at {len(seams)} places, worst {worst};"
+            " `osc2tx map` lists them"
+        )
+    return tuple(found)

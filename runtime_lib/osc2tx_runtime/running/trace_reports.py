@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 
 from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.errors import InputError
 from osc2tx_runtime.opendrive import MapError, RoadMap, read_map
-from osc2tx_runtime.report.index_page import RunRow, render_index
+from osc2tx_runtime.report.index_page import index_row, render_index
 from osc2tx_runtime.report.page import Trace, render_runs
 from osc2tx_runtime.running.output_files import problem_of, write_output
-
-__all__ = ["folder_report", "trace_report"]
 
 
 class _Maps:
@@ -96,7 +93,7 @@ def folder_report(
         trace = _read_trace(path, str(place.with_suffix("")))
         page = place.with_suffix(".html")
         _write(target / page, render_runs([trace], maps.of(trace)))
-        rows.append(RunRow(page.as_posix(), trace))
+        rows.append(index_row(page.as_posix(), trace))
     index = target / "index.html"
     _write(index, render_index(rows))
     return index, maps.warnings
@@ -104,7 +101,8 @@ def folder_report(
 
 def _read_trace(path: Path, name: str) -> Trace:
     try:
-        return Trace(path.read_text(encoding="utf-8").splitlines(), name)
+        with path.open(encoding="utf-8") as lines:
+            return Trace(lines, name)
     except (OSError, ValueError) as error:
         raise InputError(f"trace {path} cannot be read: {error}") from error
 
@@ -118,9 +116,5 @@ def _write(page: Path, text: str) -> None:
 
 def _map_name(trace: Trace) -> str:
     """The map named in the header; empty without one."""
-    try:
-        header = json.loads(trace.lines[0]) if trace.lines else {}
-    except (ValueError, RecursionError):
-        return ""
-    name = header.get("map") if isinstance(header, dict) else None
+    name = trace.run.header.get("map")
     return name if isinstance(name, str) else ""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -22,28 +22,78 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.scenario import Scenario
     from osc2tx_runtime.language.tree.base import Behaviour
 
-__all__ = ["RecordedRun", "Verification", "read_trace", "recorded_run", "verify"]
-
 Line: TypeAlias = Mapping[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
 class RecordedRun:
-    """A trace, read.
+    """A trace, read but for its states.
 
     Attributes:
         header: The first line.
-        states: `state` lines of each step, by actor.
+        states: `state` lines of each step, by actor; of a file they are read when they are asked
+            for, as there are many.
         nodes: Nodes of the tree, with their runs.
         failed: Time and name of actions that failed because a condition did not hold.
         overridden: Time and name of nodes that another one has ended.
     """
 
     header: Line
-    states: list[dict[str, Line]]
+    states: Iterable[Mapping[str, Line]]
     nodes: list[Line]
     failed: frozenset[tuple[float, str]]
     overridden: frozenset[tuple[float, str]]
+
+
+@dataclass(frozen=True, slots=True)
+class _File:
+    """The lines of a trace, read anew each time.
+
+    Raises:
+        InputError: On iteration, if they are none.
+    """
+
+    path: Path
+
+    def __iter__(self) -> Iterator[Line]:
+        try:
+            with self.path.open(encoding="utf-8") as lines:
+                yield from map(json.loads, lines)
+        except (OSError, ValueError, RecursionError) as error:
+            raise _unreadable(self.path, error) from error
+
+
+@dataclass(frozen=True, slots=True)
+class _States:
+    """The states of a trace, step by step."""
+
+    lines: Iterable[Line]
+    dt: float
+
+    def __iter__(self) -> Iterator[Mapping[str, Line]]:
+        step, states = -1, dict[str, Line]()
+        for line in self.lines:
+            if line["kind"] == "state":
+                before, step = step, _step_of(line, self.dt, step)
+                if step != before and states:
+                    yield states
+                    states = {}
+                states[str(line["actor"])] = line
+        if states:
+            yield states
+
+
+def _step_of(state: Line, dt: float, before: int) -> int:
+    """Return the step of a state: that of the state before it, or the next one."""
+    step = round(float(state["t"]) / dt)
+    if step < 0 or step not in (before, before + 1):
+        raise ValueError(f"there are no states before {state['t']:g} s")
+    return step
+
+
+def _unreadable(path: Path, error: Exception) -> InputError:
+    """Return the error about a trace that is none."""
+    return InputError(f"trace {path} cannot be read: {error}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,50 +115,46 @@ class Verification:
 
 
 def read_trace(path: Path) -> RecordedRun:
-    """Read a trace.
+    """Read a trace; its states are read by `verify`.
 
     Raises:
         InputError: It is none, or not a whole one.
     """
     try:
-        lines = [json.loads(text) for text in path.read_text(encoding="utf-8").splitlines()]
-        return recorded_run(lines)
-    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
-        raise InputError(f"trace {path} cannot be read: {error}") from error
+        return recorded_run(_File(path))
+    except (KeyError, OverflowError, TypeError, ValueError, ZeroDivisionError) as error:
+        raise _unreadable(path, error) from error
 
 
-def recorded_run(lines: Sequence[Line]) -> RecordedRun:
-    """Return a run from the lines of its trace.
+def recorded_run(lines: Iterable[Line]) -> RecordedRun:
+    """Return a run from the lines of its trace, which are gone through more than once.
 
     Raises:
         KeyError, TypeError, ValueError: They are none, or not all of them.
     """
-    if not lines or lines[0]["kind"] != "header":
+    header: Line | None = None
+    dt, step = 0.0, -1
+    nodes: list[Line] = []
+    failed, overridden = set[tuple[float, str]](), set[tuple[float, str]]()
+    for line in lines:
+        kind = line["kind"]
+        if header is None:
+            if kind != "header":
+                break
+            header, dt = line, float(line["dt"])
+        elif kind == "state":
+            step = _step_of(line, dt, step)
+        elif kind == "tree":
+            nodes += line["nodes"]
+        elif kind == "violation" and line["severity"] == "failure":
+            failed.add((line["t"], line["name"]))
+        elif kind == "override" and line["what"] == "ended":
+            overridden.add((line["t"], line["name"]))
+    if header is None:
         raise ValueError("the first line is no header")
-    header, *rest = lines
-    dt, states = float(header["dt"]), list[dict[str, Line]]()
-    for line in rest:
-        if line["kind"] == "state":
-            step = round(float(line["t"]) / dt)
-            if not 0 <= step <= len(states):
-                raise ValueError(f"there are no states before {line['t']:g} s")
-            if step == len(states):
-                states.append({})
-            states[step][str(line["actor"])] = line
-    nodes = [node for line in rest if line["kind"] == "tree" for node in line["nodes"]]
-    failed = frozenset((line["t"], line["name"]) for line in rest if _is_failure(line))
-    overridden = frozenset(
-        (line["t"], line["name"])
-        for line in rest
-        if line["kind"] == "override" and line["what"] == "ended"
-    )
     if not nodes:
         raise ValueError("it is not whole: it has no tree")
-    return RecordedRun(header, states, nodes, failed, overridden)
-
-
-def _is_failure(line: Line) -> bool:
-    return bool(line["kind"] == "violation" and line["severity"] == "failure")
+    return RecordedRun(header, _States(lines, dt), nodes, frozenset(failed), frozenset(overridden))
 
 
 def verify(
@@ -133,7 +179,7 @@ def verify(
     root = scenario.create_tree()
     road_map = read_map(find_map(scenario.map_file() or run.header.get("map"), tuple(map_path)))
     world = RecordedWorld(road_map, float(run.header["dt"]), run.header.get("control", {}))
-    context = make_context(scenario, world, keep_trace=False)
+    context = make_context(scenario, world)
     place_actors(scenario, context)
     setup_tree(root, context)
     monitors = Monitors(context)

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.scenario import Scenario
     from osc2tx_runtime.world.protocol import ActorSpec
 
-__all__ = ["check_world", "make_world"]
-
 
 def make_world(scenario: Scenario, read: Callable[[Path], RoadMap] = read_map) -> object:
     """Make the world that the settings choose, for the scenario's map.

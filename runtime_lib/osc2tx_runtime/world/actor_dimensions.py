@@ -13,23 +13,6 @@ from typing import cast
 from osc2tx_runtime.enums import VehicleCategory
 from osc2tx_shared.classes import dataclass
 
-__all__ = [
-    "CATEGORIES",
-    "COMFORT",
-    "GENTLE",
-    "MAX_STEERING",
-    "MODELS",
-    "RATE_CAP",
-    "TOP_SPEED",
-    "TYRES",
-    "VEHICLE_CATEGORIES",
-    "Limits",
-    "Shape",
-    "category_of",
-    "limits_of",
-    "shape_of",
-]
-
 COMFORT = 0.5  # share of the limits that is used where nothing asks for more
 GENTLE = 0.9
 """Of the comfortable rate: the peak of a smooth change of speed that names none."""

@@ -46,8 +46,6 @@ from .protocol import (
 )
 from .state import ActorState
 
-__all__ = ["EmbeddedWorld"]
-
 NOBODY: frozenset[str] = frozenset()
 
 

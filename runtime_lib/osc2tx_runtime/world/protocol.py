@@ -19,25 +19,6 @@ from .actor_dimensions import Limits, Shape
 from .commands import Command
 from .state import ActorState
 
-__all__ = [
-    "EXTERNAL",
-    "FEATURES",
-    "FOG_LIGHT_RANGE",
-    "LATERAL",
-    "LONGITUDINAL",
-    "LOW_BEAM_SUN_ELEVATION",
-    "PENDING",
-    "REACHED",
-    "ActorSpec",
-    "ControlMode",
-    "Feature",
-    "LightMode",
-    "LightState",
-    "Note",
-    "Progress",
-    "World",
-]
-
 Feature = Literal["lanes", "lights", "map", "towing", "traffic_lights", "weather"]
 """Capability of a world that an action or modifier may require."""
 

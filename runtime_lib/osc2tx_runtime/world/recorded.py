@@ -12,8 +12,6 @@ from .embedded import NOBODY, EmbeddedWorld
 from .protocol import ControlMode
 from .state import ActorState
 
-__all__ = ["RecordedWorld"]
-
 
 class RecordedWorld(EmbeddedWorld):
     """Holds the states of one instant of a trace at a time; its actors are placed as ever.

@@ -8,8 +8,6 @@ from osc2tx_runtime.opendrive import LanePosition
 
 from .actor_dimensions import Shape
 
-__all__ = ["ActorState"]
-
 
 class ActorState(NamedTuple):
     """State of an actor at a step; a tuple because one is made per actor and step.

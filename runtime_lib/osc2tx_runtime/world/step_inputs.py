@@ -10,8 +10,6 @@ from osc2tx_runtime.world.surroundings.stop_lines_ahead import StopLine
 from .actor_dimensions import Limits
 from .state import ActorState
 
-__all__ = ["StepInputs"]
-
 
 class StepInputs(Protocol):
     """The snapshot of the present step.

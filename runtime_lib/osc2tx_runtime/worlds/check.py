@@ -9,8 +9,6 @@ from osc2tx_shared.classes import dataclass
 
 from .request import WorldRequest
 
-__all__ = ["CheckRequest", "CheckResult", "CheckStatus"]
-
 CheckStatus = Literal["ok", "differs", "unknown"]
 """`unknown`: it was not tried, or cannot be found out."""
 

@@ -14,8 +14,6 @@ from .option import Option, parse_pair
 from .request import WorldRequest
 from .world_type import WorldType
 
-__all__ = ["EMBEDDED"]
-
 EXAMPLE = "hero=my_stack.drivers:Careful"
 
 

@@ -9,8 +9,6 @@ from typing import Any
 from osc2tx_runtime.errors import SettingsError
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["Option", "parse_pair", "parse_seconds"]
-
 SECONDS = {"": 1.0, "s": 1.0, "sec": 1.0, "ms": 0.001, "min": 60.0}
 NUMBER_AND_UNIT = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([A-Za-z]*)", re.ASCII)
 

@@ -13,8 +13,6 @@ from .embedded import EMBEDDED
 from .option import Option
 from .world_type import WorldType
 
-__all__ = ["ENTRY_POINTS", "find_world"]
-
 ENTRY_POINTS = "osc2tx.worlds"
 """Group of entry points; each names a `WorldType`, by the name that `--world` takes."""
 

@@ -12,8 +12,6 @@ from osc2tx_runtime.opendrive import MapError, RoadMap, read_map
 from osc2tx_runtime.world.protocol import ControlMode
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["WorldRequest"]
-
 
 @dataclass(frozen=True, slots=True)
 class WorldRequest:

@@ -11,8 +11,6 @@ from .check import CheckRequest, CheckResult
 from .option import Option
 from .request import WorldRequest
 
-__all__ = ["WorldType"]
-
 
 @dataclass(frozen=True, slots=True)
 class WorldType:

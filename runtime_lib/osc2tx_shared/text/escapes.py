@@ -7,8 +7,6 @@ import unicodedata
 from collections.abc import Callable
 from functools import cache
 
-__all__ = ["in_json", "in_xml", "visible", "without_commands"]
-
 # Control, format (direction overrides, zero width, tags), surrogate, line and paragraph separator.
 _UNSAFE = frozenset({"Cc", "Cf", "Cs", "Zl", "Zp"})
 

@@ -11,23 +11,6 @@ from typing import Literal, TextIO, TypeAlias
 
 from osc2tx_shared.text.escapes import visible, without_commands
 
-__all__ = [
-    "READER_HAS_GONE",
-    "OutputError",
-    "StreamName",
-    "clear_status",
-    "complain",
-    "expect_output",
-    "explain",
-    "is_watched",
-    "put",
-    "put_document",
-    "recorded",
-    "replay",
-    "say",
-    "show_status",
-]
-
 UNWRITABLE = 4
 READER_HAS_GONE = 141  # as shells have it: 128 + SIGPIPE
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import pytest
 
 from osc2tx_runtime.opendrive import LaneKey, LanePosition, MapError, RoadMap
-from osc2tx_runtime.running.map_warnings import map_warnings
+from osc2tx_runtime.running.runner import map_warnings
 from tests.runtime.opendrive.small_maps import LANES, WIDTH, make_map, road_text, shape
 
 LINE = shape("line", 100.0)

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from osc2tx_runtime.report.index_page import RunRow, render_index
+from osc2tx_runtime.report.index_page import index_row, render_index
 from osc2tx_runtime.report.page import Trace, render_runs
 from tests.runtime.report.browser import IN_A_BROWSER, looked_at, shown_page
 from tests.runtime.report.conftest import TraceMaker, wandering
@@ -185,7 +185,7 @@ def test_index_of_runs(tmp_path: Path, overtaking, hostile) -> None:
     out.left = rows.filter(({ row }) => !row.hidden).length;
     sortBy("duration"); out.first = body.rows[0].querySelector("a").textContent;
     </script>"""
-    runs = [RunRow("a.html", Trace(overtaking, "a")), RunRow("b.html", Trace(hostile, "b"))]
+    runs = [index_row("a.html", Trace(overtaking, "a")), index_row("b.html", Trace(hostile, "b"))]
     assert shown_page(tmp_path, render_index(runs), driver) == {
         "ready": "true",
         "left": "1",

@@ -11,7 +11,7 @@ import pytest
 
 import osc2tx_runtime.report
 from osc2tx_runtime.report import write_report
-from osc2tx_runtime.report.index_page import RunRow, render_index
+from osc2tx_runtime.report.index_page import index_row, render_index
 from osc2tx_runtime.report.page import Trace, render_report, render_runs
 from osc2tx_runtime.report.tracks import MAX_SAMPLES, pack
 from tests.runtime.report.conftest import TraceMaker, highway, wandering
@@ -268,7 +268,7 @@ def test_two_runs_share_a_page(overtaking, highway_map) -> None:
 
 def test_the_index_has_a_row_for_each_run(overtaking, hostile) -> None:
     page = render_index(
-        [RunRow("a.html", Trace(overtaking, "a")), RunRow("b.html", Trace(hostile, "b"))]
+        [index_row("a.html", Trace(overtaking, "a")), index_row("b.html", Trace(hostile, "b"))]
     )
     first, second = data_of(page)["runs"]
     assert (first["page"], first["status"], first["collisions"]) == ("a.html", "failure", 0)

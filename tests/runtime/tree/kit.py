@@ -168,12 +168,13 @@ class Run:
     ) -> None:
         self.root = tree if isinstance(tree, Behaviour) else tree()
         self.world = world or FakeWorld(ids, dt)
+        self.lines: list[str] = []
         self.context = ExecutionContext(
             self.world,  # type: ignore[arg-type]
             RunSettings(dt=dt, max_time=max_time, **settings),
             {id: FakeActor(id) for id in self.world.ids},  # type: ignore[misc]
             events=events,
-            trace=TraceWriter(),
+            trace=TraceWriter(self.lines.extend),
             one_of=one_of,
             label_events=label_events,
         )
@@ -182,10 +183,6 @@ class Run:
         setup_tree(self.root, self.context)
         self.outcome = run_tree(self.root, self.context)
         return self
-
-    @property
-    def lines(self) -> list[str]:
-        return self.context.trace.lines
 
 
 def event(name: str) -> Event:

@@ -31,6 +31,10 @@ from tests.traces import whatever_the_order
 DOCUMENT = Path(__file__).parents[3] / "docs/trace.md"
 
 
+class Near(Event):
+    gap: float
+
+
 class Overtake(Scenario):
     name = "overtake"
     source = "overtake.osc"
@@ -42,7 +46,7 @@ class Overtake(Scenario):
         self.ego = Vehicle()
         self.npc = Vehicle()
         self.gap = self.parameter("gap", 15.0)
-        self.near = Event()
+        self.near = Near()
 
     def placement(self) -> None:
         self.place(self.ego, lane(2), position(distance=50.0), speed(20.0))

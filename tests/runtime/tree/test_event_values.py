@@ -25,13 +25,19 @@ from osc2tx_runtime.language.tree import (
 )
 from tests.runtime.tree.kit import Run, event
 
-NEAR = {"gap": None, "limit": lambda: 3.0, "kind": "car"}
+
+class Near(Event):
+    gap: float
+    limit: float
+    kind: str
 
 
-def near(name: str = "near") -> Event:
-    made = Event(parameters=NEAR)
-    made.name = name
-    return made
+class Told(Event):
+    gap: float
+
+
+def near() -> Near:
+    return Near(name="near", defaults={"limit": lambda: 3.0, "kind": "car"})
 
 
 def events(run: Run) -> list[tuple[float, str, Any]]:
@@ -41,8 +47,12 @@ def events(run: Run) -> list[tuple[float, str, Any]]:
 
 def test_defaults_are_evaluated_when_the_event_is_emitted() -> None:
     values = iter([1.0, 2.0])
-    e = Event(parameters={"x": lambda: next(values), "y": 5})
-    e.name = "e"
+
+    class Counted(Event):
+        x: float
+        y: int
+
+    e = Counted(name="e", defaults={"x": lambda: next(values), "y": 5})
     run = Run(Serial("s", Emit(e), Emit(e, x=9.0), Wait(elapsed(0.1)), Emit(e, y=lambda: 6))).go()
     assert events(run) == [
         (0.0, "e", {"x": 1.0, "y": 5}),
@@ -53,7 +63,11 @@ def test_defaults_are_evaluated_when_the_event_is_emitted() -> None:
 
 @pytest.mark.parametrize(
     ("given", "message"),
-    [({}, "event near needs gap"), ({"gap": 1.0, "gp": 2}, "event near has no parameter gp")],
+    [
+        ({}, "event near needs gap"),
+        ({"gap": 1.0, "gp": 2}, "event near has no parameter gp"),
+        ({"gap": 1.0, "name": "x"}, "event near has no parameter name"),
+    ],
 )
 def test_names_of_arguments_are_checked_before_the_run(given: Any, message: str) -> None:
     emit = Emit(near(), **given)
@@ -73,7 +87,7 @@ def test_conditions_read_the_values_of_the_occurrence() -> None:
     e, far = near(), event("far")
     tree = Parallel(
         "p",
-        Serial("s", Wait(e, condition=lambda: e["gap"] > e["limit"]), Emit(far)),
+        Serial("s", Wait(e, condition=lambda: e.gap > e.limit), Emit(far)),
         Serial("e", Emit(e, gap=2.0), Wait(elapsed(0.1)), Emit(e, gap=4.0), Wait(elapsed(0.1))),
     )
     assert events(Run(tree).go())[1:] == [
@@ -84,14 +98,13 @@ def test_conditions_read_the_values_of_the_occurrence() -> None:
 
 @pytest.mark.parametrize("order", list(permutations(range(4))))
 def test_on_reacts_to_each_event_of_an_instant_with_its_values(order: Any) -> None:
-    e, told = near(), Event(parameters={"gap": None})
-    told.name = "told"
+    e, told = near(), Told(name="told")
     heard: list[float] = []
     members = [
-        On(e, Call(lambda: heard.append(e["gap"])), Emit(told, gap=lambda: e["gap"])),
+        On(e, Call(lambda: heard.append(e.gap)), Emit(told, gap=lambda: e.gap)),
         Parallel("emits", Emit(e, gap=2.0), Emit(e, gap=1.0), Emit(e, gap=2.0)),
-        On(e, Emit(event("big")), condition=lambda: e["gap"] > 1.5),
-        Wait(e, condition=lambda: e["gap"] > 5.0),  # looks at the same occurrences meanwhile
+        On(e, Emit(event("big")), condition=lambda: e.gap > 1.5),
+        Wait(e, condition=lambda: e.gap > 5.0),  # looks at the same occurrences meanwhile
     ]
     run = Run(Parallel("p", *(members[i] for i in order)), max_time=0.2).go()
     assert heard == [1.0, 2.0]
@@ -99,16 +112,45 @@ def test_on_reacts_to_each_event_of_an_instant_with_its_values(order: Any) -> No
     assert sum(name == "big" for _, name, _ in events(run)) == 1
 
 
+def test_a_value_is_there_only_at_an_occurrence() -> None:
+    e = near()
+    with pytest.raises(ScenarioError, match="event near has no value gap here"):
+        e.gap  # noqa: B018
+    with pytest.raises(AttributeError, match="event near has no parameter gp"):
+        e.gp  # type: ignore[attr-defined]  # noqa: B018
+
+
+def test_parameters_may_have_names_of_the_class_and_of_python() -> None:
+    class Odd(Event):
+        name_: str
+        from_: float
+        condition__: float
+        size_: float
+
+    e, seen = Odd(name="odd"), list[tuple[str, float]]()
+    tree = Parallel(
+        "p",
+        On(e, Call(lambda: seen.append((e.name_, e.from_)))),
+        Serial("s", Emit(e, name_="x", from_=1.0, condition__=2.0, size_=3.0), Wait(elapsed(0.1))),
+    )
+    arguments = {"name": "x", "from": 1.0, "condition_": 2.0, "size_": 3.0}
+    assert events(Run(tree, max_time=0.2).go()) == [(0.0, "odd", arguments)]
+    assert seen == [("x", 1.0)]
+
+
 class Sampling(Scenario):
     name, source = "sampling", "sampling.osc"
 
+    class Valued(Event):
+        v: float
+
     def declare(self) -> None:
         self.world: Any = None
-        self.e = Event(parameters={"v": None})
-        self.x = self.sample(lambda: self.e["v"], self.e, 0.0)
+        self.e = self.Valued()
+        self.x = self.sample(lambda: self.e.v, self.e, 0.0)
         self.y = self.sample(lambda: self.x + 1.0, self.e, self.x)
         self.count = self.sample(lambda: self.count + 1, every(0.1), 0)
-        self.none = self.sample(lambda: 1.0, self.e, condition=lambda: self.e["v"] > 100)
+        self.none = self.sample(lambda: 1.0, self.e, condition=lambda: self.e.v > 100)
 
     order = (0, 1, 2)
 

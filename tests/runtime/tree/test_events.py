@@ -138,12 +138,15 @@ def test_signal(at: float, delay: float | None, fires: bool) -> None:
 
 
 def test_condition_on_an_occurrence_and_its_arguments() -> None:
-    a = event("a")
+    class Valued(Event):
+        v: float
+
+    a = Valued(name="a")
     seen: list[float] = []
 
     def big() -> bool:
-        seen.append(a.arguments["v"])
-        return bool(a.arguments["v"] > 2)
+        seen.append(a.v)
+        return a.v > 2
 
     emits = Serial("emits", Emit(a, v=1), Wait(elapsed(0.1)), Emit(a, v=lambda: 3))
     run = Run(Parallel("p", Wait(a, condition=big), emits)).go()

@@ -14,6 +14,7 @@ from osc2tx_runtime.language.tree import (
     Behaviour,
     Call,
     Emit,
+    Event,
     On,
     OneOf,
     Parallel,
@@ -134,6 +135,10 @@ def no_such_name() -> None:
     raise KeyError("x")
 
 
+class Valued(Event):
+    x: float
+
+
 def sampled() -> Behaviour:
     variable = Sampled(broken, elapsed(0.1), 0)
     variable.name = "v"
@@ -160,7 +165,7 @@ def sampled() -> Behaviour:
             "x.osc:3: the condition has no value: division by zero",
         ),
         (
-            lambda: Serial("s", Emit(event("a"), x=broken)),
+            lambda: Serial("s", Emit(Valued(name="a"), x=broken)),
             "x.osc:2: an argument of emit a has no value: division by zero",
         ),
         (lambda: Call(no_such_name), "x.osc:1: call no_such_name: KeyError: 'x'"),

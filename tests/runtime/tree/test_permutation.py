@@ -90,18 +90,23 @@ def grow(inner: st.SearchStrategy[Spec]) -> st.SearchStrategy[Spec]:
 trees = st.recursive(leaves, grow, max_leaves=14)
 
 
+class Numbered(Event):
+    x: int
+
+
 class Builder:
     """Builds the tree of a spec; nodes are named by their place in the unshuffled spec."""
 
     def __init__(self, shuffle: random.Random | None) -> None:
         self.shuffle = shuffle
         self.events: dict[str, Event] = {name: event(name) for name in NAMES}
+        self.events["c"] = Numbered(name="c", defaults={"x": 0})
         self.labels = {}
         for label in ("t0", "t1"):
             self.labels[label, "end"] = event(f"{label}.end")
-        self.told = event("told")
+        self.told = Numbered(name="told")
         self.sampled = [
-            Sampled(lambda: self.told["x"] + self.sampled[1].value, self.told, 0),
+            Sampled(lambda: self.told.x + self.sampled[1].value, self.told, 0),
             Sampled(lambda: self.sampled[0].value, self.told, 0),
             Sampled(lambda: self.sampled[2].value + 1, every(0.1), 0),
         ]
@@ -151,9 +156,9 @@ class Builder:
         if spec.kind == "tell":
             return Emit(told, x=value)
         if spec.kind == "hear":
-            return Wait(told, condition=lambda: told["x"] > value)
+            return Wait(told, condition=lambda: told.x > value)
         if spec.kind == "pass on":
-            return On(told, Emit(self.events["c"], x=lambda: told["x"] % 2))
+            return On(told, Emit(self.events["c"], x=lambda: told.x % 2))
         if spec.kind == "read":
             return Wait(lambda: x[0].value > value or x[2].value > 4)
         if spec.kind == "task":

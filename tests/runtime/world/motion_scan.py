@@ -14,8 +14,6 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
-__all__ = ["SMOOTHING", "Instant", "Worst", "impossible", "scan", "scan_lines"]
-
 _CREEP = 0.02  # m of a step from which on it has a course
 SMOOTHING = 0.1
 """Seconds over which yaw rates are looked at: maps have small kinks where roads join."""

@@ -70,7 +70,7 @@ def on_map(file: str, *relations: Any, **parts: Any) -> Any:
 
     scenario = Parts(RunSettings())
     scenario.create_tree()
-    place_actors(scenario, make_context(scenario, make_world(scenario), keep_trace=False))
+    place_actors(scenario, make_context(scenario, make_world(scenario)))
     return scenario
 
 
@@ -222,7 +222,7 @@ def test_a_place_on_the_globe_needs_a_map_that_knows_it(tmp_path: Path) -> None:
 
     scenario = Nowhere(RunSettings(map_path=(tmp_path,)))
     scenario.create_tree()
-    context = make_context(scenario, make_world(scenario), keep_trace=False)
+    context = make_context(scenario, make_world(scenario))
     with pytest.raises(ScenarioError, match="there: map nowhere has no place for it: it has no"):
         place_actors(scenario, context)
 

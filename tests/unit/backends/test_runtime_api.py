@@ -8,7 +8,12 @@ import osc2tx_runtime
 import osc2tx_runtime.domain.modifiers
 import osc2tx_runtime.enums
 import osc2tx_runtime.units
-from osc2tx.backends.py_trees.naming import SCENARIO_ATTRIBUTES, class_name, identifier
+from osc2tx.backends.py_trees.naming import (
+    EVENT_ATTRIBUTES,
+    SCENARIO_ATTRIBUTES,
+    class_name,
+    identifier,
+)
 from osc2tx.backends.py_trees.runtime_api import (
     ABSTRACT_TYPES,
     ACTOR_CLASSES,
@@ -90,6 +95,11 @@ def test_scenarios_do_not_hide_what_the_base_uses() -> None:
     public = {name for name in dir(base) if not name.startswith("_")}
     public |= {name for name in vars(base()) if not name.startswith("_")}
     assert public <= SCENARIO_ATTRIBUTES
+
+
+def test_parameters_of_events_do_not_hide_what_the_base_uses() -> None:
+    event = osc2tx_runtime.Event()
+    assert {name for name in dir(event) if not name.startswith("_")} == EVENT_ATTRIBUTES
 
 
 def test_every_unit_of_the_library_has_the_same_value_at_run_time() -> None:

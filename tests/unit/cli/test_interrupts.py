@@ -122,7 +122,7 @@ def test_little_is_imported_before_ctrl_c_is_quiet() -> None:
         "print(*sorted(set(sys.modules) - before))"
     )
     ended = subprocess.run(
-        [sys.executable, "-c", f"import __future__, re, signal; {code}"],
+        [sys.executable, "-c", f"import __future__, gc, re, signal; {code}"],
         capture_output=True,
         text=True,
         check=True,

@@ -1,9 +1,11 @@
 """`osc2tx test`, and `pytest` by itself: scenarios of a project are tests."""
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import pytest
@@ -135,6 +137,51 @@ def test_errors_of_a_source_fail_its_test(project: Shell) -> None:
     (row,) = (line for line in ended.stdout.splitlines() if line.startswith("scenarios/"))
     assert row.split()[:3] == ["scenarios/urban/slow.osc", "slow", "error"]
     assert "OSC202" in row
+
+
+def page_data(project: Shell) -> dict[str, Any]:
+    text = (project.folder / "out/project.html").read_text(encoding="utf-8")
+    found = re.search(r'<script type="application/json" id="run-data">(.*?)</script>', text, re.S)
+    assert found is not None
+    data: dict[str, Any] = json.loads(found[1])
+    return data
+
+
+def test_the_page_of_a_project(project: Shell) -> None:
+    """Verdicts with the values that scenarios fix, and XML by reason."""
+    project.write("osc2tx.toml", SETTINGS.replace('"failure"', '"timeout"'))
+    options = ("--page", "out/project.html", "--traces", "out/traces")
+    ended = start(project, "osc2tx", "test", *options, "-j", "1")
+    assert ended.returncode == 5
+    data = page_data(project)
+    found = {each["name"]: each for each in data["scenarios"]}
+    assert list(found) == ["never", "fast", "slow", "slower"]  # by file
+    assert found["slow"]["values"] == {
+        "about.priority": "high",
+        "about.requirement": "REQ-1",
+        "v_ego": "30kph",
+    }
+    assert (found["slow"]["verdict"], found["slow"]["expected"]) == ("success", "success")
+    assert (found["never"]["verdict"], found["never"]["expected"]) == ("failure", "timeout")
+    assert "never happened" in found["never"]["reason"]
+    assert found["slow"]["page"] == "traces/urban/slow.html"
+    assert (project.folder / "out" / found["slow"]["page"]).is_file()
+    xml = data["xml"]
+    assert xml["scenarios"] == xml["written"] + len(
+        {n for r in xml["reasons"] for n in r["scenarios"]}
+    )
+    assert xml["scenarios"] >= 4
+    assert start(project, "osc2tx", "test", *options, "-j", "1").returncode == 5  # written again
+    project.write("out/project.html", "mine")
+    ended = start(project, "osc2tx", "test", *options, "-j", "1")
+    assert (ended.returncode, "it is no page" in ended.stderr) == (2, True)
+
+
+def test_campaigns_are_for_the_page(project: Shell) -> None:
+    ended = start(project, "osc2tx", "test", "--campaign", "a.campaign")
+    assert (ended.returncode, "give --page as well" in ended.stderr) == (2, True)
+    ended = start(project, "osc2tx", "test", "--campaign", "a.campaign", "--page", "p.html")
+    assert (ended.returncode, "a.campaign" in ended.stderr) == (2, True)
 
 
 @pytest.mark.parametrize(

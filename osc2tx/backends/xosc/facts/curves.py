@@ -14,8 +14,6 @@ from osc2tx_runtime.domain.paths.path_values import Trajectory
 from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
 from osc2tx_runtime.world.geometry.curve import Curve
 
-__all__ = ["Waypoint", "curve_through", "sample_curve", "thinned"]
-
 
 class Waypoint(NamedTuple):
     """A point of a way.

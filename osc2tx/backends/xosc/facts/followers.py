@@ -15,8 +15,6 @@ from osc2tx_runtime.world.commands import FollowCourse
 from osc2tx_runtime.world.lateral.curve_following import Course, course_of
 from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["off_the_line"]
-
 STEP = 0.02  # s
 MOST_STEPS = 4000
 """Of a smooth line; they are longer along a longer one."""

@@ -6,8 +6,6 @@ from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.opendrive.model import LaneKey
 from osc2tx_runtime.world.geometry.lane_neighbours import actual_lane, lane_beside
 
-__all__ = ["is_oncoming", "number_of_oncoming"]
-
 CLOSE = 5.0
 """Metres between places where a lane is looked at."""
 

@@ -11,8 +11,6 @@ from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.language.tree import parallel_schedule as schedule
 from osc2tx_runtime.running.options import parse_signal, parse_spawn
 
-__all__ = ["plan_starts", "read_signal", "read_spawn"]
-
 
 def read_signal(text: str) -> tuple[str, float]:
     """Return name and time (s) of an event from outside, as `--signal` says it.

@@ -22,9 +22,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Environment
     from osc2tx_runtime.domain.measuring.weather import CelestialLightSource
 
-__all__ = ["Air", "AssignCelestialPosition", "Clouds", "Fog", "Rain", "Snow", "Wind"]
-
-
 BOUNDS: Mapping[str, tuple[float, float, str]] = {
     "temperature": (0.0, math.inf, " K"),
     "pressure": (0.0, math.inf, " Pa"),

@@ -22,8 +22,6 @@ from osc2tx_runtime.world.surroundings.sun_and_moon import Sky
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
-__all__ = ["Environment"]
-
 
 class Environment(Actor, EnvironmentMethods):
     """Weather and light.

@@ -9,8 +9,6 @@ from osc2tx_runtime.domain.objects.base import Actor
 from osc2tx_runtime.domain.signals.traffic_lights import TrafficLightControl, TrafficLightCycle
 from osc2tx_runtime.enums import DrivingRule
 
-__all__ = ["Map"]
-
 
 class Map(Actor, RoadNetwork, TrafficLightControl):
     """The road network.

@@ -11,8 +11,6 @@ from osc2tx_runtime.domain.objects.physical_objects import ObjectFields, Physica
 from osc2tx_runtime.enums import IntendedInfrastructure, TrafficParticipantRole
 from osc2tx_runtime.errors import ScenarioError
 
-__all__ = ["Animal", "MovableObject", "ParticipantFields", "Person", "TrafficParticipant"]
-
 Infrastructure = Sequence[IntendedInfrastructure] | Mapping[int, IntendedInfrastructure]
 
 

@@ -47,8 +47,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.measuring.object_measurements import Measures
     from osc2tx_runtime.language.context import ExecutionContext
 
-__all__ = ["RoadNetwork"]
-
 
 class RoadNetwork:
     """What one can ask a map; mixed into the actor class."""

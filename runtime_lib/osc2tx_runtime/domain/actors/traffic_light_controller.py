@@ -5,8 +5,6 @@ from __future__ import annotations
 from osc2tx_runtime.domain.methods import TrafficLightControllerMethods
 from osc2tx_runtime.domain.objects.base import Actor
 
-__all__ = ["TrafficLightController"]
-
 
 class TrafficLightController(Actor, TrafficLightControllerMethods):
     """Switches traffic lights."""

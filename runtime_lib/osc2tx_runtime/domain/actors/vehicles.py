@@ -21,8 +21,6 @@ from osc2tx_shared.classes import replace
 
 from .movable_objects import ParticipantFields, TrafficParticipant
 
-__all__ = ["Trailer", "TrailerFields", "Vehicle", "VehicleFields"]
-
 
 class VehicleFields(ParticipantFields, total=False):
     """Keywords of `Vehicle`."""

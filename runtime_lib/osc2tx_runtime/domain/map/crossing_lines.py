@@ -15,8 +15,6 @@ from osc2tx_shared.classes import replace
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.map.lane_graph import LaneGraph
 
-__all__ = ["laid", "on_crosswalk"]
-
 _BEYOND = 4.0  # m behind the ends of a crosswalk where a sidewalk may have its centre line
 _SAMPLE = 0.25  # m along a crosswalk between looks at the lane under it
 _COARSE = 4.0  # m along a lane between looks at the side on which a crossing is

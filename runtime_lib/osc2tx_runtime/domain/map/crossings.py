@@ -13,9 +13,6 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import Crosswalk
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["Crossing", "CrossingType"]
-
-
 _SAME = 0.1  # m between a width that is asked for and that of a crosswalk
 _ON_ROAD = 0.01  # m above the road
 

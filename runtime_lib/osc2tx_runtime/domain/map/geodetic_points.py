@@ -12,8 +12,6 @@ from osc2tx_runtime.world.motion.moving_body import ANY_LANE
 if TYPE_CHECKING:
     from osc2tx_runtime.language.scenario_parts import ScenarioParts
 
-__all__ = ["check_globe", "place_of_geodetic"]
-
 
 def place_of_geodetic(road_map: RoadMap, point: GeodeticPoint) -> Pose:
     """Place of a point on the globe, so high above the nearest road as it says.

@@ -10,8 +10,6 @@ from osc2tx_runtime.domain.map.segments import MapSegment
 from osc2tx_runtime.opendrive import DRIVING, Lane, LaneKey, LanePosition, RoadMap
 from osc2tx_runtime.opendrive.lane_line import lane_line
 
-__all__ = ["LaneGraph"]
-
 _INSIDE = 1e-6  # m from the end of a lane section, to be in it
 
 

@@ -7,8 +7,6 @@ from typing import NamedTuple
 
 from osc2tx_runtime.enums import Directionality, LaneType, LaneUse
 
-__all__ = ["LANE_TYPES", "LaneKind", "kind_of_lane"]
-
 
 class LaneKind(NamedTuple):
     """The type of a lane.

@@ -11,8 +11,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
     from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
 
-__all__ = ["MapObject"]
-
 
 class MapObject(DeclaredObject):
     """Something of the map; its live members can be read while the scenario runs."""

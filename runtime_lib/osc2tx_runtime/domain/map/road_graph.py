@@ -16,8 +16,6 @@ from osc2tx_runtime.opendrive.geometry import wrap
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.map.lane_graph import LaneGraph
 
-__all__ = ["Passage", "RoadGraph", "arms_of", "graph_of", "passages_of"]
-
 
 class Passage(NamedTuple):
     """A way through a junction, from lane to lane.

@@ -13,8 +13,6 @@ from osc2tx_runtime.domain.map.road_graph import RoadGraph
 from osc2tx_runtime.domain.map.segments import MapSegment
 from osc2tx_runtime.enums import Directionality
 
-__all__ = ["axis_lanes", "directionality_of", "length_of", "widths_of"]
-
 
 def axis_lanes(graph: RoadGraph, segment: MapSegment) -> tuple[MapSegment, ...]:
     """Lanes whose centre lines are the axis, in order; none of roads, routes and crossings."""

@@ -21,8 +21,6 @@ from osc2tx_runtime.errors import ScenarioError
 if TYPE_CHECKING:
     from osc2tx_runtime.language.values.parameters import Range
 
-__all__ = ["SAME", "PartT", "RoadPart", "Route", "Wish", "fulfils", "said"]
-
 Wish: TypeAlias = "float | Range[Any]"
 
 

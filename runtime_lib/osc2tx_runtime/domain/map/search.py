@@ -8,8 +8,6 @@ from pathlib import Path
 from osc2tx_runtime.errors import InputError
 from osc2tx_shared.map_files import DEFAULT_MAP, map_names, map_places
 
-__all__ = ["find_map"]
-
 LONGEST_SHOWN = 80
 
 

@@ -7,8 +7,6 @@ from typing import Literal
 
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["CrossingLine", "MapSegment", "PartKind"]
-
 PartKind = Literal[
     "road",
     "lane_section",

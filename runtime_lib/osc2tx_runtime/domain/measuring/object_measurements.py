@@ -45,8 +45,6 @@ from osc2tx_runtime.world.measuring.measured import Measured
 from osc2tx_runtime.world.measuring.velocities import Acceleration, Velocity
 from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["Measures"]
-
 
 class Measures(MeasuredObject):
     """What one can read of a physical object; mixed into the actor classes."""

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
     from osc2tx_runtime.opendrive import RoadMap
 
-__all__ = ["MeasuredObject", "RoutePosition"]
-
 
 class MeasuredObject:
     """An object with a state in the world, and its distances along and across the road."""

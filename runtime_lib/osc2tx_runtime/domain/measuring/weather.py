@@ -13,20 +13,6 @@ from typing import Literal
 from osc2tx_runtime.world.measuring.measured import Measured
 from osc2tx_shared.classes import dataclass
 
-__all__ = [
-    "Air",
-    "CelestialLightSource",
-    "CelestialPosition",
-    "Clouds",
-    "Fog",
-    "GeodeticPosition",
-    "Precipitation",
-    "Weather",
-    "Wind",
-    "celestial_position",
-    "weather_of",
-]
-
 _UNTOUCHED = {"rain_intensity": 0.0, "snow_intensity": 0.0, "visual_range": math.inf}
 
 

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.tree.base import Behaviour
     from osc2tx_runtime.language.tree.duration_limits import Duration
 
-__all__ = ["AnimalMethods"]
-
 
 @carried_out
 class AnimalMethods:

@@ -36,8 +36,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.values.parameters import Range
     from osc2tx_runtime.world.protocol import LightMode
 
-__all__ = ["VehicleMethods"]
-
 
 @carried_out
 class VehicleMethods:

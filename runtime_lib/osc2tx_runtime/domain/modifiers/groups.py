@@ -22,21 +22,6 @@ from osc2tx_runtime.domain.modifiers import (
     Yaw,
 )
 
-__all__ = [
-    "LANE_SHAPERS",
-    "PATH_SHAPERS",
-    "PLACES",
-    "SIDE_FREE",
-    "SPEED_FREE",
-    "SPEED_SHAPERS",
-    "TURN_SHAPERS",
-    "PathModifier",
-    "SideModifier",
-    "SpeedModifier",
-    "StartModifier",
-    "TurnModifier",
-]
-
 SpeedShaper: TypeAlias = Speed | ChangeSpeed | KeepSpeed | Acceleration | Position | AvoidCollisions
 SpeedModifier: TypeAlias = SpeedShaper | PhysicalMovement
 """What actions on the lane or the pose take."""

@@ -11,8 +11,6 @@ from osc2tx_shared.rules import ModifierRules, Rule, Sort
 
 from .base import Modifier, MovementModifier
 
-__all__ = ["MODIFIERS", "modifier"]
-
 MODIFIERS: dict[str, type[Modifier]] = {}
 """Modifiers that have an effect, by their name in the DSL."""
 

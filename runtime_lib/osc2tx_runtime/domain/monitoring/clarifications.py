@@ -34,8 +34,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.actions.movement import acceleration, gaps_and_headways, lane, speed
     from osc2tx_runtime.domain.monitoring.phase import Phase
 
-__all__: list[str] = []
-
 
 @stands_for("change_speed")
 def change_speed(action: speed.ChangeSpeed, phase: Phase) -> Sequence[Modifier]:

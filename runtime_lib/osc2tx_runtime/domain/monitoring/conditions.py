@@ -8,8 +8,6 @@ from typing import TypeAlias
 from osc2tx_runtime.enums import At
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["Condition", "Reading"]
-
 Reading: TypeAlias = tuple[float, float, float]
 """A value, and the least and the greatest that is allowed."""
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from osc2tx_runtime.domain.monitoring.registry import unmonitored
 
-__all__: list[str] = []
-
 unmonitored("decides whether a deviation of the others is a failure", "physical_movement")
 unmonitored("a collision is a line of the trace and a criterion of `--fail-on`", "avoid_collisions")
 unmonitored("states the start position alone, which the placement checks", "location", "on_path")

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.monitoring.phase import Phase
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["lanes_from_start", "lanes_text"]
-
 _WITHIN = 1.0  # m from the centre of a lane that are within it
 
 

@@ -15,8 +15,6 @@ from osc2tx_runtime.world.geometry.curve import turn_between
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.monitoring.phase import Phase
 
-__all__: list[str] = []
-
 
 @monitors("yaw")
 def yaw(modifier: Yaw, phase: Phase) -> Iterator[Condition]:

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.monitoring.phase import Phase
     from osc2tx_runtime.world.geometry.curve import Curve
 
-__all__: list[str] = []
-
 _NEAR = 0.05  # m from a path that are on it
 _REACH = 5.0  # m around its last place on a curve in which an actor is looked for
 

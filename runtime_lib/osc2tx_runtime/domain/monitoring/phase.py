@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.protocol import World
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["UNMEASURABLE", "Phase", "Severity", "Violation"]
-
 UNMEASURABLE = (ScenarioError, MapError)
 """What keeps a condition from being measured."""
 

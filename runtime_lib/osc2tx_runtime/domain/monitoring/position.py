@@ -17,8 +17,6 @@ from osc2tx_runtime.world.measuring.distances import along_lanes
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.monitoring.phase import Phase
 
-__all__: list[str] = []
-
 
 @monitors("position")
 def position(modifier: Position, phase: Phase) -> Iterator[Condition]:

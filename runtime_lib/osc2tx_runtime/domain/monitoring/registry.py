@@ -12,16 +12,6 @@ from osc2tx_shared.classes import replace
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.monitoring.phase import Phase
 
-__all__ = [
-    "CLARIFIED",
-    "MONITORS",
-    "UNMONITORED",
-    "conditions_of",
-    "monitors",
-    "stands_for",
-    "unmonitored",
-]
-
 Monitor = Callable[[Any, "Phase"], Iterable[Condition]]
 """Takes a modifier and its phase, whose first state is the present one."""
 

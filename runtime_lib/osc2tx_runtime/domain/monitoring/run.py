@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.actions.base_action import BaseAction
     from osc2tx_runtime.language.context import ExecutionContext
 
-__all__ = ["Monitors"]
-
 
 class Monitors:
     """Checks each phase of a run, from states alone.

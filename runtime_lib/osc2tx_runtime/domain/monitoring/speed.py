@@ -13,8 +13,6 @@ from osc2tx_runtime.domain.monitoring.registry import monitors
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.monitoring.phase import Phase
 
-__all__: list[str] = []
-
 
 @monitors("speed")
 def speed(modifier: Speed, phase: Phase) -> Iterator[Condition]:

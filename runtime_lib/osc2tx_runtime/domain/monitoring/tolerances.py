@@ -19,8 +19,6 @@ from osc2tx_shared.classes import dataclass
 if TYPE_CHECKING:
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["QUANTITIES", "Quantity"]
-
 
 def _unknown(state: ActorState) -> float:
     return 0.0

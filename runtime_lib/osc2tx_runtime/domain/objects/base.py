@@ -10,8 +10,6 @@ from osc2tx_runtime.language.declared import BaseActor
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
-__all__ = ["Actor"]
-
 
 class Actor(BaseActor):
     """Base of all actors."""

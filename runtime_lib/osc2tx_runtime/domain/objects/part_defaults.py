@@ -19,16 +19,6 @@ from osc2tx_runtime.enums import (
 from osc2tx_runtime.world.actor_dimensions import MAX_STEERING, Shape
 from osc2tx_runtime.world.motion.towing import DRAWBAR
 
-__all__ = [
-    "default_axles",
-    "default_coupler",
-    "default_infrastructure",
-    "default_receiver",
-    "default_role",
-    "default_trailer_category",
-    "misfit",
-]
-
 _TRACK = 0.9
 """Share of the width of a vehicle between its outer wheels."""
 

@@ -16,19 +16,6 @@ from osc2tx_runtime.enums import HitchType
 from osc2tx_runtime.errors import UnsupportedError
 from osc2tx_shared.classes import dataclass, replace
 
-__all__ = [
-    "UNSAID",
-    "Axle",
-    "BehavioralModel",
-    "BmEngine",
-    "BoundingBox",
-    "HitchCoupler",
-    "HitchReceiver",
-    "Towable",
-    "completed",
-    "is_open",
-]
-
 UNSAID = math.nan
 """A number that is left open."""
 

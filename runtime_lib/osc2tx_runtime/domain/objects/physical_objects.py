@@ -28,12 +28,6 @@ from .base import Actor
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
-__all__ = [
-    "ObjectFields",
-    "PhysicalObject",
-    "StationaryObject",
-]
-
 LIBRARY_KINDS = frozenset(
     {
         *("physical_object", "stationary_object", "movable_object", "traffic_participant"),

@@ -11,8 +11,6 @@ from osc2tx_runtime.enums import PathInterpolation
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.geometry.curve import Curve, Knot
 
-__all__ = ["PathError", "interval_between_offsets", "path_curve", "trajectory_curve"]
-
 _SAME = 1e-6  # m: points so near are one
 
 

@@ -18,22 +18,6 @@ from osc2tx_runtime.enums import PathInterpolation
 from osc2tx_runtime.world.geometry.curve import Curve
 from osc2tx_shared.classes import dataclass
 
-__all__ = [
-    "NetworkPath",
-    "NetworkTrajectory",
-    "Path",
-    "PathPoint",
-    "RelativePath",
-    "RelativePathOdr",
-    "RelativePathPose3d",
-    "RelativePathSt",
-    "RelativeTrajectory",
-    "RelativeTrajectoryOdr",
-    "RelativeTrajectoryPose3d",
-    "RelativeTrajectorySt",
-    "Trajectory",
-]
-
 PathPoint = Pose | RoutePoint | OdrPoint
 
 

@@ -22,8 +22,6 @@ from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["absolute"]
-
 
 def absolute(
     road_map: RoadMap,

@@ -13,8 +13,6 @@ from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.world.geometry.lane_neighbours import lane_with_number, number_of_lane
 
-__all__ = ["StartPlaces", "TakenBy"]
-
 TakenBy: TypeAlias = Callable[[LanePosition], str | None]
 """Returns which actor is in the way of a position, and how far; None if it is free."""
 

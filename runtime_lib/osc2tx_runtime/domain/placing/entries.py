@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.actions.base_action import BaseAction
     from osc2tx_runtime.opendrive import LanePosition, Pose
 
-__all__ = ["Enter", "Entries", "WayIn", "entering_actors", "start_demands", "with_entries"]
-
 
 @dataclass(frozen=True, slots=True)
 class WayIn:

@@ -15,8 +15,6 @@ from osc2tx_runtime.world.geometry.attitude import LEVEL, Tilt
 if TYPE_CHECKING:
     from osc2tx_runtime.world.protocol import World
 
-__all__ = ["Choice", "InitialState", "aside_speed_at", "speed_at", "tilt_at"]
-
 Choice = Callable[[tuple[float, float]], float]
 """Chooses a value between bounds."""
 

@@ -34,8 +34,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
     from osc2tx_runtime.language.declared import DeclaredObject
 
-__all__ = ["ScenarioInitializer"]
-
 
 class ScenarioInitializer(StartRoom[ActorStart]):
     """Resolves placements in the order of their dependencies and fills the world.

@@ -20,8 +20,6 @@ from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import RoadMap
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["MapSolver", "Relation"]
-
 _MOST_CHOICES = 100_000
 
 

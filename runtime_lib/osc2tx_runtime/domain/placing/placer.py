@@ -45,8 +45,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.protocol import World
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["Placer"]
-
 
 class Placer:
     """Finds the place that modifiers describe, among the actors that are placed already."""

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import PhysicalObject
     from osc2tx_runtime.domain.points_and_poses import Point, RoutePoint
 
-__all__ = ["PointPlaces"]
-
 _MARGIN = 50.0  # m around the lanes that still belong to the map
 
 

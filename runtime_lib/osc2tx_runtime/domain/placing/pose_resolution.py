@@ -19,16 +19,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.protocol import World
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = [
-    "heading_base",
-    "heading_of",
-    "headings_of",
-    "one_of_kind",
-    "pose_of",
-    "road_heading",
-    "tilt_of",
-]
-
 # Added to an angle between axes to get the heading: the width axis points left.
 _AXES = {"length_to_width": 0.5 * math.pi, "width_to_length": -0.5 * math.pi}
 

@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["AllEnteredError", "Rehearsal", "ways_in"]
-
 _MOST = 8  # rehearsals
 _NEAR = 1e-3  # m, m/s
 _FITS = 1.0  # m by which an actor may miss its place if nothing else has changed

@@ -21,8 +21,6 @@ from osc2tx_shared.classes import replace
 if TYPE_CHECKING:
     from osc2tx_runtime.language.actions.placement import Placement
 
-__all__ = ["ActorStart", "couple", "cycle_of", "joined"]
-
 
 class ActorStart:
     """One actor to be placed.

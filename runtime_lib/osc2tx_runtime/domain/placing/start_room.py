@@ -9,8 +9,6 @@ from typing import ClassVar, Generic, NamedTuple, Protocol, TypeVar
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.world.measuring.collision import Box, overlap_along, overlapping
 
-__all__ = ["Placed", "Start", "StartRoom", "overlap_with"]
-
 
 class Start(Protocol):
     """An actor that is to be placed."""

@@ -18,8 +18,6 @@ from osc2tx_shared.classes import replace
 if TYPE_CHECKING:
     from osc2tx_runtime.opendrive import RoadMap
 
-__all__ = ["Arrival", "Boxes", "way_in"]
-
 Boxes = Sequence[dict[str, Box]]
 """The room that actors take, at each step from the start of the run on."""
 

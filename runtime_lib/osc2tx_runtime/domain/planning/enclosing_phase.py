@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.tree import Behaviour
     from osc2tx_runtime.language.tree.duration_limits import DurationLimits
 
-__all__ = ["phase_of"]
-
 
 def phase_of(action: BaseAction, *, strict: bool) -> DurationLimits | None:
     """The duration with which an open-ended action ends; None if it is unknown before.

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
 
     from .motion_action import ModifiedMotion
 
-__all__ = ["check_course", "check_one_way", "check_peak", "check_rates"]
-
 _JUMP = 0.5  # m/s: a smaller difference is made up for on the way
 _SAMPLES = 200
 

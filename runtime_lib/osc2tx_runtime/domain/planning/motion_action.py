@@ -33,8 +33,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.protocol import LightState, World
     from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["Assignment", "ModifiedMotion", "MotionAction", "Refused", "note_lights"]
-
 
 class Refused(ScenarioError):
     """Something that cannot be done: the action fails with this reason."""

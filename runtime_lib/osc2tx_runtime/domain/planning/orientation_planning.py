@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
     from .motion_action import ModifiedMotion
 
-__all__ = ["check_tilt", "lies_so", "tilt_again", "turn_command"]
-
 _TILTED = 0.01  # rad
 
 

@@ -20,8 +20,6 @@ from osc2tx_runtime.world.commands import (
 from osc2tx_runtime.world.geometry.curve import Curve, turn_between
 from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["path_command", "trajectory_commands"]
-
 _FAR = 100.0  # m to a path that an actor is ready to go by itself
 _SLIP = 0.2  # rad between heading and way that a follower can still have
 

@@ -35,8 +35,6 @@ if TYPE_CHECKING:
 
     from .motion_action import ModifiedMotion
 
-__all__ = ["PlaceWatch", "hold_or_jump"]
-
 _NEAR = 0.1  # m
 _SPEED_NEAR = 0.05  # m/s
 _TURNED = 0.01  # rad

@@ -25,9 +25,6 @@ from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap
 from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_shared.classes import dataclass, replace
 
-__all__ = ["Element", "MadeRoute", "poses_of_route"]
-
-
 Place = LanePosition | MapPose
 Element = Place | MapSegment | Path
 """A point, a part of the map, or a path through poses."""

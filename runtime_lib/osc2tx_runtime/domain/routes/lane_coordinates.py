@@ -16,15 +16,6 @@ from osc2tx_runtime.domain.points_and_poses import OdrPoint, RoadRoute, RoutePoi
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 
-__all__ = [
-    "along_lane",
-    "place_at_distance",
-    "place_of_odr",
-    "place_of_route",
-    "road_entry",
-    "route_point_at",
-]
-
 _AT_END = 1e-5  # m: so near to the end of a lane is there
 _MISS = 1e-6  # m by which a point may miss its road
 _EXACT = 1e-7  # m to which a distance along the road is met

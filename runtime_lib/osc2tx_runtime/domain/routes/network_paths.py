@@ -35,8 +35,6 @@ from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import DRIVING, LanePosition, MapError, RoadMap
 from osc2tx_runtime.opendrive import Pose as MapPose
 
-__all__ = ["path_in_world", "trajectory_in_world"]
-
 
 def path_in_world(road_map: RoadMap, path: Path) -> Path:
     """The path through poses.

@@ -15,8 +15,6 @@ from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world.geometry.curve import Curve
 from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["place_on_route"]
-
 _BESIDE = 2.0  # m from a path at which an actor still is on it: about half a lane
 _EDGE = 0.5  # m beyond the ends of a crossing
 

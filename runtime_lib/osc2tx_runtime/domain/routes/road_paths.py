@@ -10,8 +10,6 @@ from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.points_and_poses import Pose
 from osc2tx_runtime.opendrive import LanePosition, RoadMap, Route
 
-__all__ = ["way_between", "way_through"]
-
 _STEP = 2.0  # m between points
 _CHANGE = 60.0  # m over which a lane change is spread, if there is room
 _LEAST_CHANGE = 15.0  # m

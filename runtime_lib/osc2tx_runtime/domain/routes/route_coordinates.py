@@ -20,9 +20,6 @@ from osc2tx_runtime.world.state import ActorState
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
-__all__ = ["between_on_crossing", "place_in_route"]
-
-
 _EDGE = 0.5  # m beyond the ends of a crossing
 _UNKNOWN_WIDTH = 4.0  # m: of a crossing whose width nothing says
 

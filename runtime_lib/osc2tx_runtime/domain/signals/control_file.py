@@ -27,8 +27,6 @@ from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import InputError
 from osc2tx_shared.map_files import SHIPPED
 
-__all__ = ["read_control_file"]
-
 _CYCLE = {"group", "phases", "start_offset", "synchronization_group_id"}
 _PHASE = {"state", "duration"}
 

@@ -9,8 +9,6 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.surroundings.traffic_light_lamps import Lamp, lamps_that_mean
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["Bulbs", "Shown", "TrafficLightBulb", "states_of"]
-
 
 @dataclass(frozen=True, slots=True)
 class TrafficLightBulb:

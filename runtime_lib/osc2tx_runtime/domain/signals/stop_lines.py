@@ -15,8 +15,6 @@ from osc2tx_runtime.errors import PlacementError, ScenarioError, UnsupportedErro
 from osc2tx_runtime.opendrive import RoadMap, signal_places
 from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
 
-__all__ = ["TrafficLightStopLine"]
-
 ValueT = TypeVar("ValueT")
 
 

@@ -12,8 +12,6 @@ from osc2tx_runtime.enums import BulbState
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.surroundings.traffic_light_lamps import Lamp
 
-__all__ = ["Moment", "check_cycle", "moment_of", "period_of", "time_of"]
-
 
 class Moment(NamedTuple):
     """Which phase of a cycle holds at a time.

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.commands import Command
     from osc2tx_runtime.world.measuring.deviation import Deviation
 
-__all__ = ["Action", "ActionOptions", "GlobalAction"]
-
 
 class ActionOptions(TypedDict, total=False):
     """Keywords that every action takes: `**options: Unpack[ActionOptions]`."""

@@ -8,8 +8,6 @@ from typing import Any
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_shared.rules import Rule, violations
 
-__all__ = ["GivenValues", "check_arguments"]
-
 
 class GivenValues:
     """Arguments as values, as the rules see them.

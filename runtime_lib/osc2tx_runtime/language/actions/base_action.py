@@ -23,8 +23,6 @@ from osc2tx_shared.rules import Rule
 if TYPE_CHECKING:
     from osc2tx_runtime.world.measuring.deviation import Deviation
 
-__all__ = ["BaseAction", "RefusedAction", "registered_as", "with_blame"]
-
 T = TypeVar("T")
 
 

@@ -7,8 +7,6 @@ from typing import Literal
 from osc2tx_runtime.world.protocol import Feature
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["LATERAL", "LONGITUDINAL", "Ends", "Method"]
-
 LONGITUDINAL = "longitudinal"
 LATERAL = "lateral"
 

@@ -10,8 +10,6 @@ from osc2tx_runtime.world.protocol import Feature
 from osc2tx_shared.classes import dataclass, replace
 from osc2tx_shared.rules import ModifierRules, Rule
 
-__all__ = ["COURSE", "LANE", "SIDE", "Modifier", "ModifierFacts"]
-
 COURSE = "course along the road"
 LANE = "lane"
 SIDE = "place across the lane"

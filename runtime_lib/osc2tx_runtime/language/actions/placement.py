@@ -10,8 +10,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.actions.modifier import Modifier
     from osc2tx_runtime.language.declared import BaseActor
 
-__all__ = ["Placement"]
-
 
 @dataclass(frozen=True, slots=True)
 class Placement:

@@ -33,8 +33,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.actions.placement import Placement
     from osc2tx_runtime.language.scenario_parts import ScenarioParts
 
-__all__ = ["assemble", "invoked_placements", "number_nodes"]
-
 
 def assemble(scenario: ScenarioParts, tree: Behaviour) -> Behaviour:
     """Return the tree of a scenario with all that its nodes do not say themselves.

@@ -28,8 +28,6 @@ from osc2tx_runtime.language.tree.parallel_schedule import Span
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
-__all__ = ["Composition", "OneOf", "Serial"]
-
 Member = tuple[Behaviour, Callable[[], Status]]
 
 

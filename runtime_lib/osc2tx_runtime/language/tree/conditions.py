@@ -19,19 +19,6 @@ from osc2tx_runtime.language.tree.module_text import function_text
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
-__all__ = [
-    "Condition",
-    "Deadline",
-    "Edge",
-    "Level",
-    "Watch",
-    "elapsed",
-    "evaluate",
-    "every",
-    "fall",
-    "rise",
-]
-
 SETTLED_STEPS = 2
 """Steps for which a condition has had its value before a turn of measured states is no noise."""
 

@@ -14,8 +14,6 @@ from osc2tx_runtime.language.slots import Owner
 from osc2tx_runtime.language.tree.base import Behaviour, place_key
 from osc2tx_runtime.language.tree.compositions import OneOf, Serial
 
-__all__ = ["check_claims", "check_effects"]
-
 
 def check_claims(context: ExecutionContext) -> None:
     """Judge the claims of a settled instant.

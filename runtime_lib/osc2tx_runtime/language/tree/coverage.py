@@ -15,8 +15,6 @@ from osc2tx_runtime.language.tree.events import Event, Occurrences, watch
 from osc2tx_runtime.language.values.written_units import AnyUnit, unit_named
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["CoverageItem", "ItemOptions", "Moment", "Recording"]
-
 Moment = Event | Literal["start", "end"]
 """When an item is sampled: at an event, or at the start or end of the scenario."""
 

@@ -29,8 +29,6 @@ from osc2tx_runtime.language.tree.duration_limits import DurationLimits
 from osc2tx_runtime.language.tree.events import Event, Guard, Trigger, describe, rest_until, watch
 from osc2tx_runtime.language.tree.module_text import function_text
 
-__all__ = ["Call", "Emit", "Until", "Wait"]
-
 
 class Wait(Leaf):
     """Waits for an event or a condition, from its start on: `Wait("parked", elapsed(5 * s))`.

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
     from osc2tx_runtime.language.tree.base import Node
 
-__all__ = ["Duration", "DurationLimits", "bounds_of"]
-
 Duration = float | tuple[float, float]
 """Seconds, or the least and the most seconds, which may be without end."""
 

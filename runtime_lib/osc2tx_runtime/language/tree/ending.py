@@ -19,8 +19,6 @@ from osc2tx_runtime.language.tree.base import (
     pulse_of,
 )
 
-__all__ = ["End", "Ending", "Fail"]
-
 WHOLE = "do"
 """Label of all that a scenario does, in modules in which something reacts to its failure."""
 

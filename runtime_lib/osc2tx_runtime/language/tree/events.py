@@ -8,8 +8,9 @@ that starts after an emit does not.
 
 from __future__ import annotations
 
+import keyword
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.tree.conditions import (
@@ -27,41 +28,53 @@ if TYPE_CHECKING:
 
     from osc2tx_runtime.language.context import ExecutionContext
 
-__all__ = ["Event", "Guard", "Trigger", "describe", "rest_until", "watch"]
-
 
 class Event:
     """A declared event.
+
+    One with parameters is a class of its own, which annotates them:
+
+        class Near(Event):
+            gap: Length
+
+    In a condition, a reaction or a sample that `self.near` sets off, `self.near.gap` is the value
+    of that occurrence. A parameter whose name is a word of Python or of this class has an
+    underscore behind it.
 
     Args:
         trigger: Its specification: another event, a condition or a boolean function. It is
             watched where the event is used, from the start of that use on.
         condition: The event occurs only if this is true as well, at the same instant.
-        parameters: Names of its parameters to their defaults: a value, a function that is called
-            when the event is emitted without the parameter, or None where it must be given.
+        defaults: Values of parameters, for an `Emit` without them: a value, or a function that is
+            called then.
         name: Name in the scenario, where its attribute cannot have it (`from`).
 
-    In a condition, a reaction or a sample that the event sets off, `event["x"]` is the value of
-    the parameter `x` of that occurrence.
-
     Attributes:
+        parameters: Its parameters as attributes, to their names in the scenario.
         name: Name in trace and settings; the scenario fills in the attribute's name.
         arguments: Of the occurrence that a condition is being asked about.
         alias: The event this one stands for, where that is in an invoked scenario.
     """
+
+    parameters: ClassVar[Mapping[str, str]] = {}
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        own = {attribute: _name_of(attribute) for attribute in cls.__annotations__}
+        cls.parameters = {**cls.parameters, **own}
 
     def __init__(
         self,
         trigger: Trigger | None = None,
         *,
         condition: Guard | None = None,
-        parameters: Mapping[str, Any] | None = None,
+        defaults: Mapping[str, object] | None = None,
         name: str = "",
     ) -> None:
         self.name = name
         self.trigger = trigger
         self.condition = condition
-        self.parameters = parameters
+        self.defaults = defaults or {}
         self.arguments: Mapping[str, Any] = {}
         self.alias: Event | None = None
         self.occurred = 0
@@ -71,31 +84,35 @@ class Event:
     def __repr__(self) -> str:
         return f"Event({self.name!r})"
 
-    def __getitem__(self, parameter: str) -> Any:
-        event = self.meant()
-        if parameter not in event.arguments:
-            raise ScenarioError(f"event {event.name} has no value {parameter} here")
-        return event.arguments[parameter]
+    if not TYPE_CHECKING:  # so that type checkers still know which attributes there are
+
+        def __getattr__(self, attribute: str) -> Any:
+            if attribute not in self.parameters:
+                raise AttributeError(f"event {self.name} has no parameter {attribute}")
+            event, name = self.meant(), self.parameters[attribute]
+            if name not in event.arguments:
+                raise ScenarioError(f"event {event.name} has no value {name} here")
+            return event.arguments[name]
 
     def meant(self) -> Event:
         """Return the event itself, or the one it stands for."""
         return self if self.alias is None else self.alias.meant()
 
     def problem(self, given: Iterable[str]) -> str:
-        """Return the error in the names of arguments; nothing for an undeclared list."""
-        if self.parameters is None:
-            return ""
+        """Return the error in the names of arguments; nothing if there is none."""
         names = list(given)
         unknown = [name for name in names if name not in self.parameters]
         if unknown:
             return f"event {self.name} has no parameter {', '.join(unknown)}"
-        missing = [n for n, default in self.parameters.items() if default is None if n not in names]
+        known = {*names, *self.defaults}
+        missing = [name for each, name in self.parameters.items() if each not in known]
         return f"event {self.name} needs {', '.join(missing)}" if missing else ""
 
     def complete(self, given: Mapping[str, Any]) -> dict[str, Any]:
-        """Return all arguments of an occurrence; functions are called now."""
-        both = {**(self.parameters or {}), **given}
-        return {name: value() if callable(value) else value for name, value in both.items()}
+        """Return all arguments of an occurrence by name; functions are called now."""
+        both = {**self.defaults, **given}
+        values = ((name, both[attribute]) for attribute, name in self.parameters.items())
+        return {name: value() if callable(value) else value for name, value in values}
 
     def reset(self) -> None:
         """Forget all occurrences."""
@@ -112,6 +129,16 @@ class Event:
             self._instant = (step, before.union(new))
             self.occurred = tick
             self.occurrences = [distinct[key] for key in new]
+
+
+_MEMBERS = frozenset(name for name in dir(Event()) if not name.startswith("_"))
+
+
+def _name_of(attribute: str) -> str:
+    """Return the name in the scenario of a parameter that has an attribute."""
+    bare = attribute.rstrip("_")
+    is_taken = keyword.iskeyword(bare) or bare in _MEMBERS
+    return attribute.removesuffix("_") if is_taken else attribute
 
 
 Trigger = Event | Condition | Callable[[], bool]

@@ -10,8 +10,6 @@ from osc2tx_runtime.language.tree.ending import Ending
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
-__all__ = ["failure_reason", "timeout_reason", "with_situation"]
-
 NAMED_LEAVES = 4  # as many running leaves the reason of a timeout names
 
 

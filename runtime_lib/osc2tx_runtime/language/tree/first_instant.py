@@ -6,8 +6,6 @@ from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.tree.base import Behaviour
 from osc2tx_runtime.language.tree.compositions import Serial, is_instant
 
-__all__ = ["assigns_at_start"]
-
 
 def assigns_at_start(node: Behaviour) -> bool:
     """Return whether a tree may assign the state of an actor at the instant in which it starts."""

@@ -14,14 +14,6 @@ from osc2tx_runtime.language.tree.parallel import Parallel
 if TYPE_CHECKING:
     from osc2tx_runtime.language.scenario_parts import ScenarioParts
 
-__all__ = [
-    "Invocation",
-    "draw_key",
-    "own_nodes",
-    "started_at_once",
-    "unique_name",
-]
-
 
 class Invocation(Serial):
     """Runs the tree of an invoked scenario; one node of the caller's tree.

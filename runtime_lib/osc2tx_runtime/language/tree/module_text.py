@@ -15,8 +15,6 @@ from itertools import islice
 from types import CodeType
 from typing import Any
 
-__all__ = ["call_arguments", "failing_part", "function_text"]
-
 RUNTIME = __name__.partition(".")[0]
 MAX_LENGTH = 90
 MEMBER = re.compile(r" {8}self\.(\w+)")  # a statement of a method

@@ -19,8 +19,6 @@ from osc2tx_runtime.language.tree.events import (
     watch,
 )
 
-__all__ = ["On"]
-
 NOTHING: Mapping[str, Any] = {}
 
 

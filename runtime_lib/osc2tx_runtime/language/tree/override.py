@@ -18,8 +18,6 @@ from osc2tx_runtime.language.tree.base import (
     pulse_of,
 )
 
-__all__ = ["Mode", "Overridden", "guard"]
-
 Mode = Literal["on_start", "when_active"]
 
 

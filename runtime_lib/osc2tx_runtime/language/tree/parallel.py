@@ -40,8 +40,6 @@ from osc2tx_runtime.language.tree.parallel_schedule import (
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
-__all__ = ["Parallel"]
-
 
 class Parallel(Composition, ParallelComposite):
     """Members at the same time; ends when the last bounded member has ended.

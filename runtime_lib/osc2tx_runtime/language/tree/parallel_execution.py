@@ -12,8 +12,6 @@ from osc2tx_runtime.language.tree.parallel_schedule import INF, Schedule
 if TYPE_CHECKING:
     from osc2tx_runtime.language.tree.base import Node
 
-__all__ = ["Course"]
-
 
 class _Runner:
     """One member on its course: when it starts, when it started and ended (steps)."""

@@ -21,8 +21,6 @@ from typing import Literal
 from osc2tx_shared.classes import dataclass
 from osc2tx_shared.overlaps import OFFSETS
 
-__all__ = ["Overlap", "Part", "Schedule", "Span", "Unplannable", "make_schedule", "spans_of"]
-
 Overlap = Literal["equal", "start", "end", "initial", "final", "inside", "full", "any"]
 Steps = float  # a whole number, or infinite
 INF = math.inf

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.scenario_parts import ScenarioParts
     from osc2tx_runtime.language.tree.invocation import Invocation
 
-__all__ = ["MOST_INVOCATIONS", "MOST_LEVELS", "Recursion", "is_recursive"]
-
 MOST_LEVELS = 30
 """Levels of one scenario within itself."""
 

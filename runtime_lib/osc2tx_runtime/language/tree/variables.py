@@ -13,8 +13,6 @@ from osc2tx_runtime.language.tree.events import Event, Guard, Occurrences, Trigg
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
-__all__ = ["MISSING", "Boundary", "Sampled", "Sampling", "SamplingStart"]
-
 Boundary = Literal["start", "end"]
 """Start and end of the scenario that declares a variable."""
 

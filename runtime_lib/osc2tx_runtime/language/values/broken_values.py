@@ -11,8 +11,6 @@ from osc2tx_runtime.language.source_map import SourceMap
 from osc2tx_runtime.language.tree.module_text import failing_part
 from osc2tx_runtime.language.values.written_units import Unit, shown_value
 
-__all__ = ["NotKeptError", "not_computed", "not_kept", "place_of"]
-
 
 class NotKeptError(Exception):
     """A relation that `keep` demands does not hold.

@@ -17,8 +17,6 @@ from osc2tx_runtime.language.values.broken_values import (
 from osc2tx_runtime.language.values.walks import Draws, Walk
 from osc2tx_runtime.language.values.written_units import Unit
 
-__all__ = ["ATTEMPTS", "Drawing"]
-
 ATTEMPTS = 1000  # draws of all values before constraints between them count as contradictory
 
 

@@ -8,8 +8,6 @@ from typing import Any
 
 from osc2tx_runtime.errors import OwnCode, ScenarioError, SettingsError
 
-__all__ = ["external_function"]
-
 
 def external_function(
     path: str, kind: type | None, allowed: tuple[str, ...], source: str

@@ -8,8 +8,6 @@ from typing import Any
 from osc2tx_runtime.language.values.written_units import AnyUnit
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["Narrowed"]
-
 
 @dataclass(frozen=True, slots=True)
 class Narrowed:

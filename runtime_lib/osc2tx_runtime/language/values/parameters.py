@@ -11,18 +11,6 @@ from osc2tx_runtime.language.values.walks import Draws
 from osc2tx_runtime.language.values.written_units import Unit, read_value, shown_value
 from osc2tx_shared.classes import dataclass
 
-__all__ = [
-    "Choice",
-    "Domain",
-    "Range",
-    "any_of",
-    "at_least",
-    "at_most",
-    "choose",
-    "fixed",
-    "within",
-]
-
 NumberT = TypeVar("NumberT", int, float)
 ValueT = TypeVar("ValueT", bound=bool | int | float | str)
 

@@ -16,8 +16,6 @@ from osc2tx_runtime.language.values.parameters import Choice, Domain, NumberT, R
 from osc2tx_runtime.language.values.walks import Draws
 from osc2tx_runtime.language.values.written_units import AnyUnit, Unit, unit_named
 
-__all__ = ["ScenarioValues"]
-
 AnyT = TypeVar("AnyT")
 
 
@@ -279,9 +277,10 @@ class ScenarioValues:
 
     def _take_assigned(self, inherited: set[str]) -> None:
         """Take values that a subclass assigns to parameters after `declare` of its base."""
-        for name in self.parameters.keys() - inherited:
-            value = vars(self).get(name, self.parameters[name])
-            if value is not self.parameters[name]:
+        for name, declared in list(self.parameters.items()):
+            attribute = f"{name}_" if name in inherited or name not in vars(self) else name
+            value = vars(self).get(attribute, declared)
+            if value is not declared:
                 path = f"{self._path}.{name}" if self._path else name
                 self.parameters[name] = self._shared[path] = value
 

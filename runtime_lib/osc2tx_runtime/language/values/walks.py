@@ -13,8 +13,6 @@ import random
 from collections.abc import Callable, Sequence
 from typing import Protocol, TypeVar
 
-__all__ = ["Draws", "Walk"]
-
 EXCHANGES = 5_000  # pairs that are tried
 CLIMB = 10_000  # tries after which demands count as contradictory
 SHORT_CLIMB = 1_000  # tries of one that asks which demands contradict each other

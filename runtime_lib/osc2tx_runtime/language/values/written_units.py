@@ -11,8 +11,6 @@ from osc2tx_runtime import units
 from osc2tx_runtime.errors import SettingsError
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["UNITS_OF", "AnyUnit", "Unit", "read_value", "shown_value", "unit_named"]
-
 UNITS_OF: dict[str, str] = {
     "length": "m km mi mm cm nm feet inch mile meter kilometer millimeter centimeter"
     " micrometer nanometer",

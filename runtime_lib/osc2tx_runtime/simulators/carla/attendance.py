@@ -16,8 +16,6 @@ from .cast import Command
 from .client_process import ClientProcess
 from .frames import transform_of
 
-__all__ = ["Attendance"]
-
 BEHIND, ABOVE, DOWN = 8.0, 4.0, math.radians(15.0)
 """Where the camera is from the actor that it follows (m), and how far it looks down."""
 

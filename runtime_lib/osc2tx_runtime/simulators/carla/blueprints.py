@@ -9,8 +9,6 @@ from osc2tx_runtime.errors import SimulatorError
 from osc2tx_runtime.world.actor_dimensions import MODELS
 from osc2tx_runtime.world.protocol import ActorSpec
 
-__all__ = ["Library", "attributes_of", "blueprint_for"]
-
 Library = Mapping[str, Mapping[str, Sequence[str]]]
 """Blueprints of a server: recommended values of their attributes."""
 

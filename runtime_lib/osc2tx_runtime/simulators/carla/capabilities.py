@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-__all__ = ["IN_CARLA", "how"]
-
 RUNTIME = "by the runtime, on measured states"
 MOTION = "exact: poses written; driven: throttle, brake, steering"
 MAP = "by the runtime on the map of the level"

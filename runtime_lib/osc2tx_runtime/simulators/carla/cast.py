@@ -19,8 +19,6 @@ from .frames import measurement_from, transform_of, turning_of, vector_of
 from .gains import CAR, GAINS
 from .tracking import SpeedControl, Steering, walking
 
-__all__ = ["ABOVE", "DISPLACED", "CastMember", "Command", "member_of"]
-
 Command = Sequence[Any]
 """Name, number of the actor in CARLA, values; see `client.commands`."""
 

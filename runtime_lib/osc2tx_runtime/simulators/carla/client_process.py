@@ -15,8 +15,6 @@ from osc2tx_runtime.errors import SimulatorError
 
 from .client import MISSING
 
-__all__ = ["ClientProcess"]
-
 HERE = Path(__file__).parent
 SERVE = """
 import sys

@@ -12,8 +12,6 @@ from osc2tx_shared.text import complain
 from .client import release_of
 from .client_process import ClientProcess
 
-__all__ = ["DEFAULT_ADDRESS", "TIMEOUT", "connect"]
-
 DEFAULT_ADDRESS = ("127.0.0.1", 2000)
 TIMEOUT = 10.0
 """How long (s) the server may take for a call."""

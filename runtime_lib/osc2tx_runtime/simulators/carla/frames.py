@@ -13,8 +13,6 @@ from osc2tx_runtime.opendrive import Pose
 from osc2tx_runtime.opendrive.geometry import wrap
 from osc2tx_runtime.world.measuring.measurement import Measurement
 
-__all__ = ["measurement_from", "pose_from", "transform_of", "turning_of", "vector_of"]
-
 
 def transform_of(pose: Pose, ahead: float = 0.0, up: float = 0.0) -> list[float]:
     """Return x, y, z, pitch, yaw, roll in CARLA.

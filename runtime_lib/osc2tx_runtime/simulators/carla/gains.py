@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
-__all__ = ["CAR", "GAINS", "Gains"]
-
 
 class Gains(NamedTuple):
     """Gains of a vehicle's controllers.

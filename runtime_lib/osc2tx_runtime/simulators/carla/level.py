@@ -14,8 +14,6 @@ from osc2tx_shared.text import complain
 from .client_process import ClientProcess
 from .frames import pose_from
 
-__all__ = ["difference_of", "map_of", "plain_name", "read_level", "with_spawn_points"]
-
 LOADING = 120.0
 """How long (s) a server may take to load a level; the time for a call, if that is longer."""
 

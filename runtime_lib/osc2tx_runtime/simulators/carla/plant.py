@@ -20,8 +20,6 @@ from .sensors import SensorStacks
 from .spawning import Spawning
 from .surroundings import CarlaSurroundings
 
-__all__ = ["CarlaPlant"]
-
 SETTLING = 2.0  # s that vehicles have at most to come to rest on their wheels
 AT_REST = 0.05  # m/s upwards
 STILL_STEPS = 2  # at rest one after the other: a body at the top of a bounce is still for one

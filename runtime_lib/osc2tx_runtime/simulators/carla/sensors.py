@@ -22,8 +22,6 @@ from osc2tx_shared.classes import dataclass
 from .cast import CastMember
 from .client_process import ClientProcess
 
-__all__ = ["MISSING_TOPICS", "Sensor", "SensorStacks", "read_stack", "topics_of"]
-
 AXES = ("x", "y", "z", "roll", "pitch", "yaw")
 CAMERA = ("/image", "/camera_info")
 CLOUD = ("/point_cloud",)

@@ -15,8 +15,6 @@ from .cast import ABOVE, CastMember, member_of
 from .client_process import ClientProcess
 from .frames import transform_of
 
-__all__ = ["Spawning"]
-
 OUT_OF_THE_WAY = 50.0
 """Height (m) above the ground at which actors are spawned before they are moved."""
 

@@ -14,8 +14,6 @@ from osc2tx_runtime.world.surroundings.traffic_light_lamps import Lamp
 from .cast import CastMember, Command
 from .client_process import ClientProcess
 
-__all__ = ["FLAGS", "CarlaSurroundings", "lamps_for", "losses_of", "state_for", "weather_of"]
-
 STATES = (("Red", "red"), ("Yellow", "yellow"), ("Green", "green"))
 """State and color, from the one that stops to the one that lets go."""
 

@@ -18,8 +18,6 @@ from osc2tx_shared.classes import dataclass
 
 from .gains import Gains
 
-__all__ = ["Pedals", "SpeedControl", "Steering", "walking"]
-
 LEAST_SHARE = 0.05  # of the full lock: a curve that goes to nothing steers nothing
 STANDING = 0.5  # m/s below which brakes hold a vehicle that is to stand
 HOLD = 0.6  # of the brake

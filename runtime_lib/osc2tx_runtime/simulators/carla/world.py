@@ -19,8 +19,6 @@ from .level import map_of
 from .plant import CarlaPlant
 from .sensors import SensorStacks
 
-__all__ = ["OPTIONS", "PATIENCE", "TRAFFIC_MANAGER_PORT", "WORLD"]
-
 PATIENCE = 60.0
 """Time (s) to wait for an actor of another client."""
 

@@ -16,8 +16,6 @@ from osc2tx_runtime.world.protocol import LATERAL, LONGITUDINAL
 
 from .values import problem_of
 
-__all__ = ["command_problem"]
-
 COMMANDS = {
     slot: tuple(kind for kind in vars(module).values() if isinstance(kind, type))
     for slot, module in ((LONGITUDINAL, longitudinal_commands), (LATERAL, lateral_commands))

@@ -21,8 +21,6 @@ from typing import (
 
 from osc2tx_runtime.errors import OwnCode, ScenarioError, SimulatorError, is_own, name_of
 
-__all__ = ["LARGEST", "CheckedCalls", "in_words", "problem_of"]
-
 LARGEST = 1e12
 """What no quantity of a world is above, in SI units: a step could make it infinite."""
 

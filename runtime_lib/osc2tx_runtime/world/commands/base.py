@@ -6,8 +6,6 @@ from dataclasses import field
 
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["Command"]
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Command:

@@ -10,21 +10,6 @@ from osc2tx_shared.classes import dataclass
 
 from .base import Command
 
-__all__ = [
-    "Beside",
-    "FollowCourse",
-    "FollowRoute",
-    "KeepLane",
-    "LaneChange",
-    "LaneOffset",
-    "ReplayCourse",
-    "ReplayTrajectory",
-    "RunOut",
-    "Sideways",
-    "Slant",
-    "Turn",
-]
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class KeepLane(Command):

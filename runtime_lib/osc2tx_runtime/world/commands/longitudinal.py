@@ -11,21 +11,6 @@ from osc2tx_shared.classes import dataclass
 
 from .base import Command
 
-__all__ = [
-    "Accelerate",
-    "AccelerationChange",
-    "Arrive",
-    "Careful",
-    "Cover",
-    "FollowSpeed",
-    "GapCourse",
-    "GapMeasure",
-    "KeepGap",
-    "KeepSchedule",
-    "SpeedChange",
-    "Standstill",
-]
-
 GapMeasure = Literal["gap", "headway", "reference"]
 
 

@@ -20,8 +20,6 @@ from .driving import Control, Driver
 from .observing import observe
 from .single_track import SingleTrack
 
-__all__ = ["DriversPlant"]
-
 
 class DriversPlant:
     """The embedded world with external drivers.

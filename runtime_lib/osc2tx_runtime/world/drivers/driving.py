@@ -10,8 +10,6 @@ from osc2tx_runtime.world.protocol import LightState
 from osc2tx_runtime.world.surroundings.stop_lines_ahead import StopLine
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["Control", "Driver", "LaneView", "Observation", "OtherActor"]
-
 
 @dataclass(frozen=True, slots=True)
 class Control:

@@ -13,8 +13,6 @@ from osc2tx_runtime.world.surroundings.stop_lines_ahead import StopLines
 
 from .driving import LaneView, Observation, OtherActor
 
-__all__ = ["ROUTE_LENGTH", "ROUTE_STEP", "SIGHT", "observe"]
-
 ROUTE_STEP = 2.0
 """Metres between the places of a route."""
 ROUTE_LENGTH = 100.0

@@ -14,8 +14,6 @@ from osc2tx_runtime.world.geometry.curve import turn_between
 
 from .driving import Control
 
-__all__ = ["SingleTrack"]
-
 
 class SingleTrack:
     """One vehicle.

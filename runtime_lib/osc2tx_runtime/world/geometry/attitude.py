@@ -13,8 +13,6 @@ from osc2tx_runtime.opendrive import Pose
 
 from .curve import turn_between
 
-__all__ = ["LEVEL", "Tilt", "tilt_on"]
-
 
 class Tilt(NamedTuple):
     """Pitch and roll (rad); None: not commanded."""

@@ -12,8 +12,6 @@ from bisect import bisect_right
 from collections.abc import Sequence
 from typing import NamedTuple
 
-__all__ = ["Curve", "Knot", "turn_between"]
-
 _PARTS = 8  # intervals of the arc length table per cubic piece
 _GAUSS = (
     (0.1127016653792583, 0.2777777777777778),

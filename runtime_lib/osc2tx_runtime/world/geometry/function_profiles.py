@@ -13,8 +13,6 @@ from osc2tx_runtime.world.actor_dimensions import COMFORT
 
 from .profiles import Linear, Profile, Quintic
 
-__all__ = ["Computed", "Mapped", "Peaks", "change_profile", "turns_back"]
-
 _SPAN = 1e-3  # s: half of the interval that a rate is the mean over
 _LONGEST = 3600.0  # s: no change takes longer
 _HALVINGS = 60  # of that time; more than the resolution of a float

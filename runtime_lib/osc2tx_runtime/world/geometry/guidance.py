@@ -7,8 +7,6 @@ them; this is the course of least effort, whatever the length of the steps.
 
 from __future__ import annotations
 
-__all__ = ["mean_rate_to_place", "rate_to_place", "rate_to_place_and_speed"]
-
 
 def rate_to_place(steps: int, dt: float, missing: float) -> float:
     """Acceleration (m/s^2) of this step, with any speed at the end.

@@ -9,19 +9,6 @@ from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
 
-__all__ = [
-    "actual_lane",
-    "are_opposed",
-    "lane_beside",
-    "lane_under",
-    "lane_with_number",
-    "lanes_to_left",
-    "number_of_lane",
-    "offset_from",
-    "seen_along",
-    "width_at",
-]
-
 
 def lane_with_number(
     road_map: RoadMap, place: LanePosition, number: int, edge: SideLeftRight

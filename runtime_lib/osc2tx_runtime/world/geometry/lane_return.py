@@ -9,8 +9,6 @@ from osc2tx_runtime.world.state import ActorState
 
 from .curve import turn_between
 
-__all__ = ["abreast", "lane_near", "turn_from"]
-
 _BACK = 5.0  # m beside a lane from where a vehicle returns to it
 
 

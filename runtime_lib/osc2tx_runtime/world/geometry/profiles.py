@@ -24,17 +24,6 @@ from typing import Protocol, get_args
 from osc2tx_runtime.enums import DynamicProfile
 from osc2tx_shared.classes import dataclass
 
-__all__ = [
-    "PROFILES",
-    "Cosine",
-    "Linear",
-    "Profile",
-    "Quintic",
-    "SCurve",
-    "cosine_duration",
-    "fastest_cosine",
-]
-
 PROFILES: tuple[DynamicProfile, ...] = get_args(DynamicProfile)
 
 COSINE_PEAK = math.pi / 2.0  # peak rate of half a cosine, in units of change / duration

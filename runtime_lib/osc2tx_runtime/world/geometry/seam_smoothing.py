@@ -14,8 +14,6 @@ from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Seam
 
 from .profiles import Quintic
 
-__all__ = ["Residual", "crossed"]
-
 _LEAST_WAY = 5.0  # m over which the smallest seam is smoothed
 _ROOM = 0.4  # m that a kink may carry one out of the centre
 _CURVE = 5.8  # peak of the second derivative of a quintic, in units of change / duration^2

@@ -21,18 +21,6 @@ from typing import Literal
 from osc2tx_runtime.world.actor_dimensions import RATE_CAP, Limits
 from osc2tx_shared.classes import replace
 
-__all__ = [
-    "ADHESION",
-    "DRY_ADHESION",
-    "GRAVITY",
-    "RoadCondition",
-    "adhesion_of",
-    "along_limit",
-    "grip",
-    "held_by",
-    "road_condition",
-]
-
 GRAVITY = 9.80665
 """m/s^2"""
 

@@ -8,8 +8,6 @@ from osc2tx_runtime.world.state import ActorState
 
 from .friction import RoadCondition, along_limit, grip
 
-__all__ = ["Wheels", "curvature_ahead"]
-
 _PROBE = 1.0  # m along the lane over which its curvature is taken
 
 

@@ -11,8 +11,6 @@ from osc2tx_shared.classes import dataclass
 
 from .friction import RoadCondition
 
-__all__ = ["Excess", "Overload"]
-
 Excess = Literal["slides", "overturns", "jumps"]
 """Beyond the grip limit, beyond the rollover limit, or a jump of the lateral speed."""
 

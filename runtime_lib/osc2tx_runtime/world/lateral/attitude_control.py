@@ -11,8 +11,6 @@ from osc2tx_runtime.world.state import ActorState
 
 from .curve_following import TURN_RATE
 
-__all__ = ["Turning"]
-
 _TURNED = 1e-9  # rad
 
 

@@ -17,8 +17,6 @@ from osc2tx_runtime.world.geometry.curve import Curve, turn_between
 from osc2tx_runtime.world.protocol import PENDING, REACHED, Progress
 from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["Course", "Replay", "Steering", "TimedReplay", "course_of"]
-
 TURN_RATE = math.pi
 """Radians per second at which actors without wheels turn."""
 

@@ -15,8 +15,6 @@ from osc2tx_runtime.world.protocol import PENDING, REACHED, Progress
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.step_inputs import StepInputs
 
-__all__ = ["HEADING_LIMIT", "SIDEWAYS", "BesideRun", "SidewaysRun"]
-
 HEADING_LIMIT = 0.5
 """Radians between the heading of a vehicle and its lane."""
 

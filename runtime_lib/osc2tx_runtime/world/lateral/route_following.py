@@ -6,8 +6,6 @@ from osc2tx_runtime.opendrive import LanePosition, RoadMap, Route
 from osc2tx_runtime.world.commands import FollowRoute
 from osc2tx_runtime.world.protocol import PENDING, REACHED, Progress
 
-__all__ = ["Way"]
-
 
 class Way:
     """A route that an actor goes along.

@@ -9,8 +9,6 @@ from osc2tx_runtime.world.protocol import PENDING, REACHED, Progress
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.step_inputs import StepInputs
 
-__all__ = ["AccelerationRun", "AssignedSpeed", "ConstantAcceleration", "acceleration_profile"]
-
 
 class ConstantAcceleration:
     """Constant acceleration from the speed at the start; does not go through standstill."""

@@ -10,8 +10,6 @@ from osc2tx_runtime.world.protocol import PENDING, REACHED, Progress
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.step_inputs import StepInputs
 
-__all__ = ["PATIENCE", "Schedule", "towards"]
-
 _CATCH_UP = 0.8  # 1/s: how fast a delay decays
 _ARRIVED = 0.1  # m from the end that count as there
 PATIENCE = 10.0

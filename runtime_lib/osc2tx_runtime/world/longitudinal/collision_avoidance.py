@@ -20,8 +20,6 @@ from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.step_inputs import StepInputs
 from osc2tx_runtime.world.surroundings.stop_lines_ahead import StopLine
 
-__all__ = ["Cautious", "Hold", "RedLights"]
-
 _FROM_LINE = 1.0  # m between a stop line and the front of an actor waiting at it
 
 

@@ -40,16 +40,6 @@ from .collision_avoidance import Cautious, Hold
 from .gap_control import ArrivalRun, GapRun
 from .position_control import CoverRun, GapCourseRun
 
-__all__ = [
-    "Longitudinal",
-    "ProfileRun",
-    "acceleration_of",
-    "excessive_acceleration",
-    "excessive_rate",
-    "longitudinal_of",
-    "speed_profile",
-]
-
 _SPEED_TOLERANCE = 0.05  # m/s at which a followed speed counts as reached
 
 

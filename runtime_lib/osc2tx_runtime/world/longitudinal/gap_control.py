@@ -21,8 +21,6 @@ from osc2tx_runtime.world.step_inputs import StepInputs
 
 from .arrival_schedule import towards
 
-__all__ = ["ArrivalRun", "GapRun", "allowed_gap"]
-
 _SPEED_TOLERANCE = 0.2  # m/s between the speeds at which a gap can count as reached
 _GAP_TOLERANCE = 0.1  # m at which a gap counts as reached
 _HELD = 0.2  # s for which it must stay so

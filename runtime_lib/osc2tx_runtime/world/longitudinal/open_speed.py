@@ -12,8 +12,6 @@ from osc2tx_runtime.world.actor_dimensions import COMFORT, Limits
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.step_inputs import StepInputs
 
-__all__ = ["OpenSpeed"]
-
 
 class OpenSpeed:
     """A driver without a command for the speed."""

@@ -18,8 +18,6 @@ from osc2tx_runtime.world.step_inputs import StepInputs
 
 from .arrival_schedule import towards
 
-__all__ = ["CoverRun", "GapCourseRun", "PlacedRun"]
-
 _NEAR = 0.1  # m: allowed distance of an actor from its target at the end
 _CATCH_UP = 2.0  # 1/s: rate at which a deficit is regained
 _JUST_BEFORE = 1e-9  # s

@@ -7,18 +7,6 @@ from typing import NamedTuple
 
 from osc2tx_runtime.world.state import ActorState
 
-__all__ = [
-    "Box",
-    "Swept",
-    "apart",
-    "box_of",
-    "contact_interval",
-    "overlap_along",
-    "overlapping",
-    "swept",
-    "touch",
-]
-
 _NEAR = 1e-4  # m to which contacts of turning boxes are found
 
 

@@ -18,8 +18,6 @@ from osc2tx_runtime.world.state import ActorState
 
 from .collision import apart, box_of, swept, touch
 
-__all__ = ["Contacts"]
-
 _STEPS = 10  # at the present speeds, for which a search is valid
 _NARROW = 1.0  # m: the least margin of a search
 _ROUNDING = 1e-3  # m: nearer pairs are tested in each step

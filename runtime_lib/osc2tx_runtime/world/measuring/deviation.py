@@ -8,17 +8,6 @@ from typing import NamedTuple
 from osc2tx_runtime.world.geometry.curve import turn_between
 from osc2tx_runtime.world.state import ActorState
 
-__all__ = [
-    "ACCELERATION_TOLERANCE",
-    "HEADING_TOLERANCE",
-    "OFF_ITS_PATH",
-    "PATIENCE",
-    "PLACE_TOLERANCE",
-    "SPEED_TOLERANCE",
-    "STANDSTILL",
-    "Deviation",
-]
-
 STANDSTILL = 0.05
 """m/s: a lower measured speed counts as standstill."""
 SPEED_TOLERANCE = 0.5

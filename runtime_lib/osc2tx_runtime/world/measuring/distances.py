@@ -16,20 +16,6 @@ from osc2tx_runtime.world.state import ActorState
 
 from .collision import Box, box_of, contact_interval
 
-__all__ = [
-    "across_road",
-    "along_lanes",
-    "along_road",
-    "gap_between",
-    "headway_between",
-    "lateral_on_road",
-    "object_distance",
-    "side_gap",
-    "time_to_collision",
-    "time_to_cover",
-]
-
-
 # --- in the axes of an object ------------------------------------------------------------------
 
 

@@ -32,8 +32,6 @@ from .velocities import (
     Velocity,
 )
 
-__all__ = ["Kinematics", "Motion", "Track"]
-
 _STILL = 1e-9  # m
 _STRAIGHT = 1e-3  # rad beside its axis at which an actor still goes along it
 

@@ -11,8 +11,6 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-__all__ = ["ROUNDING", "Measured"]
-
 ROUNDING = 1e-9
 """Numbers that differ by less, or by less of their size, count as equal."""
 

@@ -21,8 +21,6 @@ from .velocities import (
     Velocity,
 )
 
-__all__ = ["MeasuredMotion", "Measurement", "Vector"]
-
 _SMOOTHING = 0.2  # s: time constant
 
 Vector = tuple[float, float, float]

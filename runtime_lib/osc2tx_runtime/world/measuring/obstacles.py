@@ -11,8 +11,6 @@ from osc2tx_runtime.world.state import ActorState
 from .collision import box_of
 from .distances import along_lanes, lateral_on_road
 
-__all__ = ["nearest_ahead"]
-
 _SIGHT = 60.0  # m
 _SIGHT_TIME = 6.0  # s at the own speed that are added
 _HEIGHT = 3.0  # m: higher or lower is another level

@@ -8,8 +8,6 @@ from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.step_inputs import StepInputs
 
-__all__ = ["Tracked", "projected"]
-
 
 def projected(road_map: RoadMap, state: ActorState, seconds: float) -> ActorState:
     """State after some time at the same speed: in the same lane, off the lanes straight on."""

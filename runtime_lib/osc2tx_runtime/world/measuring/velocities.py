@@ -12,15 +12,6 @@ from osc2tx_shared.classes import dataclass
 
 from .measured import Measured
 
-__all__ = [
-    "Acceleration",
-    "OrientationAcceleration",
-    "OrientationRate",
-    "TranslationalAcceleration",
-    "TranslationalVelocity",
-    "Velocity",
-]
-
 
 @dataclass(frozen=True, slots=True)
 class TranslationalVelocity:

@@ -27,8 +27,6 @@ from osc2tx_shared.classes import dataclass
 
 from .actor_step import MovingActor
 
-__all__ = ["CommandedActor"]
-
 STEADY = frozenset({type(None), AssignedSpeed, ConstantAcceleration, HoldOffset, ProfileRun, Shift})
 """Kinds of commands at work that cannot fail."""
 

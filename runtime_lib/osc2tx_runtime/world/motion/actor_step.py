@@ -23,8 +23,6 @@ from osc2tx_shared.classes import dataclass
 from .cruise import Cruise
 from .moving_body import STILL, MovingBody, cruise_of
 
-__all__ = ["MovingActor"]
-
 
 @dataclass
 class MovingActor(MovingBody):

@@ -11,8 +11,6 @@ from osc2tx_runtime.world.state import ActorState
 from .actor_motion import CommandedActor
 from .towing import JACK_KNIFE, drawn
 
-__all__ = ["Couplings"]
-
 
 class Couplings:
     """Trailers on their hitches; a trailer may tow another one."""

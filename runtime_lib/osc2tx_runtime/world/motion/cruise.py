@@ -15,8 +15,6 @@ from osc2tx_runtime.opendrive.model import new_tuple
 from osc2tx_runtime.world.actor_dimensions import Shape
 from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["Cruise"]
-
 
 class Cruise:
     """An actor that goes the same way in each step.

@@ -19,8 +19,6 @@ from osc2tx_runtime.world.grip.overload import Excess, Overload
 
 from .actor_motion import CommandedActor
 
-__all__ = ["FrictionWatch"]
-
 _SMOOTHING = 0.1  # s: where roads join, headings have small kinks
 _AT_THE_LIMIT = 1.01  # using all the grip is no excess
 _STRAIGHT = 1e-6  # rad/s below which an actor does not turn

@@ -25,8 +25,6 @@ from osc2tx_shared.classes import dataclass
 
 from .cruise import Cruise
 
-__all__ = ["ALIGNED", "ANY_LANE", "CRUISE", "STILL", "MovingBody", "cruise_of"]
-
 CRUISE = {"person": 1.4, "animal": 1.4, "movable_object": 1.4}
 """Speed (m/s) at which actors at standstill start on a course; vehicles: `CRUISE_VEHICLE`."""
 

@@ -13,8 +13,6 @@ from osc2tx_runtime.world.state import ActorState
 
 from .actor_motion import CommandedActor
 
-__all__ = ["Start", "placed"]
-
 
 class Start(NamedTuple):
     """Where an actor starts, and how it moves there.

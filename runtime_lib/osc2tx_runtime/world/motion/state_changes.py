@@ -9,8 +9,6 @@ from osc2tx_shared.classes import dataclass
 
 from .actor_motion import CommandedActor
 
-__all__ = ["StateChange"]
-
 
 @dataclass(frozen=True, slots=True)
 class StateChange:

@@ -15,8 +15,6 @@ from osc2tx_runtime.world.actor_dimensions import Shape
 from osc2tx_runtime.world.geometry.curve import turn_between
 from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["COUPLING_REACH", "DRAWBAR", "JACK_KNIFE", "coupling_gap", "drawn", "pose_behind"]
-
 JACK_KNIFE = 0.5 * math.pi
 """rad between a towing vehicle and its trailer from which on the bar cannot turn any more."""
 

@@ -21,8 +21,6 @@ from osc2tx_runtime.world.protocol import LATERAL, LONGITUDINAL
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.tracking.tracking import Tracking
 
-__all__ = ["arrive"]
-
 
 def arrive(
     cast: Mapping[str, CommandedActor],

@@ -12,8 +12,6 @@ from osc2tx_runtime.world.protocol import FEATURES, ActorSpec, ControlMode, Feat
 from .plant import Measurement, Plant
 from .scene import Scene
 
-__all__ = ["CheckedPlant"]
-
 
 class CheckedPlant:
     """Hands every call on to a plant, and names it when it answers garbage or fails.

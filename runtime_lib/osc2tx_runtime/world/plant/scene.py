@@ -17,8 +17,6 @@ from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
 
 from .weather_effects import Lights, Surroundings
 
-__all__ = ["Scene", "Setpoint", "pose_ahead"]
-
 _SLOW = 1.0  # m/s: slower ones look ahead as if they had this speed
 
 

@@ -15,8 +15,6 @@ from osc2tx_runtime.world.protocol import (
 )
 from osc2tx_runtime.world.surroundings.sun_and_moon import Sky
 
-__all__ = ["Lights", "Surroundings"]
-
 
 class Surroundings:
     """The environment.

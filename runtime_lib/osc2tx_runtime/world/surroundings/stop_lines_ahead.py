@@ -12,8 +12,6 @@ from osc2tx_runtime.opendrive.lane_line import lane_line
 
 from .traffic_light_states import LaneLines, Signals
 
-__all__ = ["StopLine", "StopLines"]
-
 STOP: frozenset[SemanticTrafficLightState] = frozenset({"stop", "attention"})
 """What forbids to pass."""
 

@@ -11,8 +11,6 @@ from collections.abc import Callable, Mapping
 
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["Sky"]
-
 _J2000 = 946_728_000.0
 """Unix time (s) of 2000-01-01 12:00, where the series begin."""
 

@@ -11,14 +11,6 @@ from typing import NamedTuple
 
 from osc2tx_runtime.enums import BulbColor, BulbIcon, BulbState, SemanticTrafficLightState
 
-__all__ = [
-    "BOXES",
-    "MEANINGS",
-    "Lamp",
-    "lamps_that_mean",
-    "meaning_of",
-]
-
 
 class Lamp(NamedTuple):
     """A lamp of a box.

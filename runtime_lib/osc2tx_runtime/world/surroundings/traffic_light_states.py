@@ -10,8 +10,6 @@ from osc2tx_runtime.opendrive import Controller, RoadMap, SignalPlace
 
 from .traffic_light_lamps import BOXES, Lamp, meaning_of
 
-__all__ = ["Signals"]
-
 OFF: BulbState = "is_off"
 
 LinePlace = tuple[str, int, float]

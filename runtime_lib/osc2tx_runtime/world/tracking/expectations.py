@@ -50,8 +50,6 @@ from osc2tx_runtime.world.step_inputs import StepInputs
 
 from .timed_expectations import Arrival, Timetable, gap_error, speed_error
 
-__all__ = ["Expectation", "expected"]
-
 _JOINED = 1.0  # m from a path at which one is on it
 
 Judge = Callable[[ActorState, StepInputs], Progress]

@@ -14,8 +14,6 @@ from osc2tx_runtime.world.protocol import PENDING, REACHED, Progress
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.step_inputs import StepInputs
 
-__all__ = ["Arrival", "Timetable", "gap_error", "speed_error"]
-
 _OVER = 1e-9  # s
 
 

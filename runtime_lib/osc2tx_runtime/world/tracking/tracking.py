@@ -21,8 +21,6 @@ from osc2tx_runtime.world.measuring.deviation import (
 from osc2tx_runtime.world.protocol import LONGITUDINAL, PENDING, REACHED, Progress
 from osc2tx_runtime.world.state import ActorState
 
-__all__ = ["Tracking"]
-
 _LEFT = 1.0  # s beside its path after which an actor has left it
 
 

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.surroundings.traffic_light_lamps import Lamp
     from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
 
-__all__ = ["AllLamps", "OneLamp", "Saying", "SignalAction", "Switch"]
-
 
 class SignalAction(Action):
     """The common base of the actions."""

@@ -30,16 +30,6 @@ if TYPE_CHECKING:
     )
     from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
 
-__all__ = [
-    "PlayCycles",
-    "SetBulbState",
-    "SetGroupBulbState",
-    "SetGroupSemanticState",
-    "SetGroupState",
-    "SetSemanticState",
-    "SetState",
-]
-
 
 @action("traffic_light_controller", "play_cycles", ends="open", needs=("traffic_lights",))
 class PlayCycles(SignalAction):

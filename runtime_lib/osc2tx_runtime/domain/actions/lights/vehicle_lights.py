@@ -15,8 +15,6 @@ from osc2tx_runtime.world.protocol import LightMode
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Vehicle
 
-__all__ = ["SetLights"]
-
 
 @action("vehicle", "set_lights", ends="instant", needs=("lights",))
 class SetLights(Action):

@@ -23,8 +23,6 @@ from .profiled_change import RatedChange
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import MovableObject
 
-__all__ = ["AssignAcceleration", "ChangeAcceleration", "KeepAcceleration"]
-
 
 @action("movable_object", "assign_acceleration", ends="at_once", slots=(LONGITUDINAL,))
 class AssignAcceleration(Assignment):

@@ -20,8 +20,6 @@ from osc2tx_shared.rules import at_least_one, at_most_one
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import MovableObject
 
-__all__ = ["AssignOrientation", "AssignPosition"]
-
 PLACES = ("position", "route_point", "odr_point", "with")
 Target = Point | RoutePoint | OdrPoint
 

@@ -35,8 +35,6 @@ from .path_following import CourseAction
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import MovableObject
 
-__all__ = ["ChangePosition"]
-
 TARGETS = ("target_position", "target_xyz", "target_st", "target_odr")
 
 

@@ -24,8 +24,6 @@ from osc2tx_runtime.language.actions.registry import action
 
 from .modifiable import ModifiableAction
 
-__all__ = ["Drive", "Move", "Walk"]
-
 
 @action("movable_object", "move", ends="open")
 class Move(ModifiableAction):

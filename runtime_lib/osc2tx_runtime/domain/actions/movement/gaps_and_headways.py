@@ -26,17 +26,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Vehicle
     from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
 
-__all__ = [
-    "ChangeSpaceGap",
-    "ChangeSpaceHeadway",
-    "ChangeTimeGap",
-    "ChangeTimeHeadway",
-    "KeepSpaceGap",
-    "KeepSpaceHeadway",
-    "KeepTimeGap",
-    "KeepTimeHeadway",
-]
-
 _DIRECTIONS: tuple[GapDirection, ...] = get_args(GapDirection)
 
 

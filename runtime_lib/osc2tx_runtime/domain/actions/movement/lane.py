@@ -41,8 +41,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
     from osc2tx_runtime.language.values.parameters import Range
 
-__all__ = ["SIDES", "ChangeLane", "FollowLane"]
-
 SIDES: tuple[LaneChangeSide, ...] = get_args(LaneChangeSide)
 
 

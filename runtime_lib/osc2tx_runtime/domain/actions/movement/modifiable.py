@@ -44,8 +44,6 @@ from osc2tx_runtime.world.commands import Careful, Command
 
 from .modifier_checks import check_modifiers, check_options
 
-__all__ = ["ModifiableAction"]
-
 CARE = AvoidCollisions()
 
 

@@ -14,8 +14,6 @@ from osc2tx_shared.rules import Clash, Timing, clashes, is_across
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
 
-__all__ = ["check_modifiers", "check_options"]
-
 RULES = {name: kind.facts.rules for name, kind in MODIFIERS.items()}
 
 

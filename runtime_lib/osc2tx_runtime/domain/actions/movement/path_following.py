@@ -34,8 +34,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import MovableObject
     from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
 
-__all__ = ["FollowPath", "FollowTrajectory", "ReplayPath", "ReplayTrajectory"]
-
 
 class CourseAction(ModifiableAction):
     """An action on a course that may turn out to be impossible when it starts."""

@@ -18,8 +18,6 @@ from .modifiable import ModifiableAction
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import MovableObject
 
-__all__ = ["RatedChange", "check_profile", "peak_of"]
-
 
 def check_profile(name: str, profile: str) -> None:
     """Refuses a profile that does not exist."""

@@ -21,8 +21,6 @@ from .profiled_change import RatedChange
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import MovableObject
 
-__all__ = ["AssignSpeed", "ChangeSpeed", "KeepSpeed", "RemainStationary"]
-
 
 @action("movable_object", "change_speed", slots=(LONGITUDINAL,))
 class ChangeSpeed(RatedChange):

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import Vehicle
     from osc2tx_runtime.domain.objects.parts import Towable
 
-__all__ = ["ConnectTrailer", "DisconnectTrailer"]
-
 
 @action("vehicle", "connect_trailer", ends="at_once", needs=("towing",))
 class ConnectTrailer(Assignment):

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
     from osc2tx_runtime.world.geometry.profiles import Profile
 
-__all__ = ["beside_command", "lane_command"]
-
 _OFF = 0.1  # m between where a shape starts and where the actor is
 
 

@@ -32,8 +32,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject
     from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion, MotionAction
 
-__all__ = ["follow_reference", "lane_of", "side_command"]
-
 
 def side_command(action: ModifiedMotion) -> Command | None:
     """Where to go sideways; None if no modifier speaks of it.

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
     from osc2tx_runtime.world.geometry.profiles import Profile
 
-__all__ = ["lateral_speed_bounds", "lateral_speed_command"]
-
 _MOST = 12.0  # m/s^2 across: what tyres can transmit
 
 

@@ -27,17 +27,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion, MotionAction
     from osc2tx_runtime.language.tree.base import Behaviour
 
-__all__ = [
-    "check_shift",
-    "jump_aside",
-    "lanes_beside",
-    "lanes_to",
-    "lanes_wanted",
-    "leads_beside",
-    "may_leave_lane_before",
-    "target_of_shift",
-]
-
 
 def leads_beside(graph: RoadGraph, place: LanePosition, lanes: int) -> bool:
     """Whether a lane has enough lanes to its left, here or anywhere on its continuation."""

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.planning.motion_action import MotionAction
     from osc2tx_runtime.world.commands import KeepGap
 
-__all__ = ["arrival"]
-
 _CHOICES = 200  # times out of a range that are looked at
 
 

@@ -32,8 +32,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.modifiers import Speed
     from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
 
-__all__ = ["time_to_goal"]
-
 _STEP = 0.01  # s between points of a speed that is summed up
 _MOST = 600.0  # s until a distance is taken for one that is never covered
 _SAME = 0.1  # m between the end of a distance and a place

@@ -22,17 +22,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
     from osc2tx_runtime.domain.points_and_poses import Point
 
-__all__ = [
-    "distance_to_cover",
-    "lasting_position",
-    "position_shape",
-    "speed_at_end",
-    "speeds_of",
-    "watched_place",
-    "way_to",
-    "way_to_goal",
-]
-
 
 def distance_to_cover(action: ModifiedMotion) -> float | None:
     """Metres after which the movement has reached its goal; None if it has no such goal.

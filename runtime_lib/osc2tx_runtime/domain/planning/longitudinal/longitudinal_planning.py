@@ -52,8 +52,6 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
     from osc2tx_runtime.world.geometry.profiles import Profile
 
-__all__ = ["speed_at_start", "speed_command", "stop_command"]
-
 STANDS = 0.05  # m/s: a slower actor stands
 
 

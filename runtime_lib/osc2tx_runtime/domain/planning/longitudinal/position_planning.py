@@ -25,8 +25,6 @@ if TYPE_CHECKING:
 
     Placing = Along | Distance | Position
 
-__all__ = ["check_way_to_gap", "position_command"]
-
 _THERE = 0.1  # m
 _ONE_WAY = 3.0  # of the way at the present speed: more of it and the cubic overshoots
 

@@ -13,8 +13,6 @@ from osc2tx_runtime.worlds import CheckRequest
 from osc2tx_runtime.worlds.check import CheckStatus
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["Finding", "Line", "Probe", "differs", "line", "ok", "unknown"]
-
 
 class Finding(NamedTuple):
     """The finding of a line; see `CheckResult`."""

@@ -12,8 +12,6 @@ from osc2tx_runtime.worlds import CheckRequest, CheckResult
 from . import contact, motion, surroundings
 from .probe import LINES, Finding, Line, Probe, differs, unknown
 
-__all__ = ["check"]
-
 CONTACT = 5  # the last line that the others need
 
 assert contact and motion and surroundings  # they have declared their lines

@@ -40,7 +40,7 @@ from osc2tx_runtime import (
     rise,
 )
 from osc2tx_runtime.modifiers import lane, position, speed
-from osc2tx_runtime.units import deg, km, m, mmph, mps, mpsps, radps, s
+from osc2tx_runtime.units import Acceleration, deg, km, m, mmph, mps, mpsps, radps, s
 
 require_api(1)
 
@@ -48,6 +48,12 @@ require_api(1)
 class Fields(Scenario):
     name = "fields"
     source = "input.osc"
+
+    class Shaken(Event):
+        """Event `shaken` and its parameters."""
+
+        strength: Acceleration
+        moving: Velocity
 
     def declare(self) -> None:
         """Cast, events and values."""
@@ -135,7 +141,7 @@ class Fields(Scenario):
         )
 
         self.turning = Event(rise(lambda: self.ego.velocity.angular.yaw > self.limit.angular.yaw))
-        self.shaken = Event(parameters={"strength": None, "moving": None})
+        self.shaken = self.Shaken()
         self.where = self.sample(lambda: self.ego.pose.position, self.shaken, self.place_)
         self.fastest = self.sample(
             lambda: self.ego.velocity.translational.norm(), self.turning, 0 * mps

@@ -22,7 +22,7 @@ from osc2tx_runtime import (
     within,
 )
 from osc2tx_runtime.modifiers import lane, position, speed
-from osc2tx_runtime.units import kph, m, mps, s
+from osc2tx_runtime.units import Speed, kph, m, mps, s
 
 require_api(1)
 
@@ -68,12 +68,18 @@ class Top(Scenario):
     name = "top"
     source = "input.osc"
 
+    class Told(Event):
+        """Event `told` and its parameters."""
+
+        v: Speed
+        note: str
+
     def declare(self) -> None:
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
         self.ego = self.cast("ego", Vehicle())
         self.car1 = self.cast("car1", Vehicle())
-        self.told = Event(parameters={"v": None, "note": "x"})
+        self.told = self.Told(defaults={"note": "x"})
         self.v_seen = self.sample(lambda: self.ego.speed, self.event("p1.near"), 0 * mps)
         self.done = Event()
 
@@ -88,7 +94,7 @@ class Top(Scenario):
             On(
                 self.told,
                 Emit(self.done),
-                condition=lambda: self.told["v"] > 1 * mps,
+                condition=lambda: self.told.v > 1 * mps,
             ),
         )
 

@@ -46,11 +46,17 @@ class Step(Scenario):
     name = "vehicle.step"
     source = "input.osc"
 
+    class Moving(Event):
+        """Event `moving` and its parameters."""
+
+        at: Speed
+        name_: str
+
     def declare(self) -> None:
         """Cast, events and values."""
         self.actor = self.cast("actor", Vehicle())
         self.pace = self.parameter("pace", within(5 * mps, 6 * mps), unit="mps")
-        self.moving = Event(parameters={"at": None})
+        self.moving = self.Moving(defaults={"name_": "step"})
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
@@ -109,7 +115,8 @@ class OwnEvents(Scenario):
             On(
                 self.event("round.inner.moving"),
                 Emit(self.told),
-                condition=lambda: self.event("round.inner.moving")["at"] > 1 * mps,
+                condition=lambda: self.event("round.inner.moving", Step.Moving).at > 1 * mps
+                and self.event("round.inner.moving", Step.Moving).name_ == "step",
             ),
         )
 

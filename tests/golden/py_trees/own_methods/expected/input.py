@@ -29,11 +29,9 @@ class Coach(Vehicle):
 
     kinds = ("coach", *Vehicle.kinds)
 
-    def __init__(self, *, seats: int, **fields: Unpack[VehicleFields]) -> None:
+    def __init__(self, *, seats: int = 30, **fields: Unpack[VehicleFields]) -> None:
         super().__init__(**fields)
         self.seats = seats
-
-    # keep(default seats == 30)
 
     def is_full(self, guests: int) -> bool:
         return guests >= self.seats
@@ -68,7 +66,7 @@ class OwnMethods(Scenario):
     def declare(self) -> None:
         """Cast, events and values."""
         self.road = self.cast("road", Map(map_file="highway.xodr"))
-        self.ego = self.cast("ego", Coach(seats=30))
+        self.ego = self.cast("ego", Coach())
         self.other = self.cast("other", DoubleDecker(seats=40))
         self.range_of_speed = self.argument("range_of_speed", Limits(low=10 * kph))
         self.base = self.parameter("base", 10 * kph, unit="kph")

@@ -1,0 +1,341 @@
+"""Completion and signatures: what may be written at the cursor."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+
+from lsprotocol import types as lsp
+
+from osc2tx.catalogue import catalogue
+from osc2tx.language_server.contexts import Block, Cursor, OpenCall, cursor_at, path_before
+from osc2tx.language_server.descriptions import declaration
+from osc2tx.reference import Entry, Member, entries, find
+from osc2tx.semantics import SemanticModel
+from osc2tx.semantics.conversions import symbol_of
+from osc2tx.semantics.scope import is_subtype, supertypes
+from osc2tx.semantics.symbols import (
+    ActorSymbol,
+    ActorType,
+    BehaviorSymbol,
+    EnumSymbol,
+    EventSymbol,
+    FieldSymbol,
+    ListType,
+    MethodSymbol,
+    ModifierSymbol,
+    ParameterSymbol,
+    ScenarioSymbol,
+    Symbol,
+    TypeSymbol,
+)
+
+Kind = lsp.CompletionItemKind
+
+_STATEMENTS = {
+    Block.FILE: ("import", "namespace", "export", "scenario", "action", "modifier", "actor"),
+    Block.TYPE: ("do", "keep", "event", "var", "def", "on", "cover", "record", "remove_default"),
+    Block.DO: ("serial:", "parallel:", "one_of:", "wait", "emit", "call"),
+    Block.WITH: ("keep", "until", "remove_default"),
+    Block.ON: ("emit", "call"),
+}
+_MORE_STATEMENTS = ("struct", "enum", "extend", "global")
+_PRIMITIVES = ("bool", "int", "uint", "float", "string")
+_CONDITIONS = ("rise", "fall", "elapsed", "every")
+_TYPE_PLACE = re.compile(r"^\s*(?:global\s+|var\s+)?\w+(?:\s*,\s*\w+)*\s*:\s*(?:list\s+of\s+)?\w*$")
+_BASE_PLACE = re.compile(r"\b(?:inherits|extend|of)\s+\w*$")
+_NUMBER_PLACE = re.compile(r"(?<![\w.])\d+(?:\.\d+)?[A-Za-z_]*$")
+_MEMBER_PLACE = re.compile(r"\.\w*$")
+_INVOCATION_PLACE = re.compile(r"^\s*(?:\w+\s*:\s*)*[\w.\[\]]*$")
+_START_OF_LINE = re.compile(r"^\s*\w*$")
+_BEHIND_LABEL = re.compile(r"^\s*\w+\s*:\s*\w*$")
+
+
+def completions(text: str, offset: int, model: SemanticModel | None) -> list[lsp.CompletionItem]:
+    """Return what may stand at an offset, each once.
+
+    Args:
+        text: The text.
+        offset: The place of the cursor.
+        model: A program that is near to the text; without one, names of the library alone.
+    """
+    found: dict[str, lsp.CompletionItem] = {}
+    for item in _candidates(cursor_at(text, offset), _Program(model, offset)):
+        found.setdefault(item.label, item)
+    return list(found.values())
+
+
+class _Program:
+    """The names of a program at an offset."""
+
+    def __init__(self, model: SemanticModel | None, offset: int) -> None:
+        self.model = model
+        self.symbols: Sequence[Symbol] = () if model is None else model.symbols
+        self.offset = offset
+
+    def owner(self, declared_at: int) -> TypeSymbol | None:
+        """Return the type whose declaration begins in the line of an offset."""
+        if self.model is None:
+            return None
+        root = self.model.root.span.source
+        here = [
+            symbol
+            for symbol in self.symbols
+            if isinstance(symbol, TypeSymbol)
+            and symbol.span.source.name == root.name
+            and symbol.span.start >= declared_at
+        ]
+        return min(here, key=lambda symbol: symbol.span.start, default=None)
+
+    def of(self, kinds: type | tuple[type, ...]) -> list[Symbol]:
+        """Return the declarations of some kinds."""
+        return [symbol for symbol in self.symbols if isinstance(symbol, kinds)]
+
+    def type_of(self, path: str, owner: TypeSymbol | None) -> TypeSymbol | None:
+        """Return the type of the object that a dotted name reaches."""
+        current = owner
+        for step in filter(None, re.split(r"[.]|\[\d+\]", path)):
+            if current is None or step == "it":
+                continue
+            member = next(
+                (type_.members[step] for type_ in supertypes(current) if step in type_.members),
+                None,
+            )
+            type_ = getattr(member, "type", None)
+            if isinstance(type_, ListType):
+                type_ = type_.element
+            current = None if type_ is None else symbol_of(type_)
+        return current if path else None
+
+
+def _candidates(cursor: Cursor, program: _Program) -> Iterator[lsp.CompletionItem]:
+    before, owner = cursor.before, program.owner(cursor.declaration)
+    if re.search(r"@[\w.]*$", before):
+        yield from _events(owner, program)
+    elif _NUMBER_PLACE.search(before):
+        yield from _units(program)
+    elif _MEMBER_PLACE.search(before):
+        path = path_before(before.rpartition(".")[0])
+        yield from _members(program.type_of(path, owner), cursor, program)
+    elif cursor.call is not None:
+        yield from _arguments(cursor.call, cursor, owner, program)
+    elif _BASE_PLACE.search(before):
+        yield from _types(program)
+    elif _START_OF_LINE.match(before) or (cursor.block is Block.DO and _BEHIND_LABEL.match(before)):
+        yield from _statements(cursor, owner, program)
+    elif cursor.block is not Block.DO and _TYPE_PLACE.match(before):
+        yield from _types(program)
+    else:
+        yield from _values(owner, program)
+
+
+def _item(
+    label: str, kind: Kind, detail: str = "", insert: str | None = None
+) -> lsp.CompletionItem:
+    return lsp.CompletionItem(label, kind=kind, detail=detail or None, insert_text=insert)
+
+
+def _statements(
+    cursor: Cursor, owner: TypeSymbol | None, program: _Program
+) -> Iterator[lsp.CompletionItem]:
+    if cursor.block is Block.WITH:
+        yield from _modifiers(cursor.header, owner, program)
+    if cursor.block in (Block.DO, Block.WITH):
+        yield from _fields(owner)
+    if cursor.block is Block.DO:
+        for symbol in program.of(ScenarioSymbol):
+            if isinstance(symbol, ScenarioSymbol) and symbol.actor is None and symbol is not owner:
+                yield _item(symbol.name, Kind.Class, declaration(symbol))
+    more = _MORE_STATEMENTS if cursor.block is Block.FILE else ()
+    for word in (*_STATEMENTS[cursor.block], *more):
+        yield _item(word, Kind.Keyword)
+
+
+def _fields(owner: TypeSymbol | None) -> Iterator[lsp.CompletionItem]:
+    for type_ in () if owner is None else supertypes(owner):
+        for name, member in type_.members.items():
+            if isinstance(member, FieldSymbol):
+                yield _item(name, Kind.Field, declaration(member))
+
+
+def _members(
+    reached: TypeSymbol | None, cursor: Cursor, program: _Program
+) -> Iterator[lsp.CompletionItem]:
+    """Yield what may follow the dot behind an object: its actions where it acts, its members."""
+    if reached is None:
+        return
+    acts = cursor.block is Block.DO and _INVOCATION_PLACE.match(cursor.before)
+    if acts and isinstance(reached, ActorSymbol):
+        for behavior in _behaviors(reached, program):
+            yield _item(behavior.name, Kind.Method, declaration(behavior), f"{behavior.name}()")
+    for type_ in supertypes(reached):
+        for name, member in type_.members.items():
+            kind = Kind.Method if isinstance(member, MethodSymbol) else Kind.Field
+            kind = Kind.Event if isinstance(member, EventSymbol) else kind
+            yield _item(name, kind, declaration(member))
+
+
+def _behaviors(actor: ActorSymbol, program: _Program) -> Iterator[BehaviorSymbol]:
+    known: Iterable[Symbol] = () if program.model is None else program.model.actions
+    for each in (*known, *program.symbols):
+        if isinstance(each, BehaviorSymbol) and not isinstance(each, ModifierSymbol):
+            is_abstract = each.qualified_name in catalogue().abstract
+            if not is_abstract and each.actor is not None and is_subtype(actor, each.actor):
+                yield each
+
+
+def _behavior(path: str, owner: TypeSymbol | None, program: _Program) -> BehaviorSymbol | None:
+    """Return the behavior that a dotted name invokes."""
+    receiver, _, name = path.rpartition(".")
+    if not receiver:
+        scenarios = program.of(ScenarioSymbol)
+        found = (s for s in scenarios if isinstance(s, ScenarioSymbol) and s.name == name)
+        return next(found, None)
+    actor = program.type_of(receiver, owner)
+    if not isinstance(actor, ActorSymbol):
+        return None
+    return next((each for each in _behaviors(actor, program) if each.name == name), None)
+
+
+def _invoked(header: str) -> str:
+    """Return what a line with a `with:` block invokes."""
+    found = re.search(r"([A-Za-z_][\w.\[\]]*)\s*(?:\(.*)?\s*with:?$", header)
+    return found[1] if found else ""
+
+
+def _modifiers(
+    header: str, owner: TypeSymbol | None, program: _Program
+) -> Iterator[lsp.CompletionItem]:
+    behavior = _behavior(_invoked(header), owner, program)
+    names = set()
+    for type_ in () if behavior is None else supertypes(behavior):
+        entry = catalogue().actions.get(getattr(type_, "qualified_name", ""))
+        names |= set() if entry is None else set(entry.modifiers)
+    for each in entries():
+        if each.declaration.kind == "modifier" and each.own_name in names:
+            yield _item(
+                each.own_name, Kind.Function, each.declaration.meaning, f"{each.own_name}()"
+            )
+    for symbol in program.of(ModifierSymbol):
+        if isinstance(symbol, ModifierSymbol) and (
+            behavior is None or symbol.target is None or is_subtype(behavior, symbol.target)
+        ):
+            yield _item(symbol.name, Kind.Function, declaration(symbol), f"{symbol.name}()")
+
+
+def _arguments(
+    call: OpenCall, cursor: Cursor, owner: TypeSymbol | None, program: _Program
+) -> Iterator[lsp.CompletionItem]:
+    parameters = _parameters(call, cursor, owner, program)
+    name, colon, _ = call.argument.partition(":")
+    if colon:
+        type_ = next((type_ for each, type_ in parameters if each == name.strip()), "")
+        yield from _values_of(type_, program)
+    else:
+        for parameter, type_ in parameters:
+            if parameter not in call.named:
+                yield _item(parameter, Kind.Property, type_, f"{parameter}: ")
+        if call.index < len(parameters):
+            yield from _values_of(parameters[call.index][1], program)
+    yield from _values(owner, program)
+
+
+def _parameters(
+    call: OpenCall, cursor: Cursor, owner: TypeSymbol | None, program: _Program
+) -> list[tuple[str, str]]:
+    """Return the parameters of what is called, with their types."""
+    receiver, _, name = call.callee.rpartition(".")
+    if behavior := _behavior(call.callee, owner, program):
+        found = dict(_fields_of(behavior))
+        return [*found.items(), *([] if "duration" in found else [("duration", "time")])]
+    if receiver and (reached := program.type_of(receiver, owner)) is not None:
+        for type_ in supertypes(reached):
+            member = type_.members.get(name)
+            if isinstance(member, MethodSymbol | EventSymbol):
+                return [(each.name, str(each.type)) for each in member.parameters]
+    for symbol in program.of(ModifierSymbol):
+        if symbol.name == name and isinstance(symbol, TypeSymbol):
+            return list(_fields_of(symbol))
+    return [(each.name, each.type) for each in _library_parameters(name)]
+
+
+def _fields_of(symbol: TypeSymbol) -> Iterator[tuple[str, str]]:
+    for type_ in reversed(list(supertypes(symbol))):
+        for name, member in type_.members.items():
+            if isinstance(member, FieldSymbol) and not member.is_variable and name != "actor":
+                yield name, str(member.type)
+
+
+def _library_parameters(name: str) -> Sequence[Member]:
+    found: list[Entry] = [each for each in find(name) if each.declaration.kind == "modifier"]
+    return found[0].declaration.members if found else ()
+
+
+def _values_of(type_: str, program: _Program) -> Iterator[lsp.CompletionItem]:
+    """Yield the values of a type that have names."""
+    if type_ == "bool":
+        yield from (_item(word, Kind.Keyword) for word in ("true", "false"))
+    for symbol in program.of(EnumSymbol):
+        if isinstance(symbol, EnumSymbol) and symbol.name == type_:
+            yield from (_item(name, Kind.EnumMember, type_) for name in symbol.members)
+    for entry in find(f"enum {type_}"):
+        for member in entry.declaration.members:
+            yield _item(member.name, Kind.EnumMember, member.meaning or type_)
+
+
+def _values(owner: TypeSymbol | None, program: _Program) -> Iterator[lsp.CompletionItem]:
+    yield from _fields(owner)
+    for word in _CONDITIONS:
+        yield _item(word, Kind.Function, "event condition", f"{word}()")
+    for word in ("true", "false", "it", "not", "and", "or", "in"):
+        yield _item(word, Kind.Keyword)
+
+
+def _events(owner: TypeSymbol | None, program: _Program) -> Iterator[lsp.CompletionItem]:
+    for word in ("start", "end", "fail"):
+        yield _item(word, Kind.Event)
+    for type_ in () if owner is None else supertypes(owner):
+        for name, member in type_.members.items():
+            if isinstance(member, EventSymbol):
+                yield _item(name, Kind.Event, declaration(member))
+            elif not isinstance(member, ParameterSymbol | MethodSymbol):
+                is_actor = isinstance(getattr(member, "type", None), ActorType)
+                if is_actor or not isinstance(member, FieldSymbol):
+                    yield _item(name, Kind.Field, declaration(member))
+
+
+def _units(program: _Program) -> Iterator[lsp.CompletionItem]:
+    for unit in () if program.model is None else program.model.known_units:
+        yield _item(unit.name, Kind.Unit, str(unit.type))
+
+
+def _types(program: _Program) -> Iterator[lsp.CompletionItem]:
+    for symbol in program.of((TypeSymbol, EnumSymbol)):
+        if not isinstance(symbol, ModifierSymbol):
+            yield _item(symbol.name, Kind.Class, declaration(symbol))
+    for entry in entries():
+        kind = entry.declaration.kind
+        if kind in ("actor", "struct", "enum", "type"):
+            yield _item(entry.declaration.name, Kind.Class, entry.declaration.meaning)
+    for word in _PRIMITIVES:
+        yield _item(word, Kind.Keyword)
+
+
+def signature(text: str, offset: int, model: SemanticModel | None) -> lsp.SignatureHelp | None:
+    """Return the parameters of the call in whose parentheses an offset is."""
+    cursor, program = cursor_at(text, offset), _Program(model, offset)
+    call = cursor.call
+    if call is None:
+        return None
+    parameters = _parameters(call, cursor, program.owner(cursor.declaration), program)
+    if not parameters:
+        return None
+    names = [name for name, _ in parameters]
+    written = call.argument.partition(":")[0].strip() if ":" in call.argument else ""
+    active = names.index(written) if written in names else min(call.index, len(names) - 1)
+    labels = [f"{name}: {type_}" for name, type_ in parameters]
+    shown = lsp.SignatureInformation(
+        f"{call.callee}({', '.join(labels)})",
+        parameters=[lsp.ParameterInformation(label) for label in labels],
+    )
+    return lsp.SignatureHelp([shown], active_signature=0, active_parameter=active)

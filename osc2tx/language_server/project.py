@@ -1,0 +1,111 @@
+"""The texts that are open in the editor, and the other files of their project."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from osc2tx.building.jobs import Job, find_jobs, job_for
+from osc2tx.compilation.inputs import Input, InputError
+from osc2tx.config import ConfigFiles, GivenOptions
+from osc2tx.language_server.documents import Document
+from osc2tx.semantics import SemanticModel
+from osc2tx.support.paths import real_path
+
+# Statements that stand for the line at the cursor, until one lets the rest be understood.
+_FILLERS = ("", "wait elapsed(1s)", "keep(true)", "event cursor")
+
+
+class Project:
+    """Open documents by path, and the last program that each was understood as."""
+
+    def __init__(self) -> None:
+        """Begin with nothing open."""
+        self._open: dict[Path, Document] = {}
+        self._models: dict[Path, SemanticModel] = {}
+
+    def change(self, path: Path, text: str) -> Document:
+        """Take the present text of an open file."""
+        document = Document(_job_for(path), text)
+        self._open[path] = document
+        return document
+
+    def close(self, path: Path) -> None:
+        """Forget a file; what is on disk counts again."""
+        self._open.pop(path, None)
+        self._models.pop(path, None)
+
+    def document(self, path: Path) -> Document:
+        """Return a file as it is in the editor, or else on disk.
+
+        Raises:
+            OSError, UnicodeDecodeError: If it is not open and cannot be read.
+        """
+        if path not in self._open:
+            return Document(_job_for(path), path.read_bytes().decode("utf-8-sig"))
+        return self._open[path]
+
+    def open_documents(self) -> list[Document]:
+        """Return the open documents, in the order in which they were opened."""
+        return list(self._open.values())
+
+    def refreshed(self) -> Iterator[Document]:
+        """Compile the open documents again: a file that they import may have changed."""
+        for path, document in list(self._open.items()):
+            yield self.change(path, document.text)
+
+    def model_near(self, path: Path, offset: int) -> SemanticModel | None:
+        """Return a program that is near to a text which may be unfinished at an offset."""
+        document = self.document(path)
+        model = document.model or _without_line(document, offset) or self._models.get(path)
+        if model is not None:
+            self._models[path] = model
+        return model
+
+    def documents_with(self, path: Path, word: str) -> list[Document]:
+        """Return the documents of the project of a file in whose text a word occurs."""
+        pattern = re.compile(rf"(?<!\w){re.escape(word)}(?!\w)")
+        found = {path: self.document(path)}
+        for each in [*self._open, *_sources_of(path)]:
+            if each in found:
+                continue
+            try:
+                document = self.document(each)
+            except (OSError, UnicodeDecodeError):
+                continue  # `check` reports it; no name in it can be found
+            if pattern.search(document.text):
+                found[each] = document
+        return list(found.values())
+
+
+def _job_for(path: Path) -> Job:
+    item = Input(path, real_path(path.parent) / path.name, path.parent, is_asked=True)
+    return job_for(item, GivenOptions(), ConfigFiles().for_source(path))
+
+
+def _sources_of(path: Path) -> list[Path]:
+    """Return the files of the project of a file; without settings, those of its folder."""
+    config = ConfigFiles().for_source(path)
+    try:
+        jobs = find_jobs(config.source_folders or (path.parent,), GivenOptions(), ConfigFiles())
+    except InputError:
+        return []
+    return [job.path for job in jobs]
+
+
+def _without_line(document: Document, offset: int) -> SemanticModel | None:
+    """Return the program of a text without what is unfinished in the line of an offset."""
+    text = document.text
+    start = text.rfind("\n", 0, offset) + 1
+    end = text.find("\n", offset)
+    end = len(text) if end < 0 else end
+    blanks = text[start : start + len(text[start:offset]) - len(text[start:offset].lstrip())]
+    line = text[start:end]
+    opened, closed = text.rfind("(", start, offset) - start, line.rfind(")")
+    without_arguments = [f"{line[: opened + 1]}{line[closed:]}"] if 0 <= opened < closed else []
+    for attempt in (*without_arguments, *(f"{blanks}{filler}" for filler in _FILLERS)):
+        model = document.job.compilation(text=f"{text[:start]}{attempt}{text[end:]}").model
+        if model is not None:
+            return model
+    return None

@@ -1,0 +1,226 @@
+"""The server: the questions of the protocol, and which module answers them."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote, urlparse
+from urllib.request import url2pathname
+
+from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcInvalidParams
+from pygls.lsp.server import LanguageServer
+
+from osc2tx.config import ConfigError
+from osc2tx.language_server import decorations, descriptions, navigation, problems
+from osc2tx.language_server.completion import completions, signature
+from osc2tx.language_server.documents import Document
+from osc2tx.language_server.positions import offset_of, range_of, whole
+from osc2tx.language_server.project import Project
+from osc2tx.version import __version__
+
+
+class OscServer(LanguageServer):
+    """A language server for OpenSCENARIO DSL."""
+
+    def __init__(self) -> None:
+        """Begin without documents."""
+        super().__init__("osc2tx", __version__)
+        self.project = Project()
+
+    def of(self, identifier: lsp.TextDocumentIdentifier) -> Document:
+        """Return the document that a question is about."""
+        return self.project.document(path_of(identifier.uri))
+
+    def publish(self, uri: str, document: Document) -> None:
+        """Send the diagnostics of a document; wrong settings are one of them."""
+        found = problems.problems(document)
+        self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, found))
+
+    def changed(self, uri: str) -> None:
+        """Take the text that the editor has now, and check it."""
+        text = self.workspace.get_text_document(uri).source
+        try:
+            document = self.project.change(path_of(uri), text)
+        except ConfigError as error:
+            start = lsp.Range(lsp.Position(0, 0), lsp.Position(0, 0))
+            found = [lsp.Diagnostic(start, str(error), source="osc2tx")]
+            self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, found))
+            return
+        self.publish(uri, document)
+
+
+def path_of(uri: str) -> Path:
+    """Return the path of a document; one that is not a file gets a name in the working folder."""
+    parts = urlparse(uri)
+    return Path(
+        url2pathname(parts.path) if parts.scheme == "file" else unquote(parts.path) or "a.osc"
+    )
+
+
+def make_server() -> OscServer:
+    """Return a server with all that it answers."""
+    server = OscServer()
+    _documents(server)
+    _questions(server)
+    _edits(server)
+    return server
+
+
+def _documents(server: OscServer) -> None:
+    @server.feature(lsp.TEXT_DOCUMENT_DID_OPEN)
+    def did_open(params: lsp.DidOpenTextDocumentParams) -> None:
+        server.changed(params.text_document.uri)
+
+    @server.feature(lsp.TEXT_DOCUMENT_DID_CHANGE)
+    def did_change(params: lsp.DidChangeTextDocumentParams) -> None:
+        server.changed(params.text_document.uri)
+
+    @server.feature(lsp.TEXT_DOCUMENT_DID_SAVE)
+    def did_save(params: lsp.DidSaveTextDocumentParams) -> None:
+        for document in server.project.refreshed():
+            server.publish(document.job.path.as_uri(), document)
+
+    @server.feature(lsp.TEXT_DOCUMENT_DID_CLOSE)
+    def did_close(params: lsp.DidCloseTextDocumentParams) -> None:
+        uri = params.text_document.uri
+        server.project.close(path_of(uri))
+        server.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, []))
+
+
+def _questions(server: OscServer) -> None:
+    @server.feature(lsp.TEXT_DOCUMENT_HOVER)
+    def hover(params: lsp.HoverParams) -> lsp.Hover | None:
+        return descriptions.hover(server.of(params.text_document), params.position)
+
+    @server.feature(lsp.TEXT_DOCUMENT_DEFINITION)
+    def definition(params: lsp.DefinitionParams) -> lsp.Location | None:
+        return navigation.definition(server.of(params.text_document), params.position)
+
+    @server.feature(lsp.TEXT_DOCUMENT_REFERENCES)
+    def references(params: lsp.ReferenceParams) -> list[lsp.Location]:
+        document = server.of(params.text_document)
+        found = document.occurrence_at(offset_of(document.source, params.position))
+        if found is None:
+            return []
+        documents = server.project.documents_with(document.job.path, found.symbol.name)
+        wanted = params.context.include_declaration
+        return [
+            lsp.Location(each.job.path.as_uri(), range_of(name.span))
+            for each, name in navigation.references(
+                documents, found.symbol, with_declaration=wanted
+            )
+        ]
+
+    @server.feature(
+        lsp.TEXT_DOCUMENT_COMPLETION, lsp.CompletionOptions(trigger_characters=[".", "@", "(", ":"])
+    )
+    def completion(params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
+        document = server.of(params.text_document)
+        offset = offset_of(document.source, params.position)
+        model = server.project.model_near(document.job.path, offset)
+        return completions(document.text, offset, model)
+
+    @server.feature(
+        lsp.TEXT_DOCUMENT_SIGNATURE_HELP, lsp.SignatureHelpOptions(trigger_characters=["(", ","])
+    )
+    def signature_help(params: lsp.SignatureHelpParams) -> lsp.SignatureHelp | None:
+        document = server.of(params.text_document)
+        offset = offset_of(document.source, params.position)
+        return signature(
+            document.text, offset, server.project.model_near(document.job.path, offset)
+        )
+
+    @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
+    def document_symbol(params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
+        return navigation.outline(server.of(params.text_document))
+
+    @server.feature(lsp.TEXT_DOCUMENT_FOLDING_RANGE)
+    def folding_range(params: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:
+        return navigation.foldings(server.of(params.text_document))
+
+    @server.feature(lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, decorations.LEGEND)
+    def semantic_tokens(params: lsp.SemanticTokensParams) -> lsp.SemanticTokens:
+        return decorations.semantic_tokens(server.of(params.text_document))
+
+    @server.feature(lsp.TEXT_DOCUMENT_INLAY_HINT)
+    def inlay_hint(params: lsp.InlayHintParams) -> list[lsp.InlayHint]:
+        return decorations.inlay_hints(server.of(params.text_document), params.range)
+
+    @server.feature(lsp.TEXT_DOCUMENT_CODE_LENS)
+    def code_lens(params: lsp.CodeLensParams) -> list[lsp.CodeLens]:
+        document = server.of(params.text_document)
+        return decorations.lenses(document, params.text_document.uri)
+
+
+def _edits(server: OscServer) -> None:
+    @server.feature(
+        lsp.TEXT_DOCUMENT_CODE_ACTION,
+        lsp.CodeActionOptions([lsp.CodeActionKind.QuickFix, problems.FIX_ALL]),
+    )
+    def code_action(params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
+        uri = params.text_document.uri
+        only = [str(getattr(kind, "value", kind)) for kind in params.context.only or ()] or None
+        return problems.actions(server.of(params.text_document), uri, params.range, only)
+
+    @server.feature(lsp.TEXT_DOCUMENT_FORMATTING)
+    def formatting(params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
+        document = server.of(params.text_document)
+        formatted = document.compilation.formatted
+        if formatted is None or formatted == document.text:
+            return []
+        return [lsp.TextEdit(whole(document.source), formatted)]
+
+    @server.feature(lsp.TEXT_DOCUMENT_RANGE_FORMATTING)
+    def range_formatting(params: lsp.DocumentRangeFormattingParams) -> list[lsp.TextEdit]:
+        return _formatted_lines(server.of(params.text_document), params.range)
+
+    @server.feature(lsp.TEXT_DOCUMENT_PREPARE_RENAME)
+    def prepare_rename(params: lsp.PrepareRenameParams) -> lsp.Range | None:
+        document = server.of(params.text_document)
+        found = document.occurrence_at(offset_of(document.source, params.position))
+        return None if found is None or found.symbol.origin != "user" else range_of(found.span)
+
+    @server.feature(lsp.TEXT_DOCUMENT_RENAME, lsp.RenameOptions(prepare_provider=True))
+    def rename(params: lsp.RenameParams) -> lsp.WorkspaceEdit | None:
+        document = server.of(params.text_document)
+        found = document.occurrence_at(offset_of(document.source, params.position))
+        if found is None:
+            return None
+        try:
+            navigation.check_new_name(found.symbol, params.new_name)
+        except navigation.CannotRename as error:
+            raise JsonRpcInvalidParams(str(error)) from None
+        changes: dict[str, Sequence[lsp.TextEdit]] = {}
+        documents = server.project.documents_with(document.job.path, found.symbol.name)
+        for each, name in navigation.references(documents, found.symbol):
+            edit = lsp.TextEdit(range_of(name.span), params.new_name)
+            uri = each.job.path.as_uri()
+            changes[uri] = [*changes.get(uri, ()), edit]
+        return lsp.WorkspaceEdit(changes=changes)
+
+    @server.command("osc2tx.showModule")
+    def show_module(uri: str, *_: Any) -> str | None:
+        module = server.project.document(path_of(uri)).compilation.module
+        return None if module is None else module.python
+
+    @server.command("osc2tx.showXml")
+    def show_xml(uri: str, scenario: str = "", *_: Any) -> str | None:
+        found = server.project.document(path_of(uri)).compilation.xml
+        return next((each.xml for each in found if scenario in ("", each.name)), None)
+
+
+def _formatted_lines(document: Document, asked: lsp.Range) -> list[lsp.TextEdit]:
+    """Return the changes of the formatter that lie within some lines."""
+    formatted = document.compilation.formatted
+    if formatted is None:
+        return []
+    old, new = document.text.splitlines(keepends=True), formatted.splitlines(keepends=True)
+    edits = []
+    for tag, first, last, from_, to in difflib.SequenceMatcher(None, old, new, False).get_opcodes():
+        if tag != "equal" and asked.start.line <= first and last <= asked.end.line + 1:
+            place = lsp.Range(lsp.Position(first, 0), lsp.Position(last, 0))
+            edits.append(lsp.TextEdit(place, "".join(new[from_:to])))
+    return edits

@@ -1,0 +1,6 @@
+"""Properties of a test in JUnit, beside the values that its scenario fixes."""
+
+VERDICT = "osc2tx.verdict"
+EXPECTED = "osc2tx.expected"
+REASON = "osc2tx.reason"
+TRACE = "osc2tx.trace"

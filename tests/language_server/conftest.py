@@ -1,0 +1,104 @@
+"""A client that speaks the protocol with `osc2tx lsp`, as an editor does."""
+
+from __future__ import annotations
+
+import asyncio
+import sys
+from collections.abc import Awaitable, Callable, Iterator
+from pathlib import Path
+from typing import Any, TypeVar
+
+import pytest
+
+pytest.importorskip("pygls")
+from lsprotocol import types as lsp
+from pygls.lsp.client import LanguageClient
+
+T = TypeVar("T")
+SECONDS = 120  # until a server that does not answer is given up
+
+
+class Editor:
+    """An editor with one server; each call waits for its answer.
+
+    Attributes:
+        folder: The folder of the project.
+        problems: The diagnostics of each document, as last sent.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.problems: dict[str, list[lsp.Diagnostic]] = {}
+        self._loop = asyncio.new_event_loop()
+        self._client = LanguageClient("tests", "1")
+        self._sent = asyncio.Event()
+        self._versions: dict[str, int] = {}
+
+        @self._client.feature(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)
+        def publish(params: lsp.PublishDiagnosticsParams) -> None:
+            self.problems[params.uri] = list(params.diagnostics)
+            self._sent.set()
+
+    def start(self) -> None:
+        self._run(self._client.start_io(sys.executable, "-m", "osc2tx", "lsp"))
+        asked = lsp.InitializeParams(
+            capabilities=lsp.ClientCapabilities(), root_uri=self.folder.as_uri()
+        )
+        self.ask(lsp.INITIALIZE, asked)
+        self._client.initialized(lsp.InitializedParams())
+
+    def stop(self) -> None:
+        self.ask(lsp.SHUTDOWN, None)
+        self._client.exit(None)
+        self._run(self._client.stop())
+        self._loop.close()
+
+    def open(self, name: str, text: str) -> str:
+        """Open a text as a file of the project; return its address after its diagnostics came."""
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+        uri = path.as_uri()
+        self._versions[uri] = 1
+        item = lsp.TextDocumentItem(uri, "osc2", 1, text)
+        self._send(lambda: self._client.text_document_did_open(lsp.DidOpenTextDocumentParams(item)))
+        return uri
+
+    def change(self, uri: str, text: str) -> None:
+        """Replace the text of a document; return after its diagnostics came."""
+        self._versions[uri] += 1
+        document = lsp.VersionedTextDocumentIdentifier(self._versions[uri], uri)
+        change = lsp.TextDocumentContentChangeWholeDocument(text)
+        params = lsp.DidChangeTextDocumentParams(document, [change])
+        self._send(lambda: self._client.text_document_did_change(params))
+
+    def ask(self, method: str, params: Any) -> Any:
+        """Send a request; return its result."""
+
+        async def send() -> Any:
+            return await self._client.protocol.send_request_async(method, params)
+
+        return self._run(send())
+
+    def _send(self, send: Callable[[], None]) -> None:
+        self._sent.clear()
+
+        async def wait() -> None:
+            send()
+            await self._sent.wait()
+
+        self._run(wait())
+
+    def _run(self, work: Awaitable[T]) -> T:
+        async def limited() -> T:
+            return await asyncio.wait_for(work, SECONDS)
+
+        return self._loop.run_until_complete(limited())
+
+
+@pytest.fixture(scope="module")
+def editor(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Editor]:
+    made = Editor(tmp_path_factory.mktemp("project"))
+    made.start()
+    yield made
+    made.stop()

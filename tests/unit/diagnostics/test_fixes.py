@@ -1,0 +1,132 @@
+"""Fixes remove what they are for, and bring no new error."""
+
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from osc2tx.building.fixing import fix_text
+from osc2tx.building.jobs import job_for
+from osc2tx.compilation.inputs import Input
+from osc2tx.config import ConfigFiles, GivenOptions
+from osc2tx.diagnostics import Diagnostic, Severity, SourceFile, Span
+from osc2tx.diagnostics.fixes import Edit, Fix, apply_edits, compatible
+
+ONCE_PER_FILE = {"OSC415"}  # the next place is reported then
+CASES = sorted((Path(__file__).parents[2] / "golden" / "diagnostics").glob("*/input.osc"))
+
+
+def found_in(path: Path, text: str) -> tuple[Diagnostic, ...]:
+    compilation = job(path).compilation(text=text)
+    compilation.check()
+    return compilation.diagnostics
+
+
+def job(path: Path):  # type: ignore[no-untyped-def]
+    item = Input(path, path, path.parent, is_asked=True)
+    return job_for(item, GivenOptions(), ConfigFiles().for_source(path))
+
+
+def errors(found: tuple[Diagnostic, ...]) -> Counter[str]:
+    return Counter(d.code for d in found if d.severity is Severity.ERROR)
+
+
+def is_syntax(code: str) -> bool:
+    return code.startswith("OSC1")
+
+
+@pytest.mark.parametrize("path", CASES, ids=lambda path: path.parent.name)
+def test_each_fix_removes_its_diagnostic(path: Path) -> None:
+    text = path.read_bytes().decode()
+    before = found_in(path, text)
+    for diagnostic in before:
+        for fix in diagnostic.fixes:
+            fixed = apply_edits(text, fix.edits)
+            after = found_in(path, fixed)
+            same = Counter((d.code, d.message) for d in after)
+            key = diagnostic.code, diagnostic.message
+            earlier = Counter((d.code, d.message) for d in before)
+            if diagnostic.code not in ONCE_PER_FILE:
+                assert same[key] < earlier[key], (diagnostic, fix.title)
+            old, new = errors(before), errors(after)
+            if any(map(is_syntax, old)):  # what stands behind a syntax error was not found before
+                old, new = (
+                    Counter({c: n for c, n in e.items() if is_syntax(c)}) for e in (old, new)
+                )
+            if fix.is_safe:
+                assert not new - old, (diagnostic, fix.title, new - old)
+
+
+def test_how_many_codes_have_fixes() -> None:
+    codes = {
+        d.code for path in CASES for d in found_in(path, path.read_bytes().decode()) if d.fixes
+    }
+    assert len(codes) >= 30, sorted(codes)
+
+
+def span(source: SourceFile, start: int, end: int) -> Span:
+    return Span(source, start, end)
+
+
+def test_edits_are_applied_from_left_to_right_whatever_their_order() -> None:
+    source = SourceFile("a.osc", "one two three")
+    edits = [
+        Edit(span(source, 8, 13), "3"),
+        Edit(span(source, 0, 3), "1"),
+        Edit(span(source, 3, 3), "!"),
+    ]
+    assert apply_edits(source.text, edits) == "1! two 3"
+
+
+def test_overlapping_edits_are_refused() -> None:
+    source = SourceFile("a.osc", "one two")
+    with pytest.raises(ValueError, match="overlap"):
+        apply_edits(source.text, [Edit(span(source, 0, 4), ""), Edit(span(source, 3, 5), "")])
+
+
+def test_of_fixes_that_touch_each_other_the_first_is_kept() -> None:
+    source = SourceFile("a.osc", "one two three")
+    first = Fix("first", (Edit(span(source, 0, 3), "1"), Edit(span(source, 8, 13), "3")))
+    second = Fix("second", (Edit(span(source, 3, 5), ""),))
+    third = Fix("third", (Edit(span(source, 5, 6), ""),))
+    assert compatible([third, second, first]) == [first, third]
+
+
+SLIPS = """import osc.standard
+
+scenaro hello:
+    ego: vehicle
+    npc: vehicle
+    do serial
+        ego.drive(duration: 5 s) with:
+            speed(10kph..20kph, at start)
+            lane(1, side_of: npc, side: left)
+        npc.drive(duration = 3s) with:
+            speed(30kph)
+        wait elapsed(2s);
+"""
+MENDED = """import osc.standard
+
+scenario hello:
+    ego: vehicle
+    npc: vehicle
+    do serial:
+        ego.drive(duration: 5s) with:
+            speed([10kph..20kph], at: start)
+            lane(1, side_of: npc, side: left)
+        npc.drive(duration: 3s) with:
+            speed(30kph)
+        wait elapsed(2s)
+"""
+
+
+def test_fixes_are_applied_until_none_is_left(tmp_path: Path) -> None:
+    fixed = fix_text(job(tmp_path / "a.osc"), SLIPS, unsafe=False)
+    assert fixed.text == MENDED
+    assert fixed.applied == 7
+
+
+def test_unsafe_fixes_are_applied_only_on_demand(tmp_path: Path) -> None:
+    text = MENDED.replace("vehicle\n    npc", "vehicel\n    npc")
+    assert fix_text(job(tmp_path / "a.osc"), text, unsafe=False).text == text
+    assert fix_text(job(tmp_path / "a.osc"), text, unsafe=True).text == MENDED
