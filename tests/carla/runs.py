@@ -47,7 +47,8 @@ def in_carla(settings: RunSettings, port: int, **options: Any) -> RunSettings:
         **options: Of the world, beside its address; `control` says who moves the actors.
     """
     control = options.pop("control", {})
-    world_options = {"carla": ("127.0.0.1", port), "carla_load": True, **options}
+    at = {"carla": ("127.0.0.1", port), "carla_load": True, "carla_keep": True}
+    world_options = {**at, **options}
     return replace(settings, world="carla", control=control, world_options=world_options)
 
 
