@@ -143,15 +143,12 @@ class Actions:
         dynamics.text("followingMode")
         if (target_node.text("continuous") or "false").lower() in ("true", "1"):
             return self._as_fast_as(node, target_node, dynamics, actor)
-        before = self._speeds.get(said)
+        standing = Quantity(literal(0.0, SPEED), 0.0) if at_start else None
+        before = self._speeds.get(said, standing)
         self._speeds[said] = target
         value = self._values.quantity(dynamics, "value", _of_dynamics(dynamics))
         dimension = dynamics.text("dynamicsDimension") or "time"
-        if (
-            at_start
-            or shape == "step"
-            or (dimension in ("time", "distance") and value.value == 0.0)
-        ):
+        if shape == "step" or (dimension in ("time", "distance") and value.value == 0.0):
             dynamics.idle("the speed is there at once")
             return Statement(f"{actor.name}.assign_speed({target.text})", length=0.0)
         if shape == "cubic":

@@ -99,8 +99,10 @@ def facts(node: Node, document: Document) -> tuple[str, list[str]]:
         if category in RENAMED or category not in CATEGORIES:
             node.approximate(f"DSL 2.1 has no category {category}, so it is {said}")
         found.append(f"vehicle_category == {said}")
-        for each in node.children("TrailerHitch", "TrailerCoupler", "Trailer"):
-            each.leave_out("trailers are not imported yet")
+        for each in node.children("Trailer"):
+            if any(part.get("entityRef") for part in each.element.walk()):
+                each.leave_out("trailers are not coupled here")
+            each.use_all()
     elif category and category not in ("pedestrian", "none", "obstacle"):
         node.approximate(f"its category {category} is not said here")
     box = node.find("BoundingBox")

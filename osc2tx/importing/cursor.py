@@ -35,7 +35,6 @@ IDLE: Mapping[tuple[str, str], str] = {
     ("Controller", "controllerType"): TOOLS,
     ("Environment", "name"): NAMES,
     ("Weather", "name"): NAMES,
-    ("SceneGraphFile", "filepath"): "pictures of the roads are a matter of the simulator",
     ("Vehicle", "mass"): LIMITS,
     ("Pedestrian", "mass"): LIMITS,
     ("MiscObject", "mass"): LIMITS,
@@ -52,6 +51,9 @@ IDLE_ELEMENTS: Mapping[str, str] = {
     "Properties": TOOLS,
     "Performance": LIMITS,
     "Axles": AXLES,
+    "SceneGraphFile": "pictures of the roads are a matter of the simulator",
+    "TrailerHitch": "no trailer hangs on it",
+    "TrailerCoupler": "it hangs on nothing",
 }
 """Elements that have no effect with all below them."""
 

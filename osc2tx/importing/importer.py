@@ -404,7 +404,7 @@ class _Import:
         branches: Sequence[Branch],
     ) -> Statement:
         never = all(any(each.kind == "never" for each in group) for group in end.groups)
-        untils: list[str] = []
+        endings: list[str] = []
         if not end.groups or never:
             self._report.add(
                 "approximated",
@@ -412,26 +412,26 @@ class _Import:
                 f"nothing ends the document; the scenario ends after {LONGEST}",
                 self._document.root.place,
             )
-            untils.append(f"elapsed({LONGEST})")
+            endings.append(f"elapsed({LONGEST})")
         for group in end.groups if not never else ():
             waits = structure.waits(Trigger([group]))
             if not waits:
-                untils.append("elapsed(0s)")
+                endings.append("elapsed(0s)")
             elif len(waits) == 1 and waits[0].text.startswith("wait "):
-                untils.append(waits[0].text.removeprefix("wait "))
+                endings.append(waits[0].text.removeprefix("wait "))
             else:
                 name = self._names.new("", kind="event", base="finished")
                 structure.lines.append(f"event {name}")
                 members.append(composed("serial", [*waits, Statement(f"emit {name}")]))
-                untils.append(f"@{name}")
+                endings.append(f"@{name}")
         if not is_open or not members:
-            if len(untils) == 1 and untils[0].startswith("elapsed("):
-                members.append(wait(untils[0]))
+            if len(endings) == 1 and endings[0].startswith("elapsed("):
+                members.append(wait(endings[0]))
             else:
                 structure.lines.append("event forever")
                 members.append(wait("@forever"))
         whole = Statement("parallel", members=members)
-        whole.modifiers = [f"until {each}" for each in untils]
+        whole.modifiers = [f"until {each}" for each in endings]
         return composed("serial", [*leading, whole]) if leading else whole
 
     def _close(self) -> None:
@@ -543,8 +543,8 @@ class _Init:
         return any(spot.modifiers for spot, _ in self._spots.values())
 
     def places(self, said: str) -> bool:
-        """Whether an entity is put anywhere."""
-        return said in self._spots
+        """Whether an entity is put anywhere, or does anything."""
+        return said in self._spots or bool(self._others.get(said))
 
     def turns_alone(self, said: str) -> bool:
         """Whether an entity has a heading of its own, and no other one begins beside it."""
