@@ -19,7 +19,6 @@ from osc2tx.campaigns.samplers import SAMPLERS
 from osc2tx.campaigns.sampling import Wanted, wanted_rows
 from osc2tx.campaigns.store import Store
 from osc2tx.cli.campaign_progress import progress_bar
-from osc2tx.cli.module_loading import module_files, written_files
 from osc2tx.cli.options import compile_options
 from osc2tx.cli.reporting import Exit, Reporter, count_of, report_options
 from osc2tx.cli.run import (
@@ -30,9 +29,11 @@ from osc2tx.cli.run import (
     option_texts,
     settings_from,
 )
+from osc2tx.cli.written_modules import written_files
 from osc2tx.compilation.inputs import InputError, find_inputs
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import CAMPAIGN_SETTINGS, ConfigError, ConfigFiles, GivenOptions
+from osc2tx.module_loading import module_files
 from osc2tx.support.paths import file_stem
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.campaigns import Condition, Modules, Plan

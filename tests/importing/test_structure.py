@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.cli.module_loading import scenarios_of_module
+from osc2tx.module_loading import scenarios_of_module
 from osc2tx.compilation.driver import Compilation
 from osc2tx.importing.importer import Imported
 from osc2tx.options import CompileOptions
