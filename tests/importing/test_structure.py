@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.module_loading import scenarios_of_module
 from osc2tx.compilation.driver import Compilation
 from osc2tx.importing.importer import Imported
+from osc2tx.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions
 from osc2tx.xosc.player import Evaluator
 from osc2tx_runtime import RunSettings, run_scenario
