@@ -23,8 +23,7 @@ from osc2tx_runtime.world.motion.feasibility import FrictionWatch
 from osc2tx_runtime.world.motion.starts import Start, placed
 from osc2tx_runtime.world.motion.state_changes import StateChange
 from osc2tx_runtime.world.plant.anchoring import arrive
-from osc2tx_runtime.world.plant.checked_plant import CheckedPlant
-from osc2tx_runtime.world.plant.plant import Identity, Plant
+from osc2tx_runtime.world.plant.plant import CheckedPlant, Identity, Plant
 from osc2tx_runtime.world.plant.scene import Scene
 from osc2tx_runtime.world.plant.weather_effects import Lights, Surroundings
 from osc2tx_runtime.world.surroundings.stop_lines_ahead import StopLine, StopLines
