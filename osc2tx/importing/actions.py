@@ -223,7 +223,7 @@ class Actions:
             modifier = f"speed({delta.text}, faster_than: {reference})"
             if not delta.is_open and delta.value == 0.0:
                 modifier = f"speed(same_as: {reference})"
-        return Statement(f"{actor.goes_on}()", modifiers=[modifier], length=math.inf)
+        return Statement(f"{actor.verb}()", modifiers=[modifier], length=math.inf)
 
     def _profile(self, node: Node, said: str, actor: Actor) -> Statement | None:
         mode = node.text("followingMode") or "position"

@@ -48,10 +48,15 @@ class Actor:
     is_under_test: bool = False
 
     @property
-    def goes_on(self) -> str:
-        """The action that goes on as the actor does."""
+    def verb(self) -> str:
+        """The action that does what its modifiers say."""
         verb = {"vehicle": "drive", "person": "walk"}.get(self.kind, "move")
         return f"{self.name}.{verb}"
+
+    @property
+    def goes_on(self) -> str:
+        """The action that goes on as the actor does."""
+        return f"{self.name}.keep_speed()"
 
 
 @dataclass

@@ -66,7 +66,7 @@ class Document:
         comments: Sequence[Comment],
         folders: Folders = NOWHERE,
     ) -> None:
-        self.root = root
+        self.root = _scoped(root)
         self.path = path
         self.comments = comments
         self._folders = folders
@@ -196,6 +196,20 @@ class Document:
             return find_map(relative.name, self._folders.maps)
         except ScenarioError:
             return None
+
+
+def _scoped(node: Element) -> Element:
+    """Return an element in which the parameters of stories and maneuvers have their values."""
+    own = [each for each in node.children if each.tag == "ParameterDeclarations"]
+    if node.tag != "OpenSCENARIO" and own and own[0].children:
+        values = {
+            each.get("name") or "": each.get("value") or ""
+            for declarations in own
+            for each in declarations.children
+        }
+        kept = [each for each in node.children if each not in own]
+        return _scoped(_substituted(node.with_children(*kept), values))
+    return node.with_children(*(_scoped(child) for child in node.children))
 
 
 def _substituted(node: Element, values: Mapping[str, str]) -> Element:

@@ -516,26 +516,18 @@ class _Init:
             left = [each for each in left if each not in ready]
         return found
 
-    def _modifiers(self, said: str) -> tuple[list[Statement], list[str]]:
-        """Return what comes before an action that goes on, and its modifiers at the start."""
-        actor = self._cast.actors[said]
-        before: list[Statement] = []
-        modifiers: list[str] = []
-        found = self._spots.get(said)
-        if found is not None:
-            spot, _ = found
-            if spot.argument.startswith("position: "):
-                point = spot.argument.removeprefix("position: ")
-                modifiers.append(f"position(at_point: {point}, project_on_route: false, at: start)")
-            else:
-                before += [each.statement for each in self._actions.moved(spot, actor)]
-            if spot.yaw:
-                modifiers.append(_at_start(spot.yaw))
+    def _on_foot(self, said: str) -> list[str]:
+        """Return the modifiers of an actor that begins at a point, with a heading of its own."""
+        spot, _ = self._spots[said]
+        point = spot.argument.removeprefix("position: ")
+        modifiers = [f"position(at_point: {point}, project_on_route: false, at: start)"]
+        if spot.yaw:
+            modifiers.append(_at_start(spot.yaw))
         speed = self._speeds.get(said)
         if speed is not None:
-            value = speed.text.removeprefix(f"{actor.name}.assign_speed(")[:-1]
-            modifiers.append(f"speed({value}, at: start)")
-        return before, modifiers
+            value = speed.text.removeprefix(f"{self._cast.actors[said].name}.assign_speed(")[:-1]
+            modifiers.append(f"speed({value})")
+        return modifiers
 
     @property
     def has_relations(self) -> bool:
@@ -552,40 +544,39 @@ class _Init:
         others = (refs for name, refs in self._references.items() if name != said)
         return found is not None and bool(found[0].yaw) and not any(said in refs for refs in others)
 
+    def _is_at_point(self, said: str) -> bool:
+        found = self._spots.get(said)
+        return found is not None and found[0].argument.startswith("position: ")
+
     def going_on(self, said: str) -> list[Statement]:
         """Return how an actor begins and goes on."""
         actor = self._cast.actors[said]
-        if said in self._others:
-            return [*self.statements(said), *self.lasting(said)]
-        before, modifiers = self._modifiers(said)
-        return [*before, Statement(f"{actor.goes_on}()", modifiers=modifiers, length=math.inf)]
+        if self._is_at_point(said) and not self._others.get(said):
+            modifiers = self._on_foot(said)
+            return [Statement(f"{actor.verb}()", modifiers=modifiers, length=math.inf)]
+        last = Statement(actor.goes_on, length=math.inf)
+        return [*self.statements(said), *(self.lasting(said) or [last])]
 
     def statements(self, said: str, then: list[Statement] | None = None) -> list[Statement]:
         """Return how an actor begins, at once.
 
         Args:
             said: The entity.
-            then: What follows: a first wait in it ends the way up to there, and is taken out.
+            then: What follows: a first wait in it ends the way up to there.
         """
         actor = self._cast.actors[said]
         others = self._others.get(said, [])
-        first = then[0] if then else None
-        is_wait = first is not None and first.text.startswith("wait ") and first.members is None
-        if (
-            said in self._spots
-            and is_wait
-            and not others
-            and then is not None
-            and first is not None
-        ):
-            before, modifiers = self._modifiers(said)
-            then.pop(0)
-            modifiers.append(f"until {first.text.removeprefix('wait ')}")
-            return [*before, Statement(f"{actor.goes_on}()", modifiers=modifiers)]
+        is_wait = bool(then) and then is not None and then[0].text.startswith("wait ")
+        if is_wait and not others and said in self._spots:
+            if self._is_at_point(said):
+                modifiers = self._on_foot(said)
+                return [Statement(f"{actor.verb}()", modifiers=modifiers, length=math.inf)]
+            last = Statement(actor.goes_on, length=math.inf)
+            return [*self.statements(said), last]
         found: list[Statement] = []
         if said in self._spots:
             spot, node = self._spots[said]
-            if spot.yaw and spot.argument.startswith("odr_point"):
+            if spot.yaw:
                 node.approximate("it looks along its lane at the start")
             found += [each.statement for each in self._actions.moved(spot, actor)]
         if said in self._speeds:
@@ -597,7 +588,7 @@ class _Init:
         others = [each for each in self._others.get(said, []) if each.length != 0.0]
         if not others:
             return []
-        last = Statement(f"{self._cast.actors[said].goes_on}()", length=math.inf)
+        last = Statement(self._cast.actors[said].goes_on, length=math.inf)
         found = composed("serial", [*others, last])
         found.length = math.inf
         return [found]

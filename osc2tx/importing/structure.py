@@ -326,7 +326,7 @@ class Structure:
 
     def go_on(self, actors: Sequence[str]) -> list[Statement]:
         """Return what lets actors go on as they do."""
-        each = [Statement(f"{self._going_on[actor]}()", length=math.inf) for actor in actors]
+        each = [Statement(self._going_on[actor], length=math.inf) for actor in actors]
         return [composed("parallel", each)] if each else []
 
     def _override(self, branches: Sequence[Branch]) -> None:

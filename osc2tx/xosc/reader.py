@@ -52,7 +52,7 @@ class Comment(NamedTuple):
     """A comment of a document.
 
     Attributes:
-        text: What it says.
+        text: Its text.
         within: Where the element begins that it stands in; `None`: outside of the root.
     """
 
