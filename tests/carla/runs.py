@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from osc2tx.cli.module_loading import scenarios_of_file
+from osc2tx.module_loading import scenarios_of_file
 from osc2tx_runtime import RunResult, RunSettings, Scenario, run_scenario
 from osc2tx_runtime.errors import ScenarioError
 from tests.conftest import DATA_VARIABLE
@@ -47,7 +47,8 @@ def in_carla(settings: RunSettings, port: int, **options: Any) -> RunSettings:
         **options: Of the world, beside its address; `control` says who moves the actors.
     """
     control = options.pop("control", {})
-    world_options = {"carla": ("127.0.0.1", port), "carla_load": True, **options}
+    at = {"carla": ("127.0.0.1", port), "carla_load": True, "carla_keep": True}
+    world_options = {**at, **options}
     return replace(settings, world="carla", control=control, world_options=world_options)
 
 

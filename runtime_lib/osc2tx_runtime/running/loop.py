@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from osc2tx_runtime.errors import ScenarioError, SettingsError
+from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.context import ExecutionContext, PostedEvent
 from osc2tx_runtime.language.outline import outline
 from osc2tx_runtime.language.tree.base import (
@@ -17,6 +18,7 @@ from osc2tx_runtime.language.tree.base import (
     Status,
     pulse_of,
 )
+from osc2tx_runtime.language.tree.compositions import Serial, is_instant
 from osc2tx_runtime.language.tree.conflicts import check_claims, check_effects
 from osc2tx_runtime.language.tree.coverage import Recording
 from osc2tx_runtime.language.tree.failure_reasons import (
@@ -25,7 +27,6 @@ from osc2tx_runtime.language.tree.failure_reasons import (
     timeout_place,
     timeout_reason,
 )
-from osc2tx_runtime.language.tree.first_instant import assigns_at_start
 from osc2tx_runtime.running.criteria import Criteria
 
 if TYPE_CHECKING:
@@ -63,10 +64,18 @@ def run_tree(
     context: ExecutionContext,
     on_progress: OnProgress | None = None,
     observer: Observer | None = None,
+    last_step: int | None = None,
 ) -> Outcome:
     """Run a tree that is set up until it ends or the time is over.
 
     However it ends, no node is RUNNING and no slot is owned afterwards, and the trace is closed.
+
+    Args:
+        root: The tree.
+        context: Of the run.
+        on_progress: Called about once per simulated second.
+        observer: Observes the run.
+        last_step: The step at which the time is over; by default that of `max_time`.
 
     Raises:
         ScenarioError: If the scenario cannot continue.
@@ -74,7 +83,10 @@ def run_tree(
     outcome = Outcome("error", "", 0)
     try:
         criteria = Criteria(context)
-        outcome = judged(loop(root, context, criteria, on_progress, observer), criteria)
+        if last_step is None:
+            last_step = context.steps(context.settings.max_time)
+        found = loop(root, context, criteria, on_progress, observer, last_step)
+        outcome = judged(found, criteria)
     except BaseException as error:
         if isinstance(error, ScenarioError) and not isinstance(error, SettingsError):
             error.happened(context.time)
@@ -135,13 +147,13 @@ def loop(
     criteria: Criteria,
     on_progress: OnProgress | None,
     observer: Observer | None,
+    last_step: int,
 ) -> Outcome:
     """Settle one instant after the other until the tree ends or the time is over."""
     pulse = pulse_of(root)
     if observer is not None:
         observer.begin(context)
     world, settings, monitors = context.world, context.settings, context.monitors
-    last_step = context.steps(settings.max_time)
     progress_steps = max(1, context.steps(1.0))
     signals = signals_by_step(context)
     step = 0
@@ -244,3 +256,19 @@ def states(context: ExecutionContext) -> Iterator[tuple[str, ActorState]]:
     """Yield the states of the placed actors, in the order of the cast."""
     state = context.world.state
     return ((actor_id, state(actor_id)) for actor_id in context.cast())
+
+
+def assigns_at_start(node: Behaviour) -> bool:
+    """Return whether a tree may assign the state of an actor at the instant in which it starts."""
+    if isinstance(node, BaseAction):
+        return _assigns(node)
+    for child in node.children:
+        if assigns_at_start(child):
+            return True
+        if isinstance(node, Serial) and not is_instant(child):
+            return False
+    return False
+
+
+def _assigns(action: BaseAction) -> bool:
+    return action.registered.is_momentary and bool(action.registered.slots)

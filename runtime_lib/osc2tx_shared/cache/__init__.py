@@ -2,7 +2,8 @@
 
 `own_files` reads only files that the user alone can have written; `snapshots` keeps plain data made
 by code, as long as that code is the same. Missing, damaged and foreign files count as missing:
-nothing depends on the cache but time. The package imports nothing but the standard library.
+nothing depends on the cache but time, and the repair of a simulator after a run that was killed.
+The package imports nothing but the standard library.
 """
 
 from __future__ import annotations

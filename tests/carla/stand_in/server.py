@@ -77,6 +77,18 @@ class TestCalls:
         lights = [[light.state, light.frozen] for _, light in self._simulation.lights()]
         return [self._simulation.weather, lights]
 
+    def stand_in_bodies(self) -> dict[str, list[Any]]:
+        """Return physics, gravity, lights and control of vehicles, by role name."""
+        vehicles = [each for each in self._simulation.actors.values() if each.kind == "vehicle"]
+        return {
+            each.attribute("role_name"): [each.physics, each.gravity, each.lights, each.control]
+            for each in vehicles
+        }
+
+    def stand_in_settings(self) -> list[Any]:
+        """Return the settings, in the order in which they travel."""
+        return self._simulation.settings
+
     def stand_in_actors(self) -> dict[str, list[str]]:
         """Return the role names of what clients spawned, by blueprint."""
         found: dict[str, list[str]] = {}

@@ -20,6 +20,7 @@ class ServerCalls:
         self._simulation, self._version = simulation, version
         self._sent_map = ""
         self._for_ros: set[int] = set()
+        self._managers: dict[int, str] = {}  # hosts by port, as clients have listed them
 
     # --- connection ---------------------------------------------------------------------------
 
@@ -95,16 +96,23 @@ class ServerCalls:
     def get_actor_definitions(self) -> list[Any]:
         return [each.definition(uid) for uid, each in enumerate(BLUEPRINTS.values(), 1)]
 
-    # --- Traffic Manager (it runs in the client), ROS 2 -----------------------------------------
+    # --- Traffic Manager (it runs in the client; the server lists them), ROS 2 ------------------
 
     def is_traffic_manager_running(self, port: int) -> bool:
-        return False
+        return port in self._managers
+
+    def get_traffic_manager_running(self, port: int) -> list[Any]:
+        return [self._managers.get(port, ""), port if port in self._managers else 0]
 
     def add_traffic_manager_running(self, where: list[Any]) -> bool:
+        host, port = where
+        if port in self._managers:
+            return False
+        self._managers[port] = host
         return True
 
     def destroy_traffic_manager(self, port: int) -> bool:
-        return True
+        return self._managers.pop(port, None) is not None
 
     def enable_sensor_for_ros(self, stream: int) -> None:
         self._for_ros.add(stream)

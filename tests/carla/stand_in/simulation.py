@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import secrets
 import time
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -39,7 +40,7 @@ class Simulation:
         self.streams = StreamServer()
         self.maps = {file.stem: file for each in folders for file in sorted(each.glob("*.xodr"))}
         self.settings: list[Any] = list(SETTINGS)
-        self.episode, self.frame, self.time = 0, 1, 0.0
+        self.frame, self.time = 1, 0.0
         self._loading = loading
         self._next_level: tuple[str, str, Sequence[Any], float] | None = None
         self.load(town, self.maps[town].read_text(encoding="utf-8"))
@@ -51,7 +52,7 @@ class Simulation:
         self.actors: dict[int, Actor] = {}
         self._touching: set[tuple[int, int]] = set()
         self._last_id, self._last_stream = 0, EPISODE_STREAM
-        self.episode, self._map_changed = self.episode + 1, True
+        self.episode, self._map_changed = secrets.randbits(32), True  # by lot, as `UCarlaEpisode`
         self.spectator = self._add(Blueprint("spectator"), [], [[0.0] * 3, [0.0] * 3])
         for sign, pose in self.level.traffic_lights():
             self._add(Blueprint("traffic.traffic_light"), [], pose).light = Light(sign)

@@ -12,6 +12,7 @@ from select import select
 from typing import Any
 
 from osc2tx_runtime.errors import SimulatorError
+from osc2tx_shared.cache import cache_folder
 
 from .client import MISSING
 
@@ -21,7 +22,7 @@ import sys
 sys.path.insert(0, sys.argv[1])
 from client.serve import main
 del sys.path[0]
-sys.exit(main())
+sys.exit(main(sys.argv[2]))
 """
 """Code of the process: the package on its own, since importing all of the runtime takes time.
 
@@ -44,6 +45,9 @@ class ClientProcess:
     Args:
         timeout: How long (s) the server may take to answer one call.
 
+    Attributes:
+        patience_at_end: How long (s) letting go may take in addition.
+
     Raises:
         SimulatorError: CARLA's client library has no version for this system.
     """
@@ -55,12 +59,15 @@ class ClientProcess:
                 " with --carla HOST:PORT"
             )
         self._timeout = timeout
+        self.patience_at_end = 0.0
+        cache = cache_folder()
+        journals = "" if cache is None else str(cache / "carla")
         self._number = 0
         self._lost = False
         # No pipe, since the process may outlive this side; closed in `close`.
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115
         self._process = subprocess.Popen(
-            [sys.executable, "-P", "-c", SERVE, str(HERE)],
+            [sys.executable, "-P", "-c", SERVE, str(HERE), journals],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=self._errors,
@@ -145,5 +152,6 @@ class ClientProcess:
             self._process.stdin.close()
         self._process.stdout.close()
         self._errors.close()
+        patience = CLOSING + self._timeout + self.patience_at_end
         with contextlib.suppress(subprocess.TimeoutExpired):
-            self._process.wait(0.1 if self._lost else CLOSING + self._timeout)
+            self._process.wait(0.1 if self._lost else patience)

@@ -16,6 +16,9 @@ DEFAULT_ADDRESS = ("127.0.0.1", 2000)
 TIMEOUT = 10.0
 """How long (s) the server may take for a call."""
 
+REPAIRING = 120.0
+"""How long (s) undoing the changes of killed runs may take: a level may have to be loaded."""
+
 LOOKING = 6.0
 """How long (s) looking for ports and for steps of others may take besides."""
 
@@ -51,6 +54,10 @@ def connect(client: ClientProcess, request: WorldRequest, *, ticks: bool) -> str
             " ports 2000 and 2001), or name it with --carla HOST:PORT"
         )
     _check_versions(found["server"], found["client"])
+    if found.get("left"):
+        client.ask("repair", patience=REPAIRING)
+        complain(f"CARLA: put back what a killed run had changed: {', '.join(found['left'])}")
+        found = client.ask("connect", *address, timeout, patience=LOOKING)
     if not found["streams"]:
         raise SimulatorError(_without_streams(found, *address))
     if found["synchronous"] and ticks and not found["ticks"]:

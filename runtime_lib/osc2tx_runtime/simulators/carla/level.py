@@ -26,17 +26,17 @@ ON_LANE = 2.0  # m between a spawn point and the lane it is on
 ROUNDED = 2  # decimals of metres along the road: the wire has single precision
 
 
-def map_of(client: ClientProcess, request: WorldRequest, load: bool) -> RoadMap:
+def map_of(client: ClientProcess, request: WorldRequest) -> RoadMap:
     """Return the map of a run: the scenario's, which is the server's, with its spawn points.
 
     Args:
         client: A connected one.
-        request: Of the run.
-        load: Load it if the server has another one.
+        request: Of the run, with `carla_load` if the server is to load it.
 
     Raises:
         SimulatorError: The server has another map.
     """
+    load = request.options.get("carla_load", False)
     level = client.ask("level", patience=LOADING)
     theirs, wanted = read_level(level), _wanted(client, request, level, load)
     if (
@@ -67,13 +67,16 @@ def _loaded(
     """Have the server load a map that it has, else make a level of the file; return the level."""
     patience = max(LOADING, request.options.get("carla_timeout", 0.0))
     known = {plain_name(each): each for each in client.ask("maps")} if load else {}
+    keep = request.options.get("carla_keep", False)
     complain(f"CARLA: loading {name}")
+    if not keep:
+        client.patience_at_end = patience
     try:
         if name in known:
-            client.ask("load", known[name], patience, patience=2.0 * patience)
+            client.ask("load", known[name], patience, keep, patience=2.0 * patience)
         else:
             text = request.find_map().read_text(encoding="utf-8")
-            client.ask("generate", text, patience, patience=2.0 * patience)
+            client.ask("generate", text, patience, keep, patience=2.0 * patience)
     except SimulatorError as error:
         if "time-out" not in error.message and "failed to connect" not in error.message:
             raise

@@ -39,7 +39,7 @@ class CarlaPlant:
         ticks: We make the steps of the simulator.
         dt: Length of a step (s).
         seed: Of the Traffic Manager.
-        manager_port: Of the Traffic Manager.
+        manager_port: Of the Traffic Manager; None takes a free one.
         attendance: The attendance of the run.
     """
 
@@ -54,7 +54,7 @@ class CarlaPlant:
         ticks: bool,
         dt: float,
         seed: int,
-        manager_port: int,
+        manager_port: int | None,
         attendance: Attendance,
     ) -> None:
         self.name = f"carla {version}"

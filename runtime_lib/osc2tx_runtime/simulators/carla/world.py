@@ -9,7 +9,7 @@ from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.plain_numbers import to_float, to_int
 from osc2tx_runtime.world.embedded import EmbeddedWorld
 from osc2tx_runtime.worlds import Option, WorldRequest, WorldType
-from osc2tx_runtime.worlds.option import parse_pair, parse_seconds
+from osc2tx_runtime.worlds.world_type import parse_pair, parse_seconds
 
 from .attendance import Attendance
 from .checks import check
@@ -21,8 +21,6 @@ from .sensors import SensorStacks
 
 PATIENCE = 60.0
 """Time (s) to wait for an actor of another client."""
-
-TRAFFIC_MANAGER_PORT = 8000
 
 
 def parse_address(text: str) -> tuple[str, int]:
@@ -78,6 +76,7 @@ def parse_sensors(text: str) -> tuple[str, Path]:
 OPTIONS: tuple[Option, ...] = (
     Option("carla", "HOST:PORT", "where the server is", parse_address, default="localhost:2000"),
     Option.flag("carla-load", "load the scenario's map if the server has another one"),
+    Option.flag("carla-keep", "leave the map there that --carla-load has loaded"),
     Option(
         "carla-timeout",
         "SECONDS",
@@ -111,9 +110,8 @@ OPTIONS: tuple[Option, ...] = (
     Option(
         "carla-tm-port",
         "PORT",
-        "port of the Traffic Manager",
+        "port of the Traffic Manager (the first free one from 8000 on)",
         parse_port,
-        default=TRAFFIC_MANAGER_PORT,
     ),
 )
 
@@ -130,7 +128,7 @@ def make(request: WorldRequest) -> EmbeddedWorld:
     client = ClientProcess(options.get("carla_timeout", TIMEOUT))
     try:
         version = connect(client, request, ticks=ticks)
-        road_map = map_of(client, request, options.get("carla_load", False))
+        road_map = map_of(client, request)
         plant = CarlaPlant(
             client,
             version,
@@ -140,7 +138,7 @@ def make(request: WorldRequest) -> EmbeddedWorld:
             ticks=ticks,
             dt=request.dt,
             seed=request.seed,
-            manager_port=options.get("carla_tm_port", TRAFFIC_MANAGER_PORT),
+            manager_port=options.get("carla_tm_port"),
             attendance=Attendance(
                 options.get("wait_control"), options.get("realtime"), options.get("carla_view")
             ),

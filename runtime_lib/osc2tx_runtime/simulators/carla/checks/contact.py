@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from osc2tx_runtime.errors import SimulatorError
 from osc2tx_runtime.simulators.carla.client import release_of
+from osc2tx_runtime.simulators.carla.connection import REPAIRING
 
 from .probe import Finding, Probe, differs, line, ok
 
@@ -63,6 +64,12 @@ def streams(probe: Probe) -> Finding:
 @line(6, "time", blocks=True)
 def time(probe: Probe) -> Finding:
     """No other client makes the steps."""
+    left = ", ".join(probe.contact["left"])
+    if left and probe.request.fixes:
+        probe.client.ask("repair", patience=REPAIRING)
+        return ok(f"put back what a killed run had changed: {left}")
+    if left:
+        return ok(f"the next run, or --fix, puts back what a killed run has changed: {left}")
     if not probe.contact["synchronous"]:
         return ok("free")
     if probe.contact["ticks"]:

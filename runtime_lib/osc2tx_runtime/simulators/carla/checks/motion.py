@@ -157,7 +157,7 @@ def gains(probe: Probe) -> Finding:
         ticks=True,
         dt=dt,
         seed=0,
-        manager_port=0,
+        manager_port=None,
         attendance=Attendance(),
     )
     road_map = with_spawn_points(probe.road_map, probe.level)

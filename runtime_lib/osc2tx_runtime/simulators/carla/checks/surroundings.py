@@ -133,9 +133,11 @@ def lights(probe: Probe) -> Finding:
 
 @line(21, "Traffic Manager")
 def manager(probe: Probe) -> Finding:
-    """Its port is free."""
-    port = probe.request.world.options.get("carla_tm_port", 8000)
-    if probe.client.ask("is_port_taken", port):
+    """Its port is free: no other Traffic Manager's, and no other program's here."""
+    port = probe.request.world.options.get("carla_tm_port")
+    if port is None:
+        return ok("takes the first free port from 8000 on")
+    if probe.client.ask("is_manager_port_taken", port):
         return differs(f"port {port} is used", "--carla-tm-port takes another one for autopilot")
     return ok(f"port {port} is free")
 

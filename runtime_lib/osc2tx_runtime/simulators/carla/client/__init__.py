@@ -2,8 +2,9 @@
 
 Requests come as lines of JSON, `[number, name, arguments]`, and are answered by `[number, kind,
 value]`: a kind is a value, an error or a bug. Names are those of the methods of `session` (level,
-time), `actors`, `surroundings` and `inspection`. The end of the input ends the session: its actors
-are destroyed, and the settings are restored.
+time), `actors`, `surroundings`, `traffic_manager` and `inspection`. The end of the input ends the
+session: all that it changed is as before. `journal` has the list, also for a next session where
+this one is killed.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ MISSING = 3
 """Exit code where the client library is not installed."""
 
 LETTING_GO = 60
-"""How long (s) the process tries to let go of a server at most."""
+"""How long (s) the process tries to let go of a server at most, besides loading a level."""
 
 
 def release_of(version: str) -> str:

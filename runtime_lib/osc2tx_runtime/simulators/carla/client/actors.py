@@ -9,9 +9,16 @@ from typing import Any
 import carla
 
 from .commands import transform
+from .journal import undoes
 from .session import Session
 
+PEDALS = ("throttle", "steer", "brake", "hand_brake", "reverse", "manual_gear_shift", "gear")
+"""Fields of the control of a vehicle, in the order of its constructor."""
+
 POLL = 0.1  # s between two looks for a foreign actor
+OWN, FOREIGN = "own actors", "foreign actors"
+"""Kinds of changes."""
+
 ROLLING = 0.1  # m/s of a controlled vehicle
 
 
@@ -24,7 +31,12 @@ class Actors:
 
     def __init__(self, session: Session) -> None:
         self._session = session
-        self.own: list[int] = []
+
+    @property
+    def own(self) -> list[int]:
+        """Numbers of the actors that the session has made."""
+        found: list[int] = self._session.journal.changes.get(OWN, [])
+        return found
 
     def blueprints(self) -> Mapping[str, Mapping[str, Sequence[str]]]:
         """Return recommended values of the attributes of all blueprints."""
@@ -45,14 +57,8 @@ class Actors:
             description.set_attribute(name, value)
         holder = self._session.world.get_actor(parent) if parent else None
         actor = self._session.world.spawn_actor(description, transform(pose), attach_to=holder)
-        self._owns(actor)
+        self._session.journal.note(OWN, actor.id)
         return self._described(actor)
-
-    def _owns(self, actor: Any) -> None:
-        """Destroy an actor in the end."""
-        if not self.own:
-            self._session.undo.append(self._destroy)
-        self.own.append(actor.id)
 
     def discard(self, actor: int) -> None:
         """Destroy an actor of the session."""
@@ -77,17 +83,16 @@ class Actors:
             time.sleep(POLL)
 
     def borrow(self, actor_id: int) -> None:
-        """Take over a foreign actor, which gets its physics and its pedals back in the end."""
+        """Take over a foreign actor: physics, control and lights are as before in the end."""
         actor = self._session.world.get_actor(actor_id)
-        control = actor.get_control() if isinstance(actor, carla.Vehicle) else None
-
-        def give_back() -> None:
-            actor.set_simulate_physics(True)
-            actor.set_target_angular_velocity(carla.Vector3D())
-            if control is not None:
-                actor.apply_control(control)
-
-        self._session.undo.append(give_back)
+        before = actor.get_control()
+        if isinstance(actor, carla.Vehicle):
+            control = [getattr(before, name) for name in PEDALS]
+            self._session.journal.note(FOREIGN, [actor_id, control, int(actor.get_light_state())])
+        else:
+            way = before.direction
+            walk = [[way.x, way.y, way.z], before.speed, before.jump]
+            self._session.journal.note(FOREIGN, [actor_id, walk, 0])
 
     def _described(self, actor: Any) -> Mapping[str, Any]:
         found: dict[str, Any] = {"id": actor.id, "type": actor.type_id}
@@ -132,25 +137,35 @@ class Actors:
         description = self._session.world.get_blueprint_library().find("sensor.other.collision")
         holder = self._session.world.get_actor(actor)
         sensor = self._session.world.spawn_actor(description, carla.Transform(), attach_to=holder)
-        self._owns(sensor)
+        self._session.journal.note(OWN, sensor.id)
         sensor.listen(self._session.collisions.add)
-        self._session.undo.append(sensor.stop)
+        self._session.handles.append(sensor.stop)
 
     def enable_for_ros(self, sensor: int) -> None:
         """Have the server publish the data of a sensor, by its native ROS 2."""
         self._session.world.get_actor(sensor).enable_for_ros()
 
-    def begin_autopilot(self, port: int, seed: int) -> int:
-        """Start the Traffic Manager, in step with the world; return its port."""
-        manager = self._session.client.get_trafficmanager(port)
-        self._session.undo.append(manager.shut_down)
-        manager.set_synchronous_mode(True)
-        manager.set_random_device_seed(seed)
-        return int(manager.get_port())
 
-    def _destroy(self) -> None:
-        destroy = [carla.command.DestroyActor(each) for each in reversed(self.own)]
-        self._session.client.apply_batch_sync(destroy, False)
-        if self._session.ticks:
-            # The batch would tick with the interpreter locked.
-            self._session.world.tick(self._session.timeout)
+@undoes(OWN)
+def _destroy(session: Session, actors: Sequence[int]) -> None:
+    destroy = [carla.command.DestroyActor(each) for each in reversed(actors)]
+    session.client.apply_batch_sync(destroy, False)
+    if session.ticks:
+        # The batch would tick with the interpreter locked.
+        session.world.tick(session.timeout)
+
+
+@undoes(FOREIGN)
+def _give_back(session: Session, actors: Sequence[Any]) -> None:
+    """Give actors back to their clients; those that have gone meanwhile have nothing to get."""
+    for number, control, lights in actors:
+        actor = session.world.get_actor(number)
+        if isinstance(actor, carla.Vehicle):
+            actor.set_simulate_physics(True)
+            actor.set_enable_gravity(True)
+            actor.set_target_angular_velocity(carla.Vector3D())
+            actor.set_light_state(carla.VehicleLightState(lights))
+            actor.apply_control(carla.VehicleControl(*control))
+        elif actor is not None:
+            way, speed, jump = control
+            actor.apply_control(carla.WalkerControl(carla.Vector3D(*way), speed, jump))

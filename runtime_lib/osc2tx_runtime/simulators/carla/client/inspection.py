@@ -7,7 +7,7 @@ from typing import Any
 
 import carla
 
-from .session import Session, listens, written
+from .session import Session, written
 
 REACH = 20.0  # m down to which ground is looked for
 SPAWNED = ("vehicle.", "walker.", "sensor.", "static.", "controller.")
@@ -27,7 +27,7 @@ class Inspection:
     """Looks at the server of a session; its methods are requests.
 
     Args:
-        session: A connected one, but for `library` and `is_port_taken`.
+        session: A connected one, but for `library`.
     """
 
     def __init__(self, session: Session) -> None:
@@ -62,7 +62,3 @@ class Inspection:
         world = self._session.world
         found = [world.ground_projection(carla.Location(*point), REACH) for point in points]
         return [None if each is None else each.location.z for each in found]
-
-    def is_port_taken(self, port: int) -> bool:
-        """Return whether a program on this machine listens at a port."""
-        return listens("127.0.0.1", port)

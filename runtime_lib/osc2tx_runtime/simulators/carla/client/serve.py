@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import signal
 import sys
@@ -20,8 +21,8 @@ def requests_of(holder: object) -> Iterator[tuple[str, Callable[..., Any]]]:
             yield name, getattr(holder, name)
 
 
-def main() -> int:
-    """Serve a session."""
+def main(folder: str) -> int:
+    """Serve a session that keeps its journal in a folder."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent process decides
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)  # the library prints warnings
@@ -30,13 +31,15 @@ def main() -> int:
         from .inspection import Inspection
         from .session import Session
         from .surroundings import Surroundings
+        from .traffic_manager import TrafficManagers
     except ImportError as error:
         if error.name != "carla":
             raise
         return MISSING
-    session = Session()
+    session = Session(folder)
     actors = Actors(session)
-    holders = (session, actors, Surroundings(session, actors), Inspection(session))
+    surroundings, managers = Surroundings(session, actors), TrafficManagers(session)
+    holders = (session, actors, surroundings, managers, Inspection(session))
     requests = {name: call for each in holders for name, call in requests_of(each)}
     try:
         for line in sys.stdin:
@@ -52,6 +55,6 @@ def main() -> int:
     except BrokenPipeError:
         pass  # the parent process is gone
     finally:
-        signal.alarm(LETTING_GO)
+        signal.alarm(LETTING_GO + math.ceil(session.patience))
         session.close()
     return 0

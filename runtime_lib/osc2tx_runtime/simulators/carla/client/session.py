@@ -1,4 +1,4 @@
-"""A session with a server: it undoes its changes in the end."""
+"""A session with a server: it undoes its changes in the end, and those of killed ones before."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ import carla
 
 from . import release_of
 from .commands import command_of
+from .journal import Journal, left_behind, undoes
 from .snapshots import Collisions, actor_state, light_states
 
 GLANCE = 0.5  # s to wait for a step of another client before it is looked for
@@ -26,22 +27,32 @@ TICKS = 2.0  # s without a step after which no client counts as making them
 class Session:
     """Connection, level and time; its methods are requests, with values that JSON knows.
 
+    Args:
+        folder: Where the journals are; none if empty.
+
     Attributes:
         client: Of the library.
         world: Its world.
         timeout: How long (s) a call may take.
+        patience: How long (s) loading the level before may take in the end.
         ticks: Steps are made by this session.
-        undo: What undoes its changes, from the last one on.
+        address: Host and port of the server.
+        journal: Its changes.
+        handles: What lets go of parts of the library, from the last one on.
         watched: Actors whose states a look returns.
         lights: Traffic lights, whose states it returns, too.
         collisions: Reports of sensors.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, folder: str) -> None:
+        self._folder = folder
+        self.address = ("", 0)
         self.client: Any = None
         self.world: Any = None
-        self.timeout = 0.0
-        self.undo: list[Callable[[], object]] = []
+        self.timeout = self.patience = 0.0
+        self.journal = Journal()
+        self.handles: list[Callable[[], object]] = []
+        self._left: list[Journal] = []
         self.ticks = False
         self.collisions = Collisions()
         self.lights: dict[str, Any] = {}
@@ -57,9 +68,10 @@ class Session:
             `listens`: a port answers. `server`, `client`: versions; they have to be of one release,
             since others may not even have the same calls. `streams`: snapshots arrive; else
             `stream_port` says whether the port of the streams, the next one by default, answers.
+            `left`: kinds of changes that killed sessions have left behind, and `repair` undoes.
             `synchronous`: steps wait for a client, which makes them if `ticks`; `dt` (s): theirs.
         """
-        self._address, self.timeout = (host, port), timeout
+        self.address, self.timeout = (host, port), timeout
         found: dict[str, Any] = {"listens": listens(host, port)}
         if not found["listens"]:
             return found
@@ -75,11 +87,26 @@ class Session:
             if "time-out" not in str(error):
                 raise
             return {**found, "streams": False, "stream_port": listens(host, port + 1)}
+        found |= {"streams": True, "left": self._left_behind()}
         settings = self.world.get_settings()
-        found |= {"streams": True, "synchronous": settings.synchronous_mode}
+        found["synchronous"] = settings.synchronous_mode
         if settings.synchronous_mode:
             found |= {"dt": settings.fixed_delta_seconds, "ticks": self._is_ticked()}
         return found
+
+    def _left_behind(self) -> Sequence[str]:
+        """Begin a journal, and return what those of killed sessions list."""
+        where = ":".join(map(str, self.address))
+        self._left += left_behind(self._folder, where, self.world.id)
+        self.journal.open(self._folder, where)
+        self.journal.enter(self.world.id)
+        return sorted({kind for each in self._left for kind in each.changes})
+
+    def repair(self) -> None:
+        """Undo what killed sessions have left behind."""
+        while self._left:
+            self._undone(self._left[-1].undo(self))
+            self._left.pop().close()
 
     def _is_ticked(self) -> bool:
         """Return whether another client makes steps."""
@@ -108,21 +135,60 @@ class Session:
         """Return the names of the maps that the server has."""
         return [each.rpartition("/")[2] for each in self.client.get_available_maps()]
 
-    def load(self, name: str, patience: float) -> None:
-        """Load a map of the server, which may take a time (s)."""
-        with self._patient(patience):
-            self.world = self.client.load_world(name)
+    def load(self, name: str, patience: float, keep: bool = False) -> None:
+        """Load a map of the server, which may take a time (s).
 
-    def generate(self, text: str, patience: float) -> None:
-        """Make a level from OpenDRIVE text, without walls beside the road; patience as in `load`.
+        The level before is loaded again in the end, unless the new one is to be kept.
+        """
+        self._leave(patience, keep)
+        self._load(name, patience)
+
+    def generate(self, text: str, patience: float, keep: bool = False) -> None:
+        """Make a level from OpenDRIVE text, without walls beside the road; see `load`.
 
         A mesh for pedestrians is left out: it takes long, and walkers are led without it.
         """
+        self._leave(patience, keep)
+        self._generate(text, patience)
+
+    def _load(self, name: str, patience: float) -> None:
+        with self._patient(patience):
+            self._enter(self.client.load_world(name))
+
+    def _generate(self, text: str, patience: float) -> None:
         parameters = carla.OpendriveGenerationParameters()
         parameters.wall_height = 0.0
         parameters.enable_pedestrian_navigation = False
         with self._patient(patience):
-            self.world = self.client.generate_opendrive_world(text, parameters)
+            self._enter(self.client.generate_opendrive_world(text, parameters))
+
+    def _leave(self, patience: float, keep: bool) -> None:
+        """Note what goes with the level: a new one begins with settings and weather of its own."""
+        self._note_settings()
+        if keep or "level" in self.journal.changes:
+            return
+        camera = self.world.get_spectator().get_transform()
+        self.journal.note("camera", written(camera))
+        self.journal.note("weather", fields_of(self.world.get_weather()))
+        name = self.world.get_map().name.rpartition("/")[2]
+        text = "" if name in self.maps() else self.world.get_map().to_opendrive()
+        self.journal.note("level", [name, text, patience])
+        self.patience = patience
+
+    def come_back(self, name: str, text: str, patience: float) -> None:
+        """Load the level before: by its name, or made anew from its text if the server lacks it.
+
+        A server that waits for steps would not come to do so.
+        """
+        self.free_time()
+        if text:
+            self._generate(text, patience)
+        else:
+            self._load(name, patience)
+
+    def _enter(self, world: Any) -> None:
+        self.world = world
+        self.journal.enter(world.id)
 
     @contextmanager
     def _patient(self, seconds: float) -> Iterator[None]:
@@ -137,8 +203,7 @@ class Session:
 
     def own_time(self, dt: float) -> None:
         """Take over the time: steps of a length (s), made by us."""
-        before = self.world.get_settings()
-        self.undo.append(lambda: self.world.apply_settings(before))
+        self._note_settings()
         settings = self.world.get_settings()
         settings.synchronous_mode, settings.fixed_delta_seconds = True, dt
         settings.substepping = True
@@ -146,6 +211,11 @@ class Session:
         settings.max_substep_delta_time = max(SUBSTEP, dt / settings.max_substeps)
         self.ticks = True
         self.world.apply_settings(settings)
+
+    def _note_settings(self) -> None:
+        """Note the settings before their first change."""
+        if "settings" not in self.journal.changes:
+            self.journal.note("settings", fields_of(self.world.get_settings()))
 
     def step(self, commands: Sequence[Sequence[Any]]) -> Mapping[str, Any]:
         """Execute commands, make a step, and return the new state."""
@@ -214,20 +284,49 @@ class Session:
     # --- end ----------------------------------------------------------------------------------
 
     def close(self) -> None:
-        """Undo what the session changed.
+        """Undo what the session changed."""
+        if self._undone(self._endings()):
+            self.journal.close()
 
-        A server that does not answer may recover: this continues until the process is ended, or the
+    def _endings(self) -> Iterator[Callable[[], object]]:
+        while self.handles:
+            yield self.handles.pop()
+        if self.journal.changes:
+            yield from self.journal.undo(self)
+            yield self.world.get_settings  # the library sends most calls without waiting for them
+
+    def _undone(self, steps: Iterator[Callable[[], object]]) -> bool:
+        """Take steps of undoing; return whether the server was there for all of them.
+
+        One that does not answer may recover: this continues until the process is ended, or the
         server is gone.
         """
-        while self.undo:
-            try:
-                self.undo[-1]()
-            except RuntimeError as error:  # else it cannot be undone
-                if "time-out" in str(error):
-                    if listens(*self._address):
-                        continue
-                    return
-            self.undo.pop()
+        for step in steps:
+            while not _is_over(step):
+                if not listens(*self.address):
+                    return False
+        return True
+
+
+def _is_over(step: Callable[[], object]) -> bool:
+    """Take a step, and return whether it does not have to be tried again."""
+    try:
+        step()
+    except RuntimeError as error:
+        return "time-out" not in str(error)  # else it cannot be undone
+    return True
+
+
+@undoes("settings")
+def _restore_settings(session: Session, values: Sequence[Any]) -> None:
+    settings = session.world.get_settings()
+    set_fields(settings, values[0])
+    session.world.apply_settings(settings)
+
+
+@undoes("level")
+def _restore_level(session: Session, values: Sequence[Any]) -> None:
+    session.come_back(*values[0])
 
 
 def listens(host: str, port: int) -> bool:
@@ -243,3 +342,15 @@ def written(pose: Any) -> list[float]:
     """Return a transform as numbers."""
     at, turn = pose.location, pose.rotation
     return [at.x, at.y, at.z, turn.pitch, turn.yaw, turn.roll]
+
+
+def fields_of(values: Any) -> Mapping[str, Any]:
+    """Return the fields of settings or weather, which have methods and constants besides."""
+    found = {name: getattr(values, name) for name in dir(values) if not name.startswith("_")}
+    return {n: v for n, v in found.items() if v is None or isinstance(v, bool | int | float)}
+
+
+def set_fields(values: Any, fields: Mapping[str, Any]) -> None:
+    """Set fields of settings or weather."""
+    for name, value in fields.items():
+        setattr(values, name, value)

@@ -8,7 +8,9 @@ from typing import Any
 import carla
 
 from .actors import Actors
-from .session import Session
+from .commands import transform
+from .journal import undoes
+from .session import Session, fields_of, set_fields, written
 
 
 class Surroundings:
@@ -21,16 +23,13 @@ class Surroundings:
 
     def __init__(self, session: Session, actors: Actors) -> None:
         self._session, self._actors = session, actors
-        self._weather: Any = None  # before the first change
 
     def set_weather(self, values: Mapping[str, float]) -> None:
         """Change the weather; values left out stay."""
-        if self._weather is None:
-            self._weather = self._session.world.get_weather()
-            self._session.undo.append(lambda: self._session.world.set_weather(self._weather))
         weather = self._session.world.get_weather()
-        for name, value in values.items():
-            setattr(weather, name, value)
+        if "weather" not in self._session.journal.changes:
+            self._session.journal.note("weather", fields_of(weather))
+        set_fields(weather, values)
         self._session.world.set_weather(weather)
 
     def set_friction(self, friction: float | None) -> None:
@@ -62,20 +61,35 @@ class Surroundings:
     def freeze_lights(self) -> None:
         """Stop the cycles of all lights; in the end each is as it was."""
         lights = self._session.world.get_actors().filter("traffic.traffic_light*")
-        before = [(light, light.state, light.is_frozen()) for light in lights]
-
-        def thaw() -> None:
-            for light, state, _ in before:
-                light.set_state(state)
-            if not all(frozen for *_, frozen in before):
-                self._session.world.freeze_all_traffic_lights(False)
-
-        self._session.undo.append(thaw)
+        before = [[light.id, str(light.state), light.is_frozen()] for light in lights]
+        self._session.journal.note("traffic lights", before)
         self._session.world.freeze_all_traffic_lights(True)
 
     def spectator(self) -> int:
         """Return the camera of the server's window, which is put back in the end."""
         camera = self._session.world.get_spectator()
-        before = camera.get_transform()
-        self._session.undo.append(lambda: camera.set_transform(before))
+        if "camera" not in self._session.journal.changes:
+            self._session.journal.note("camera", written(camera.get_transform()))
         return int(camera.id)
+
+
+@undoes("weather")
+def _restore_weather(session: Session, values: Sequence[Any]) -> None:
+    weather = session.world.get_weather()
+    set_fields(weather, values[0])
+    session.world.set_weather(weather)
+
+
+@undoes("camera")
+def _restore_camera(session: Session, values: Sequence[Any]) -> None:
+    session.world.get_spectator().set_transform(transform(values[0]))
+
+
+@undoes("traffic lights")
+def _thaw(session: Session, values: Sequence[Any]) -> None:
+    """Set each light as it was; freezing one freezes all (`ATrafficLightManager`)."""
+    before = {actor: (state, frozen) for actor, state, frozen in values[0]}
+    for light in session.world.get_actors(list(before)):
+        light.set_state(carla.TrafficLightState.names[before[light.id][0]])
+    if not all(frozen for _, frozen in before.values()):
+        session.world.freeze_all_traffic_lights(False)
