@@ -9,7 +9,7 @@ ifneq ($(wildcard ../shared),)
 export OSC2TX_TEST_DATA ?= $(abspath ../shared)
 endif
 
-.PHONY: coverage docs docs-diagnostics docs-config demo demo-carla dist compiled fuzz test test-carla test-cluster test-slow lint goldens parser tables clean
+.PHONY: coverage docs docs-diagnostics docs-config demo demo-carla dist compiled fuzz test test-carla test-cluster test-slow lint goldens parser tables vscode clean
 
 demo: $(STAMP)
 	$(BIN)/osc2tx build scenarios/ -o generated/ --quiet
@@ -112,6 +112,8 @@ parser: $(STAMP)
 tables: $(STAMP)
 	$(BIN)/python tools/make_maps.py
 	$(BIN)/python tools/make_enums.py
+	$(BIN)/python tools/make_xosc_schema.py
+	$(BIN)/python tools/make_xosc_elements.py
 	$(BIN)/python tools/make_catalogue.py
 	$(BIN)/python tools/make_actor_methods.py
 	$(BIN)/python tools/make_catalogue.py  # once more: it lists the methods that were just made
@@ -120,6 +122,15 @@ tables: $(STAMP)
 	$(BIN)/python tools/make_coverage.py
 	$(BIN)/python tools/make_reference.py
 	$(BIN)/python tools/make_monitors_doc.py
+	$(BIN)/python tools/make_grammar.py
+
+# The extension for Visual Studio Code, dist/osc2tx.vsix; npm brings what it is bundled with.
+vscode: $(STAMP)
+	cd editors/vscode && npm install --no-package-lock --no-audit --no-fund && npm run --silent bundle
+	mkdir -p dist
+	cd editors/vscode && npx vsce package $$(../../$(BIN)/python -c "import osc2tx; print(osc2tx.__version__)") \
+	  --no-git-tag-version --no-update-package-json --no-dependencies --allow-missing-repository --skip-license \
+	  -o ../../dist/osc2tx.vsix
 
 $(STAMP): pyproject.toml runtime_lib/pyproject.toml
 	$(PYTHON) -m venv $(VENV)

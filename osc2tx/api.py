@@ -94,6 +94,7 @@ class Options(TypedDict, total=False):
         xml_profile: Tool that is to read the XML.
         allow_approx: Whether XML may mean nearly the same.
         import_paths: Folders with libraries, where modules are looked for after the project.
+        verify: Whether XML is played, to measure its grades.
     """
 
     std: Standard | None
@@ -104,6 +105,7 @@ class Options(TypedDict, total=False):
     xml_profile: XmlProfile | None
     allow_approx: bool | None
     import_paths: tuple[str, ...] | None
+    verify: bool | None
 
 
 def compile_file(

@@ -37,6 +37,7 @@ class XmlOptions:
         signals: Events from outside with their times, as for `osc2tx run --signal`.
         spawns: Start places of actors that the scenario does not place, as for `--spawn`.
         map_path: Folders with maps, besides that of the source and the built-in ones.
+        verify: Whether builds play the documents, to measure their grades.
     """
 
     version: XmlVersion = DEFAULT_XML_VERSION
@@ -45,6 +46,7 @@ class XmlOptions:
     signals: tuple[str, ...] = ()
     spawns: tuple[str, ...] = ()
     map_path: tuple[str, ...] = ()
+    verify: bool = True
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,13 @@ sys.path[:0] = [str(REPOSITORY), str(Path(__file__).parent)]
 
 from site_pictures import picture  # noqa: E402
 
-from osc2tx.reference import Entry, as_markdown, entries  # noqa: E402
+from osc2tx.reference import (  # noqa: E402
+    Entry,
+    as_markdown,
+    entries,
+    topic_as_markdown,
+    topics,
+)
 
 FOLDER = "reference/library"
 KINDS = {
@@ -23,12 +29,20 @@ KINDS = {
     "enum": "Enums",
     "type": "Physical types",
 }
+# Place, title and kinds of the pages of topics.
+TOPICS = (
+    ("language", "The language", ()),
+    ("methods", "Methods", ("method",)),
+    ("units", "Units", ("unit",)),
+)
 _CODE = re.compile(r"`((?:action|modifier|actor|struct|enum|type) )?([\w.]+)`")
 
 
 def on_config(config: Any, **_: Any) -> Any:
     """Add the pages to the navigation; called by mkdocs."""
     sections = [{"All names": f"{FOLDER}/index.md"}]
+    for place, title, _ in TOPICS:
+        sections.append({title: f"{FOLDER}/{place}.md"})
     for kind, title in KINDS.items():
         pages = sorted(_of_kind(kind), key=lambda entry: entry.declaration.name)
         sections.append({title: [{entry.declaration.name: _place(entry)} for entry in pages]})
@@ -42,6 +56,8 @@ def on_files(files: Any, config: Any, **_: Any) -> Any:
 
     pages = {_place(entry): page_of(entry) for entry in entries()}
     pages[f"{FOLDER}/index.md"] = index()
+    for place, title, kinds in TOPICS:
+        pages[f"{FOLDER}/{place}.md"] = topic_page(title, kinds)
     for entry in entries():
         svg = picture(entry)
         if svg is not None:
@@ -50,6 +66,16 @@ def on_files(files: Any, config: Any, **_: Any) -> Any:
     for place, text in pages.items():
         files.append(File.generated(config, place, content=text))
     return files
+
+
+def topic_page(title: str, kinds: tuple[str, ...]) -> str:
+    """Return the page of some kinds of topics, of all constructs of the language without kinds."""
+    found = [t for t in topics() if (t.kind in kinds if kinds else t.is_of_language)]
+    parts = [f"# {title}"]
+    for topic in found:
+        name = ", ".join(f"`{each}`" for each in topic.names) if not kinds else f"`{topic.name}`"
+        parts += [f"## {name}", topic_as_markdown(topic)]
+    return "\n\n".join(parts)
 
 
 def page_of(entry: Entry) -> str:

@@ -30,6 +30,7 @@ from osc2tx.building.results import (
     check_job,
     used_files,
     with_severities,
+    without_grading,
 )
 from osc2tx.building.stored_reports import ReportReader, ReportWriter
 from osc2tx.compilation.file_reports import LossEntry
@@ -98,7 +99,7 @@ class ResultCache:
                 ):  # damaged: treated as missing
                     continue
                 if result is not None:
-                    return result
+                    return result if self._kinds == ("build",) else without_grading(result)
         return None
 
     def with_texts(self, result: FileResult) -> FileResult | None:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from osc2tx.options import CompileOptions
 
 SUFFIX = ".osc"
+GRADING = "OSC518"  # code of errors about documents that were played
 
 
 @dataclass(frozen=True, slots=True)
@@ -269,3 +270,8 @@ def with_severities(results: Sequence[FileResult], configs: ConfigFiles) -> list
         replace(result, reports=tuple(filter(None, map(judged, result.reports))))
         for result in results
     ]
+
+
+def without_grading(result: FileResult) -> FileResult:
+    """Return a result without what only a build finds out, as it plays documents."""
+    return replace(result, reports=tuple(r for r in result.reports if r.code != GRADING))

@@ -2,13 +2,19 @@
 
 `library.json` and `objects.json` are written by `tools/make_catalogue.py`, which joins the texts of
 the library, the classes of the runtime and the forms of OpenSCENARIO XML. Every stage may read it;
-`entries` and `objects` are typed views of the two files.
+`entries` is a typed view of the two files.
 """
 
 from __future__ import annotations
 
-from osc2tx.catalogue.entries import ActionEntry, Catalogue, ModifierEntry, catalogue
-from osc2tx.catalogue.objects import ObjectTables, object_tables
+from osc2tx.catalogue.entries import (
+    ActionEntry,
+    Catalogue,
+    ModifierEntry,
+    ObjectTables,
+    catalogue,
+    object_tables,
+)
 
 __all__ = [
     "ActionEntry",

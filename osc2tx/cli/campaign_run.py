@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import click
@@ -18,8 +18,6 @@ from osc2tx.campaigns.engine import Engine
 from osc2tx.campaigns.samplers import SAMPLERS
 from osc2tx.campaigns.sampling import Wanted, wanted_rows
 from osc2tx.campaigns.store import Store
-from osc2tx.cli.campaign_progress import progress_bar
-from osc2tx.cli.module_loading import module_files, written_files
 from osc2tx.cli.options import compile_options
 from osc2tx.cli.reporting import Exit, Reporter, count_of, report_options
 from osc2tx.cli.run import (
@@ -30,16 +28,18 @@ from osc2tx.cli.run import (
     option_texts,
     settings_from,
 )
+from osc2tx.cli.written_modules import written_files
 from osc2tx.compilation.inputs import InputError, find_inputs
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import CAMPAIGN_SETTINGS, ConfigError, ConfigFiles, GivenOptions
+from osc2tx.module_loading import module_files
 from osc2tx.support.paths import file_stem
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.campaigns import Condition, Modules, Plan
 from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.kpis import MEASURES
 from osc2tx_shared.classes import replace
-from osc2tx_shared.text import complain
+from osc2tx_shared.text import complain, is_watched, visible
 
 
 class CampaignCommand(RunCommand):
@@ -271,3 +271,31 @@ def _files_of(
         raise InputError(f"{path}: {error.message}") from error
     finally:
         loaded.close()
+
+
+OnProgress = Callable[[Progress], None]
+
+
+@contextmanager
+def progress_bar(name: str) -> Iterator[OnProgress]:
+    """Yield what shows progress: rate, failures, remaining time; nothing beside a terminal."""
+    if not is_watched():
+        yield lambda progress: None
+        return
+    from rich import progress as bars
+    from rich.console import Console
+
+    columns = (
+        bars.TextColumn("{task.description}", markup=False),
+        bars.BarColumn(),
+        bars.TextColumn("{task.completed:.0f} of {task.total}, {task.fields[failed]} failed"),
+        bars.TextColumn("{task.speed} rows/s"),
+        bars.TimeRemainingColumn(),
+    )
+    with bars.Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(visible(name), total=None, failed=0)
+
+        def show(progress: Progress) -> None:
+            bar.update(task, completed=progress.done, total=progress.wanted, failed=progress.failed)
+
+        yield show

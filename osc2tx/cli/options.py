@@ -173,6 +173,7 @@ def target_options(command: Callable[..., Any]) -> Callable[..., Any]:
         signal: tuple[str, ...],
         spawn: tuple[str, ...],
         map_path: tuple[str, ...],
+        no_verify: bool,
         **more: Any,
     ) -> Any:
         stated = replace(
@@ -184,6 +185,7 @@ def target_options(command: Callable[..., Any]) -> Callable[..., Any]:
             signal=signal or None,
             spawn=spawn or None,
             map_path=map_path or None,
+            verify=False if no_verify else None,
         )
         return command(*args, given=stated, **more)
 
@@ -226,6 +228,11 @@ def target_options(command: Callable[..., Any]) -> Callable[..., Any]:
             type=click.Path(exists=True),
             multiple=True,
             help="For XML: folder with maps, or the map itself.",
+        ),
+        click.option(
+            "--no-verify",
+            is_flag=True,
+            help="Do not play the XML: its grades are then computed, not measured.",
         ),
     )
     for option in reversed(options):

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, TypeAlias
 import click
 
 from osc2tx.building.jobs import compile_all, run_all
-from osc2tx.cli.module_loading import scenarios_of_file, scenarios_of_module
 from osc2tx.cli.options import compile_options, scenario_option
 from osc2tx.cli.reporting import Exit, Reporter, report_options
 from osc2tx.compilation.inputs import InputError, find_inputs
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import Config, ConfigError, ConfigFiles, GivenOptions
+from osc2tx.module_loading import scenarios_of_file, scenarios_of_module
 from osc2tx.support.paths import real_path
 from osc2tx_runtime import RunResult, RunSettings, Scenario, ScenarioError, run_scenario
 from osc2tx_runtime.errors import OwnCode, SettingsError

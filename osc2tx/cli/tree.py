@@ -7,12 +7,12 @@ from pathlib import Path
 import click
 
 from osc2tx.building.jobs import compile_all, run_all
-from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.cli.options import compile_options, scenario_option
 from osc2tx.cli.reporting import Exit, Reporter, columns, report_options, wants_color
 from osc2tx.cli.run import choose_scenario
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import GivenOptions
+from osc2tx.module_loading import scenarios_of_module
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.report.tree_pictures import tree_svg, tree_text
 from osc2tx_shared.text import complain, put

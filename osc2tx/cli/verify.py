@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 import click
 
 from osc2tx.building.jobs import compile_all, run_all
-from osc2tx.cli.module_loading import scenarios_of_file, scenarios_of_module
 from osc2tx.cli.options import compile_options
 from osc2tx.cli.reporting import Exit, Reporter, Session
 from osc2tx.cli.run import choose_scenario
 from osc2tx.compilation.inputs import InputError
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import GivenOptions
+from osc2tx.module_loading import scenarios_of_file, scenarios_of_module
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.errors import InputError as UnreadableError
 from osc2tx_runtime.errors import coded

@@ -9,13 +9,13 @@ from pathlib import Path
 import click
 
 from osc2tx.building.jobs import compile_all, run_all
-from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.cli.options import compile_options, scenario_option
 from osc2tx.cli.reporting import Exit, Reporter, report_options
 from osc2tx.cli.run import Texts, choose_scenario, click_option, merge_settings, option_texts
 from osc2tx.compilation.inputs import InputError
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import ConfigFiles, GivenOptions
+from osc2tx.module_loading import scenarios_of_module
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.running.options import read_options
 from osc2tx_runtime.running.world_choice import check_world

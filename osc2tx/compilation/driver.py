@@ -267,6 +267,25 @@ class Compilation:
                 self.lookups[place] = look_up(place)
         return found
 
+    @cached_property
+    def graded_xml(self) -> tuple[XmlScenario, ...]:
+        """The same with measured grades, as builds write them, if that is wanted."""
+        if self.ir is None or not self.options.xml.verify:
+            return self.xml
+        from osc2tx.grading import Source, graded
+
+        with room_for_trees():
+            source = Source(self.ir, self.options, self.path.parent, self._whole_module)
+            return graded(self.xml, source, self.sink)
+
+    def _whole_module(self) -> GeneratedModule:
+        """Return the Python module, with the declarations of imported files in it."""
+        from osc2tx.backends.py_trees import emit
+
+        assert self.ir is not None, "there is something to run"
+        module = self.module if self.has_module and not self.sharing.homes else None
+        return module or emit(self.ir)
+
     @property
     def stem(self) -> str:
         """The common prefix of the names of all outputs."""
@@ -291,12 +310,12 @@ class Compilation:
         """
         if not self.is_supported and self.options.target != "xosc":  # which also reports losses
             return ()
-        return files_of_xml(self.xml)
+        return files_of_xml(self.graded_xml)
 
     @property
     def losses(self) -> tuple[LossEntry, ...]:
         """How the scenarios fared on their way to XML, as far as that was asked for."""
-        return tuple(map(self._loss, self.xml))
+        return tuple(map(self._loss, self.graded_xml))
 
     def _report_missing_maps(self, module: Module) -> None:
         """Report maps that are not there, and note where they were looked for."""

@@ -37,6 +37,7 @@ class GivenOptions:
     signal: tuple[str, ...] | None = None
     spawn: tuple[str, ...] | None = None
     map_path: tuple[str, ...] | None = None
+    verify: bool | None = None
 
     def over(self, other: GivenOptions) -> GivenOptions:
         """Return these options, with those of `other` where nothing is stated here."""
@@ -74,6 +75,7 @@ _XML = {
     "signal": "signals",
     "spawn": "spawns",
     "map_path": "map_path",
+    "verify": "verify",
 }
 
 

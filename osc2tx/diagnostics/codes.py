@@ -133,6 +133,7 @@ CODES = _table(
     Code("OSC514", "not-in-xml", ERROR, "OpenSCENARIO XML cannot say this."),
     Code("OSC515", "nearly-in-xml", ERROR, "OpenSCENARIO XML can only nearly say this."),
     Code("OSC516", "beyond-any-world", ERROR, "A quantity is larger than any world has."),
+    Code("OSC518", "unlike-in-xml", ERROR, "A document does something else than its scenario."),
     Code("OSC519", "contradictory-durations", ERROR, "Durations contradict.", "7.6.2.1"),
     Code("OSC517", "renamed-module", WARNING, "A file is called like a module of Python."),
     # --- 2xx names and imports ---

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
+
 from lsprotocol import types as lsp
 
+from osc2tx.diagnostics import Span
 from osc2tx.language_server.documents import Document
 from osc2tx.language_server.positions import offset_of, range_of
-from osc2tx.reference import as_markdown, find
+from osc2tx.reference import as_markdown, find, find_topics, topic_as_markdown
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics.conversions import dimension_of
 from osc2tx.semantics.symbols import (
@@ -47,7 +50,24 @@ def hover(document: Document, position: lsp.Position) -> lsp.Hover | None:
     if found is not None:
         text = describe(found.symbol, document.model)
         return lsp.Hover(lsp.MarkupContent(lsp.MarkupKind.Markdown, text), range_of(found.span))
-    return _hover_literal(document, offset)
+    return _hover_literal(document, offset) or _hover_word(document, offset)
+
+
+def _hover_word(document: Document, offset: int) -> lsp.Hover | None:
+    """Return the description of a word of the language."""
+    for found in re.finditer(r"[A-Za-z_]\w*", document.source.line_text(_line(document, offset))):
+        start = document.source.line_starts[_line(document, offset) - 1] + found.start()
+        if start <= offset <= start + len(found[0]):
+            topics = [topic for topic in find_topics(found[0]) if topic.is_of_language]
+            text = "\n\n".join(map(topic_as_markdown, topics))
+            span = Span(document.source, start, start + len(found[0]))
+            content = lsp.MarkupContent(lsp.MarkupKind.Markdown, text)
+            return lsp.Hover(content, range_of(span)) if topics else None
+    return None
+
+
+def _line(document: Document, offset: int) -> int:
+    return document.source.position(offset)[0]
 
 
 def _hover_literal(document: Document, offset: int) -> lsp.Hover | None:

@@ -8,6 +8,7 @@ from typing import Any
 
 from osc2tx.reference.declarations import Declaration, Member
 from osc2tx.reference.entries import Entry
+from osc2tx.reference.topics import Topic
 
 INDENT = "    "
 MANY = 12  # users that a page names
@@ -99,6 +100,41 @@ def as_data(entry: Entry) -> dict[str, Any]:
         "example": entry.shown.example,
         "xml_example": entry.shown.xml_example,
     }
+
+
+def topic_as_text(topic: Topic) -> str:
+    """Return a topic for a terminal."""
+    parts = [_topic_title(topic), _sentence(topic.meaning).replace("`", ""), topic.signature]
+    if topic.example:
+        parts += ["Example:", indent(topic.example, INDENT)]
+    return "\n\n".join(part for part in parts if part)
+
+
+def topic_as_markdown(topic: Topic) -> str:
+    """Return a topic as a part of a page."""
+    parts = [f"*{_topic_title(topic)}*", _sentence(topic.meaning), f"```\n{topic.signature}\n```"]
+    if topic.example:
+        parts += ["Example:", f"```\n{topic.example}\n```"]
+    return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def topic_as_data(topic: Topic) -> dict[str, Any]:
+    """Return a topic as plain data, for JSON."""
+    return {
+        "kind": topic.kind,
+        "name": topic.name,
+        "names": list(topic.names),
+        "signature": topic.signature,
+        "section": topic.section,
+        "meaning": topic.meaning,
+        "example": topic.example,
+    }
+
+
+def _topic_title(topic: Topic) -> str:
+    section = topic.section and f", OpenSCENARIO DSL 2.2 section {topic.section}"
+    names = [topic.name, *(topic.names if topic.is_of_language else ())]
+    return f"{topic.kind} {', '.join(dict.fromkeys(names))}{section}"
 
 
 def _sentence(text: str) -> str:

@@ -4,7 +4,7 @@ Input: a `SourceFile`. Output: an `ast.File` and diagnostics OSC1xx in the sink.
 
 Stages, in order:
 
-1. `read_source` (`source_reader`): bytes to text.
+1. `read_source`: bytes to text.
 2. `TokenSource` (`token_source`, with `patterns`, `keywords`, `lexical_errors`):
    text to a `TokenTable` (`tokens`): tokens with INDENT, DEDENT and NEWLINE, keywords decided by
    place, comments apart.
@@ -20,12 +20,12 @@ messages about syntax errors, and no object of antlr4 leaves it.
 """
 
 from collections.abc import Collection
+from pathlib import Path
 
 from osc2tx.diagnostics import DiagnosticSink, SourceFile, Span
 from osc2tx.support.recursion import room_for_trees
 from osc2tx.syntax import ast
 from osc2tx.syntax.dump import dump_ast
-from osc2tx.syntax.source_reader import read_source
 
 __all__ = ["dump_ast", "parse", "read_source"]
 
@@ -67,3 +67,39 @@ def parse(
             span = Span(source, 0, 0)
             sink.report("OSC105", span, "the text nests too deeply for the stack of this process")
             return ast.File(span=span, imports=(), statements=())
+
+
+def read_source(path: Path, name: str, sink: DiagnosticSink) -> SourceFile | None:
+    """Read a file; report and return `None` when it is no readable UTF-8 text.
+
+    Args:
+        path: The file.
+        name: How diagnostics call it.
+        sink: Where diagnostics go.
+    """
+    try:
+        if path.exists() and not path.is_file() and not path.is_dir():
+            raise ValueError("it is not a regular file")  # a pipe would be waited for
+        data = path.read_bytes()
+    except (OSError, ValueError) as error:
+        reason = "it is a directory" if path.is_dir() else _reason(error)
+        sink.report("OSC101", None, f"cannot read `{name}`: {reason}")
+        return None
+    position = data.find(b"\0")
+    if position >= 0:
+        message = f"cannot read `{name}`: NUL byte at offset {position}"
+        sink.report("OSC101", None, message, help="is it a text file in UTF-8?")
+        return None
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        offset = error.start + (3 if data.startswith(b"\xef\xbb\xbf") else 0)
+        message = f"cannot read `{name}`: no UTF-8 at byte offset {offset}"
+        sink.report("OSC101", None, message, help="save the file in UTF-8")
+        return None
+    return SourceFile(name, text, path)
+
+
+def _reason(error: OSError | ValueError) -> str:
+    reason = error.strerror if isinstance(error, OSError) else None
+    return (reason or str(error)).lower()

@@ -12,7 +12,7 @@ from osc2tx.diagnostics.fixes import insert, insert_before, leave_out, write
 from osc2tx.diagnostics.suggestions import name_meant
 from osc2tx.syntax import foreign_mistakes as foreign
 from osc2tx.syntax import tokens as t
-from osc2tx.syntax.foreign_words import COMPOSITIONS
+from osc2tx.syntax.foreign_mistakes import COMPOSITIONS
 from osc2tx.syntax.mistake_places import CLOSERS, NUMBERS, Advice, Place
 from osc2tx.syntax.tokens import TokenTable
 

@@ -209,11 +209,11 @@ def run_scenario(path: str | Path, *, scenario: str | None = None, **settings: A
 @contextmanager
 def _scenarios(path: Path) -> Iterator[Mapping[str, type[Scenario]]]:
     from osc2tx.building.jobs import compile_all
-    from osc2tx.cli.module_loading import scenarios_of_file, scenarios_of_module
     from osc2tx.compilation.inputs import find_inputs
     from osc2tx.compilation.needed_modules import sibling_modules
     from osc2tx.config import GivenOptions
     from osc2tx.diagnostics.render import render_all
+    from osc2tx.module_loading import scenarios_of_file, scenarios_of_module
 
     find_inputs([path])  # rejects missing files
     if path.suffix == ".py":

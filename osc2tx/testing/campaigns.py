@@ -165,12 +165,13 @@ def plan_of(
 ) -> tuple[Plan, Mapping[str, Sequence[str]]]:
     """Compile a scenario; return what its rows have in common, and the options as written."""
     from osc2tx.building.jobs import compile_all
-    from osc2tx.cli.module_loading import module_files, written_files
     from osc2tx.cli.run import merge_texts, settings_from
+    from osc2tx.cli.written_modules import written_files
     from osc2tx.compilation.inputs import find_inputs
     from osc2tx.compilation.needed_modules import sibling_modules
     from osc2tx.config import ConfigFiles, GivenOptions
     from osc2tx.diagnostics.render import render_all
+    from osc2tx.module_loading import module_files
     from osc2tx_runtime.campaigns import Condition, Modules, Plan
     from osc2tx_runtime.kpis import MEASURES
     from osc2tx_runtime.running.main import choose_scenario

@@ -102,7 +102,7 @@ class CompiledSources:
         Raises:
             ScenarioError: A value of a type cannot be computed.
         """
-        from osc2tx.cli.module_loading import scenarios_of_file
+        from osc2tx.module_loading import scenarios_of_file
         from osc2tx_runtime import ScenarioError
 
         made = with_siblings([self.result(path)], lambda jobs: self._compile(jobs, 1), self.configs)

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from osc2tx.cli.module_loading import scenarios_of_file
+from osc2tx.module_loading import scenarios_of_file
 from osc2tx_runtime import RunResult, RunSettings, Scenario, run_scenario
 from osc2tx_runtime.errors import ScenarioError
 from tests.conftest import DATA_VARIABLE

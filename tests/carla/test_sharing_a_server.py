@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 
-from osc2tx.cli.module_loading import scenarios_of_file
+from osc2tx.module_loading import scenarios_of_file
 from osc2tx_runtime import RunResult, RunSettings, run_scenario
 from osc2tx_runtime.errors import ScenarioError, SettingsError, SimulatorError
 

@@ -13,9 +13,9 @@ import pytest
 from osc2tx.backends.py_trees.emitter import emit
 from osc2tx.building.build import BuildOptions, build
 from osc2tx.building.jobs import compile_all
-from osc2tx.cli.module_loading import scenarios_of_file, scenarios_of_module
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import GivenOptions
+from osc2tx.module_loading import scenarios_of_file, scenarios_of_module
 from osc2tx_runtime import RunSettings, run_scenario
 from tests.end_to_end.harness import REPOSITORY
 from tests.end_to_end.importing_files import (

@@ -6,8 +6,8 @@ import pytest
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.emitter import emit
-from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.compilation.needed_modules import sibling_modules
+from osc2tx.module_loading import scenarios_of_module
 from osc2tx_shared.classes import replace
 from tests.end_to_end.importing_files import classes_in, compiled, trace_of, write
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from osc2tx.backends.py_trees.emitter import emit
 from osc2tx.building.build import build
-from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import GivenOptions
+from osc2tx.module_loading import scenarios_of_module
 from tests.end_to_end.importing_files import compiled, imports_in, module_of, trace_of, write
 
 MODIFIERS = """\

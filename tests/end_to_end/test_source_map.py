@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from osc2tx.cli.module_loading import scenarios_of_file
+from osc2tx.module_loading import scenarios_of_file
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
 from tests.end_to_end.harness import SCENARIOS, generate
 

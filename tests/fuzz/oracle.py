@@ -19,11 +19,11 @@ from types import FrameType
 from typing import Literal
 
 from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
-from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.compilation.driver import Compilation
 from osc2tx.compilation.dump import dump_product
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.diagnostics.render import render_all
+from osc2tx.module_loading import scenarios_of_module
 from osc2tx.options import PRODUCT_NAMES, CompileOptions
 from osc2tx_runtime import RunSettings, ScenarioError, run_scenario
 from osc2tx_runtime.report.page import render_report

@@ -94,6 +94,7 @@ def test_hover_has_declaration_comment_and_values(editor: Editor) -> None:
     assert "action vehicle.drive" in hover("drive")
     assert "10 m s^-1" in hover("36kph")
     assert "member of `follow`" in hover("gap_speed")
+    assert "ends when all have ended" in hover("parallel")
 
 
 def test_definitions_of_own_names_and_of_the_library(editor: Editor) -> None:

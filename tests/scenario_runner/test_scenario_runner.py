@@ -20,14 +20,14 @@ from typing import Any
 
 import pytest
 
+from osc2tx.grading.comparison import Recording, Row
 from osc2tx.options import XmlOptions
 from osc2tx_runtime import RunSettings
 from osc2tx_shared.map_files import SHIPPED
 from tests.processes import HANGING
 from tests.unit.backends.xosc.documents import compiled, documents
 from tests.xosc.case_study import OPTIONS, SCENARIO, maps_in, run_settings, xml_options
-from tests.xosc.parity import Given
-from tests.xosc.played import Played, Row, compare, world
+from tests.xosc.parity import Given, compare, world
 
 CHECKOUT = os.environ.get("OSC2TX_SCENARIO_RUNNER", "")
 pytestmark = [
@@ -45,7 +45,7 @@ MAPS = ("merge", "crossing")  # It does not load a map that is there, and misses
 READ_BY_IT = XmlOptions(version="1.0", profile="scenario_runner", allow_approx=True)
 
 
-def play(document: str, folder: Path, port: int) -> Played:
+def play(document: str, folder: Path, port: int) -> Recording:
     """Play a document in ScenarioRunner, which looks for the map beside it."""
     file = folder / "scenario.xosc"
     file.write_text(document, encoding="utf-8")
@@ -60,7 +60,7 @@ def play(document: str, folder: Path, port: int) -> Played:
     for time, what, name, *place in said:
         if what == "AT":
             track.setdefault(name, []).append((time, *place, 0.0))
-    return Played(ends[0], starts, track)
+    return Recording(ends[0], starts, track)
 
 
 def check(given: Given, folder: Path, bound: Mapping[str, Any]) -> None:
@@ -97,7 +97,7 @@ def test_case_study(test_data: Path, tmp_path: Path) -> None:
     check(given, tmp_path, {"until": 3.0, "metres": 9.0})
 
 
-def farthest(expected: Played, found: Played) -> float:
+def farthest(expected: Recording, found: Recording) -> float:
     """Return how far (m) an actor is from its place in the world at most."""
     pairs = (
         pair for actor, rows in expected.track.items() for pair in _pairs(rows, found.track[actor])
@@ -113,11 +113,11 @@ def _pairs(expected: Sequence[Row], found: Sequence[Row]) -> Iterator[tuple[Row,
             yield by_step[step], row
 
 
-def before(end: float, played: Played) -> Played:
+def before(end: float, played: Recording) -> Recording:
     """Return what has begun before a time (s)."""
     starts = {name: time for name, time in played.starts.items() if time < end}
     track = {actor: [row for row in rows if row[0] < end] for actor, rows in played.track.items()}
-    return Played(end, starts, track)
+    return Recording(end, starts, track)
 
 
 def test_bounds_have_reasons() -> None:

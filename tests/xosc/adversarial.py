@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from tests.xosc.case_texts import EGO, Case, indented, point, source
 from tests.xosc.cut_short import composed, cut
-from tests.xosc.modified import lines, relative, timed
+from tests.xosc.modified import lines, phases, relative, timed
 from tests.xosc.oncoming import oncoming
 from tests.xosc.starts import OPEN, relative_starts, starts, turned, walkers
 
@@ -253,6 +253,7 @@ FAMILIES: Mapping[str, Family] = {
     "oncoming": _family(oncoming()),
     "relative": _family(relative()),
     "lines": _family(lines()),
+    "phases": _family(phases()),
     "placed": _family(_placed()),
     "starts": _family(starts("straight", frozenset({"left_lane"}))),
     "starts_in_a_bend": _family(starts("bend", ALL_BUT_OPEN), "curve"),

@@ -71,6 +71,41 @@ def relative() -> Iterator[Case]:
         )
 
 
+AIMS = {
+    "lane": "lane(1, at: end)",
+    "offset": "lateral(distance: 0.5m, side: left, measure_by: center_to_center, at: end)",
+    "speed": "speed(26mps, at: end)",
+    "other_speed": "speed(4mps, faster_than: other, at: end)",
+    "ahead": "position(20m, ahead_of: other, at: end)",
+}
+OTHER = """\
+other.drive() with:
+    lane(3, at: start)
+    position(190m, at: start)
+    speed(21mps)
+"""
+FIRST = f"ego.drive(duration: 2s) with:\n{indented(EGO, 1)}"
+PHASES = {  # a composition with a duration, what it holds, and how deep in it the drive stands
+    "parallel": ("parallel(duration: 8s):", OTHER, 1, ""),
+    "serial": ("parallel(duration: 8s):", f"{OTHER}serial:\n{indented(FIRST, 1)}", 2, FIRST),
+    "inner": ("parallel(duration: 8s):", f"parallel:\n{indented(OTHER, 1)}", 2, ""),
+    "ended": ("serial(duration: 8s):", f"parallel:\n{indented(OTHER, 1)}", 2, ""),
+}
+
+
+def phases() -> Iterator[Case]:
+    """Yield drives that end with a composition around them, at a time that modifiers aim at."""
+    for (name, modifier), (phase, parts) in product(AIMS.items(), PHASES.items()):
+        head, beside, depth, before = parts
+        start = "" if before else EGO.replace("20mps", "20mps, at: start")
+        aims = f"{modifier}\n{start}"
+        drive = f"ego.drive() with:\n{indented(aims, 1)}"
+        yield f"{name}_in_{phase}", (
+            f"ego, other: vehicle\ndo serial:\n    {head}\n{indented(beside, 2)}"
+            f"{indented(drive, 1 + depth)}    ego.drive(duration: 0.5s)\n"
+        )
+
+
 LINES = {
     "replayed": "ego.replay_path(absolute: way)",
     "along": "ego.drive() with:\n    along(way)",

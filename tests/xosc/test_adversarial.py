@@ -20,7 +20,7 @@ from tests.xosc.parity import (
     is_exact,
     is_measured,
     played,
-    reading_of,
+    reading_for,
     scenarios,
 )
 
@@ -73,7 +73,7 @@ def check_case(given: Given, document: XmlScenario) -> None:
     if is_measured(document):
         check(given, document)
     else:  # it plays, and its report says in words how far off it is
-        reading = reading_of(given.xml)
+        reading = reading_for(given.xml)
         played(document.xml, 0.1, given.maps, reading=reading, most=10.0)
 
 

@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 
 from osc2tx.backends.xosc import XmlScenario
+from osc2tx.grading.comparison import Row
 from osc2tx.options import XML_VERSIONS, XmlOptions, XmlVersion
 from osc2tx_runtime import RunSettings
 from tests.unit.backends.xosc.documents import PLAIN
-from tests.xosc.parity import Given, played, scenarios
-from tests.xosc.played import Row, world
+from tests.xosc.parity import Given, played, scenarios, world
 
 SOURCE = """\
 import osc.standard.all

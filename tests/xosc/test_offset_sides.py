@@ -7,12 +7,13 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx.grading.runs import cached_map
 from osc2tx.options import XmlOptions
 from osc2tx_runtime import RunSettings
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_shared.map_files import SHIPPED
 from tests.xosc.case_texts import HEAD, SCENARIO, indented, point
-from tests.xosc.parity import FINE, Given, check, is_exact, map_read, scenarios
+from tests.xosc.parity import FINE, Given, check, is_exact, scenarios
 
 LANES = [("highway", -3), ("highway", 2), ("left_hand", -2), ("left_hand", 2)]
 """Maps with right-hand and left-hand traffic, each with a lane of both directions."""
@@ -39,7 +40,7 @@ STATEMENTS = {
 
 def written(folder: Path, map_name: str, lane: int, statement: str, start: str = "") -> Given:
     """Return a scenario that does something across a lane."""
-    road_map = map_read(SHIPPED / f"{map_name}.xodr")
+    road_map = cached_map(SHIPPED / f"{map_name}.xodr")
     at = road_map.pose(LanePosition("1", lane, 300.0))
     there = point("there", round(at.x, 6), round(at.y, 6))
     body = BODY.format(there=there, statement=statement, start=start)

@@ -26,7 +26,7 @@ from tests.xosc.parity import (
     is_exact,
     is_measured,
     played,
-    reading_of,
+    reading_for,
     scenarios,
     stated_bounds,
 )
@@ -106,7 +106,7 @@ def check_document(path: Path, source: Given, document: XmlScenario) -> None:
     elif is_measured(document) and name(path) not in WITHOUT_RUN:
         check(source, document)
     else:
-        played(document.xml, 0.1, source.maps, reading=reading_of(source.xml), most=10.0)
+        played(document.xml, 0.1, source.maps, reading=reading_for(source.xml), most=10.0)
 
 
 @pytest.mark.parametrize("path", list(map(slow_but, ALL)), ids=name)

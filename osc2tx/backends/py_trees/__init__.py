@@ -4,9 +4,9 @@
 `sharing` decides which classes come from the modules of imported files, `own_names` names the
 others. `scenarios`, `behaviors`, `calls` and `expressions` turn the IR into the view models of
 `view`, with names from `naming` and fragments from `code` that scenario text cannot break out of;
-`uses` collects imports, `runtime_api` has the facts about the runtime. The templates
-(`environment`) only place view models, in black's `layout`; where that may differ, `formatting`
-calls black. `source_map` holds the lines that the module does not cite itself.
+`uses` collects imports, `runtime_api` has the facts about the runtime. The templates only place
+view models, in black's `layout`; where that may differ, `formatting` calls black. `source_map`
+holds the lines that the module does not cite itself.
 """
 
 from __future__ import annotations

@@ -9,9 +9,9 @@ from osc2tx import ir
 from osc2tx.backends.py_trees.calls import comments
 from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr, PyName, literal
 from osc2tx.backends.py_trees.coverage import render_coverage_model
-from osc2tx.backends.py_trees.environment import environment
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.formatting import format_module
+from osc2tx.backends.py_trees.layout import environment
 from osc2tx.backends.py_trees.members import members_of
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls, never_called
 from osc2tx.backends.py_trees.modifier_functions import write_modifiers

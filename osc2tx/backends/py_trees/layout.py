@@ -5,8 +5,17 @@ What black might lay out otherwise stays on one line; `formatting` has black loo
 
 from __future__ import annotations
 
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from osc2tx.backends.py_trees import layout
 from osc2tx.backends.py_trees.formatting import INDENT, LINE_LENGTH, is_plain
 from osc2tx.backends.py_trees.view import ArgumentView, CallView, StatementView
+from osc2tx.resources import resource_dir
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
 
 
 def statement(view: StatementView, column: int) -> str:
@@ -57,12 +66,15 @@ def _lines(call: CallView, on_one_line: str | None, column: int) -> list[str]:
 def _commented(view: ArgumentView | StatementView, indent: str, text: str) -> list[str]:
     """Write a text with its comments: the trailing one behind it, or above where it is too long."""
     above = [f"{indent}{comment}" for comment in view.comments]
+    if isinstance(view, StatementView) and above and not view.comments[-1].text:
+        above[-1] = ""
+    below = [f"{indent}{comment}" for comment in view.below]
     if view.trailing is None:
-        return [*above, text]
+        return [*above, text, *below]
     line = f"{text}  {view.trailing}"
     if "\n" in text or len(line) > LINE_LENGTH or not is_plain(text):
-        return [*above, f"{indent}{view.trailing}", text]
-    return [*above, line]
+        return [*above, f"{indent}{view.trailing}", text, *below]
+    return [*above, line, *below]
 
 
 def _on_one_line(call: CallView) -> str | None:
@@ -77,7 +89,7 @@ def _on_one_line(call: CallView) -> str | None:
             if inner is None:
                 return None
             text = inner.join(_brackets(each.call))
-        if each.comments or each.trailing:
+        if each.comments or each.trailing or each.below:
             return None
         written.append(f"{each.keyword}={text}" if each.keyword else text)
     return ", ".join(written)
@@ -85,3 +97,25 @@ def _on_one_line(call: CallView) -> str | None:
 
 def _brackets(call: CallView) -> tuple[str, str]:
     return (f"{call.callee}(", ")") if call.callee else ("[", "]")
+
+
+def template_folder() -> Path:
+    """Return the folder of this backend's templates."""
+    return Path(str(resource_dir("templates"))) / "py_trees"
+
+
+@cache
+def environment() -> Environment:
+    """Return the environment: strict about undefined names, with filters that lay code out."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    made = Environment(
+        loader=FileSystemLoader(template_folder()),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        autoescape=False,
+        keep_trailing_newline=True,
+    )
+    made.filters |= {"statement": layout.statement, "returned": layout.returned}
+    return made

@@ -102,13 +102,56 @@ class Metres:
     @property
     def rounded(self) -> float:
         """Metres with two digits, never less than they are."""
-        if self.most <= 0.0:
-            return 0.0
-        digit = 10.0 ** (floor(log10(self.most)) - 1)
-        return round(ceil(self.most / digit - ROUNDING) * digit, 6)
+        return rounded_up(self.most)
 
 
 ROUNDING = 1e-6
+
+
+def rounded_up(value: float) -> float:
+    """Return a number with two digits, never less than it is."""
+    if value <= 0.0:
+        return 0.0
+    digit = 10.0 ** (floor(log10(value)) - 1)
+    return round(ceil(value / digit - ROUNDING) * digit, 6)
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """How far a document is off in runs, at most.
+
+    Attributes:
+        place: Between an actor in the document and in the world (m).
+        speed: Between their speeds (m/s).
+        time: Between the times of an event, or of the end (s).
+        events: Events that are missing, too late or in another order.
+        runs: Number of runs.
+    """
+
+    place: float
+    speed: float
+    time: float
+    events: int = 0
+    runs: int = 1
+
+    def __str__(self) -> str:
+        events = f", with {self.events} other event{'s' * (self.events > 1)}" * bool(self.events)
+        values = self.values()
+        if not any((*values.values(), events)):
+            return "measured: no deviation"
+        return (
+            f"measured: at most {values['place']:g} m, {values['speed']:g} m/s and"
+            f" {values['time']:g} s{events}"
+        )
+
+    def values(self) -> dict[str, float]:
+        """Return the largest deviations, rounded up; noise of the computation counts as none."""
+        found = {"place": self.place, "speed": self.speed, "time": self.time}
+        return {name: rounded_up(value) if value > NOISE else 0.0 for name, value in found.items()}
+
+
+NOISE = 1e-3
+"""Below this, deviations in m, m/s and s are those of rounded numbers in documents."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -130,6 +173,11 @@ class Entry:
     reason: str = ""
     bound: Metres | str = ""
     remedy: Remedy = NOTHING
+
+    @property
+    def is_in_words(self) -> bool:
+        """Whether it is an approximation that says in words alone how far off it is."""
+        return self.grade is Grade.APPROXIMATED and isinstance(self.bound, str)
 
     @property
     def code(self) -> str:
@@ -156,13 +204,20 @@ class Entry:
 
 
 class LossReport:
-    """Collects what became of the constructs of one scenario."""
+    """Collects what became of the constructs of one scenario.
+
+    Attributes:
+        measured: How far the document is off when it is played; `None` if it was not.
+        unmeasured: Why it could not be played; empty if it was, or was not to be.
+    """
 
     def __init__(self, options: XmlOptions) -> None:
         """Start with nothing."""
         self.options = options
         self._tool = PROFILES[options.profile]
         self._entries: dict[Span, dict[str, list[Entry]]] = {}
+        self.measured: Measured | None = None
+        self.unmeasured = ""
 
     def exact(self, construct: str, span: Span, note: str = "") -> None:
         """Note that a construct means the same in the XML."""
@@ -207,6 +262,24 @@ class LossReport:
             self.cannot(construct, error.span or span, error.reason, error.remedy)
         else:
             self.cannot(construct, span, error.reason)
+
+    def measure(self, measured: Measured) -> None:
+        """Note how far the document is off; approximations without a number take that one."""
+        self.measured = measured
+        self._bound_by(str(measured))
+
+    def leave_unmeasured(self, reason: str) -> None:
+        """Note why nothing is known about how far the document is off."""
+        self.unmeasured = reason
+        self._bound_by(f"not measured: {reason}")
+
+    def _bound_by(self, text: str) -> None:
+        for of_span in self._entries.values():
+            for same in of_span.values():
+                same[:] = [
+                    replace(each, bound=f"{each.bound}; {text}") if each.is_in_words else each
+                    for each in same
+                ]
 
     def _add(self, entry: Entry) -> None:
         """Add an entry; what is not exact stands instead of what is."""

@@ -29,7 +29,7 @@ def report_json(report: LossReport, scenario: ir.Scenario, module: ir.Module) ->
     exact = [entry for entry in report.entries if entry.grade is Grade.EXACT]
     lost = [_entry_data(entry, module) for entry in report.losses]
     notes = dict.fromkeys(f"{entry.construct}: {entry.reason}" for entry in exact if entry.reason)
-    if not lost and not notes:
+    if not lost and not notes and not report.unmeasured:
         return None
     head: dict[str, object] = {
         "format": FORMAT,
@@ -40,6 +40,10 @@ def report_json(report: LossReport, scenario: ir.Scenario, module: ir.Module) ->
         "allow_approx": report.options.allow_approx,
         "written": report.is_expressible,
     }
+    if report.measured is not None:
+        head["measured"] = {"runs": report.measured.runs, **report.measured.values()}
+    elif report.unmeasured:
+        head["unmeasured"] = report.unmeasured
     lists: dict[str, Sequence[object]] = {
         "notes": list(notes),
         "losses": list(_merged(lost)),

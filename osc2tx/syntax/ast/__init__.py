@@ -1,14 +1,18 @@
 """The abstract syntax tree: one frozen class per construct of the language.
 
-Modules by chapter: `base`, `types`, `expressions`, `members`, `behaviors`, `declarations`.
+Modules by chapter: `base`, `expressions`, `members`, `behaviors`, `declarations`.
 Nodes are data. They keep source order, spans and comments, and know nothing of meaning.
 """
 
 from osc2tx.syntax.ast.base import (
     BehaviorName,
+    ListType,
     Name,
+    NamedType,
     Node,
+    RangeType,
     Statement,
+    TypeName,
 )
 from osc2tx.syntax.ast.behaviors import (
     BehaviorMember,
@@ -98,10 +102,4 @@ from osc2tx.syntax.ast.members import (
     StructMember,
     UndefinedBody,
     VariableDeclaration,
-)
-from osc2tx.syntax.ast.types import (
-    ListType,
-    NamedType,
-    RangeType,
-    TypeName,
 )

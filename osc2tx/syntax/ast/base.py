@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import field
+from typing import TypeAlias
 
 from osc2tx.diagnostics import Span
 from osc2tx_shared.classes import dataclass
@@ -23,10 +24,12 @@ class Statement(Node):
         comments: The comment lines that belong to it, without `#` and surrounding blanks; an empty
             one where blank lines part them.
         trailing_comment: The comment at the end of its first line.
+        comments_below: Comment lines that touch it from below, and not the next statement.
     """
 
     comments: tuple[str, ...] = field(default=(), repr=False)
     trailing_comment: str | None = field(default=None, repr=False)
+    comments_below: tuple[str, ...] = field(default=(), repr=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -56,3 +59,27 @@ class BehaviorName(Node):
     def __str__(self) -> str:
         """The name as one would write it."""
         return str(self.name) if self.actor is None else f"{self.actor}.{self.name}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class NamedType(Node):
+    """A type by name: primitive, physical, enum, struct, actor or behavior (`vehicle.drive`)."""
+
+    name: BehaviorName
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RangeType(Node):
+    """`range of T`, numeric `T` (2.2)."""
+
+    element: NamedType
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ListType(Node):
+    """`list of T`."""
+
+    element: NamedType | RangeType
+
+
+TypeName: TypeAlias = NamedType | RangeType | ListType

@@ -5,8 +5,7 @@ from __future__ import annotations
 from enum import Enum
 from typing import TypeAlias
 
-from osc2tx.syntax.ast.base import Name, Node
-from osc2tx.syntax.ast.types import TypeName
+from osc2tx.syntax.ast.base import Name, Node, TypeName
 from osc2tx_shared.classes import dataclass
 
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from enum import Enum
 from typing import TypeAlias
 
-from osc2tx.syntax.ast.base import Name, Node, Statement
+from osc2tx.syntax.ast.base import Name, Node, Statement, TypeName
 from osc2tx.syntax.ast.expressions import Argument, Expression
-from osc2tx.syntax.ast.types import TypeName
 from osc2tx_shared.classes import dataclass
 
 

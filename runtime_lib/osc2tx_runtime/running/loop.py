@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from osc2tx_runtime.errors import ScenarioError, SettingsError
+from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.context import ExecutionContext, PostedEvent
 from osc2tx_runtime.language.outline import outline
 from osc2tx_runtime.language.tree.base import (
@@ -17,6 +18,7 @@ from osc2tx_runtime.language.tree.base import (
     Status,
     pulse_of,
 )
+from osc2tx_runtime.language.tree.compositions import Serial, is_instant
 from osc2tx_runtime.language.tree.conflicts import check_claims, check_effects
 from osc2tx_runtime.language.tree.coverage import Recording
 from osc2tx_runtime.language.tree.failure_reasons import (
@@ -25,7 +27,6 @@ from osc2tx_runtime.language.tree.failure_reasons import (
     timeout_place,
     timeout_reason,
 )
-from osc2tx_runtime.language.tree.first_instant import assigns_at_start
 from osc2tx_runtime.running.criteria import Criteria
 
 if TYPE_CHECKING:
@@ -244,3 +245,19 @@ def states(context: ExecutionContext) -> Iterator[tuple[str, ActorState]]:
     """Yield the states of the placed actors, in the order of the cast."""
     state = context.world.state
     return ((actor_id, state(actor_id)) for actor_id in context.cast())
+
+
+def assigns_at_start(node: Behaviour) -> bool:
+    """Return whether a tree may assign the state of an actor at the instant in which it starts."""
+    if isinstance(node, BaseAction):
+        return _assigns(node)
+    for child in node.children:
+        if assigns_at_start(child):
+            return True
+        if isinstance(node, Serial) and not is_instant(child):
+            return False
+    return False
+
+
+def _assigns(action: BaseAction) -> bool:
+    return action.registered.is_momentary and bool(action.registered.slots)

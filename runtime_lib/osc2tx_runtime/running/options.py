@@ -11,7 +11,7 @@ from osc2tx_runtime.language.settings import FAIL_ON, RunSettings
 from osc2tx_runtime.plain_numbers import to_float, to_int
 from osc2tx_runtime.world.protocol import ControlMode
 from osc2tx_runtime.worlds import Option, find_world
-from osc2tx_runtime.worlds.option import NUMBER_AND_UNIT, parse_pair, parse_seconds
+from osc2tx_runtime.worlds.world_type import NUMBER_AND_UNIT, parse_pair, parse_seconds
 
 CONTROLS: tuple[str, ...] = get_args(ControlMode)
 

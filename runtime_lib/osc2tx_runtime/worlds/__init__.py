@@ -7,12 +7,9 @@ packages name in the entry point group `osc2tx.worlds`. See docs/extending.md.
 
 from __future__ import annotations
 
-from .check import CheckRequest, CheckResult
 from .embedded import EMBEDDED
-from .option import Option
 from .registry import ENTRY_POINTS, find_world
-from .request import WorldRequest
-from .world_type import WorldType
+from .world_type import CheckRequest, CheckResult, Option, WorldRequest, WorldType
 
 __all__ = [
     "EMBEDDED",

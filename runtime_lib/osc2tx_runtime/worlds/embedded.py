@@ -10,9 +10,7 @@ from osc2tx_runtime.world.drivers.drivers import DriversPlant
 from osc2tx_runtime.world.drivers.driving import Driver
 from osc2tx_runtime.world.embedded import EmbeddedWorld
 
-from .option import Option, parse_pair
-from .request import WorldRequest
-from .world_type import WorldType
+from .world_type import Option, WorldRequest, WorldType, parse_pair
 
 EXAMPLE = "hero=my_stack.drivers:Careful"
 

@@ -10,8 +10,7 @@ from osc2tx_runtime.world.checks.values import problem_of
 from osc2tx_runtime.world.protocol import ControlMode
 
 from .embedded import EMBEDDED
-from .option import Option
-from .world_type import WorldType
+from .world_type import Option, WorldType
 
 ENTRY_POINTS = "osc2tx.worlds"
 """Group of entry points; each names a `WorldType`, by the name that `--world` takes."""

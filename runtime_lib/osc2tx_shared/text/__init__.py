@@ -4,14 +4,13 @@ Names, strings, comments, paths and values of options are untrusted text. Where 
 characters that steer a terminal, turn the direction of writing or begin a line are written as
 escapes (`\x1b`, `\u202e`, `\n`), and commands of CI servers (`::error::`) are broken up.
 
-`escapes` writes a text in a line, in JSON and in XML. `printing` is the only place where
-osc2tx and its runtime write to standard output and standard error, and cleans all of it. The
-package imports nothing but the standard library.
+`printing` writes a text in a line, in JSON and in XML. It is the only place where osc2tx and its
+runtime write to standard output and standard error, and cleans all of it.
+The package imports nothing but the standard library.
 """
 
 from __future__ import annotations
 
-from osc2tx_shared.text.escapes import in_json, in_xml, visible, without_commands
 from osc2tx_shared.text.printing import (
     READER_HAS_GONE,
     OutputError,
@@ -20,6 +19,8 @@ from osc2tx_shared.text.printing import (
     complain,
     expect_output,
     explain,
+    in_json,
+    in_xml,
     is_watched,
     put,
     put_document,
@@ -27,6 +28,8 @@ from osc2tx_shared.text.printing import (
     replay,
     say,
     show_status,
+    visible,
+    without_commands,
 )
 
 __all__ = [

@@ -29,7 +29,7 @@ from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.opendrive import Pose
 from osc2tx_runtime.running.options import read_options
 from osc2tx_runtime.world.actor_dimensions import CAR_LIMITS, shape_of
-from osc2tx_runtime.world.drivers.single_track import SingleTrack
+from osc2tx_runtime.world.drivers.drivers import SingleTrack
 from osc2tx_runtime.world.grip.friction import DRY_ADHESION, GRAVITY
 from tests.runtime.world.two_cars import TwoCars, scenario
 

@@ -4,7 +4,7 @@ import jinja2
 import pytest
 from jinja2 import nodes
 
-from osc2tx.backends.py_trees.environment import environment, template_folder
+from osc2tx.backends.py_trees.layout import environment, template_folder
 
 TEMPLATES = sorted(path.name for path in template_folder().glob("*.j2"))
 COMPUTING = (nodes.BinExpr, nodes.UnaryExpr, nodes.Getitem, nodes.Concat, nodes.Assign)

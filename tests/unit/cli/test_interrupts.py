@@ -11,7 +11,7 @@ from typing import NoReturn
 
 import pytest
 
-from osc2tx.cli.module_loading import scenarios_of_file
+from osc2tx.module_loading import scenarios_of_file
 from tests.end_to_end.harness import REPOSITORY
 from tests.unit.cli.shell import DRIVE
 

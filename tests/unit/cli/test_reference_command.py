@@ -106,9 +106,14 @@ def test_it_can_be_written_in_every_form(entry) -> None:
 def test_the_command_prints_it(shell: Shell) -> None:
     assert "Ends in the target lane, aligned with it" in shell("reference", "change_lane").out
     listed = shell("reference").out.splitlines()
-    assert listed == [each.key for each in entries()]
+    assert listed[: len(entries())] == [each.key for each in entries()]
+    assert {"directive until", "event condition rise"} <= set(listed)
     names = [each["name"] for each in json.loads(shell("reference", "speed", "--json").out)]
-    assert names == ["speed", "speed"]
+    assert names[:2] == ["speed", "speed"]
+    assert "movable_object.speed" in names
+    gap = shell("reference", "space_gap").out
+    assert gap.startswith("method traffic_participant.space_gap")
+    assert "Also: " in shell("reference", "speed").out
     wrong = shell("reference", "chnge_lane")
     assert wrong.code == 2 and "did you mean `change_lane`?" in wrong.err
 

@@ -20,6 +20,7 @@ WITHOUT_TEXT = {
     "OSC105",
     "OSC115",
     "OSC517",
+    "OSC518",
     "OSC804",
     "OSC805",
     "OSC806",

@@ -14,12 +14,12 @@ import pytest
 
 from osc2tx.building.build import BuildOptions, build
 from osc2tx.building.written_digests import DIGESTS_NAME
-from osc2tx.cli.module_loading import scenarios_of_module
 from osc2tx.compilation.driver import Compilation
 from osc2tx.config import GivenOptions
 from osc2tx.diagnostics import Diagnostic
 from osc2tx.diagnostics.render import render_all, render_github, render_json, render_sarif
 from osc2tx.diagnostics.report import make_report
+from osc2tx.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx_runtime import RunSettings, ScenarioError, run_scenario
 from osc2tx_runtime.opendrive import MapError

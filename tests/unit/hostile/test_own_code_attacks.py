@@ -21,7 +21,7 @@ from typing import Any
 import pytest
 
 from osc2tx import cli
-from osc2tx.cli.module_loading import scenarios_of_file
+from osc2tx.module_loading import scenarios_of_file
 from osc2tx_runtime import Control, Scenario, ScenarioError
 from osc2tx_runtime.running.main import main
 from osc2tx_runtime.simulators.carla.sensors import read_stack

@@ -155,7 +155,7 @@ class Leaf:
         member: Who acts.
         arguments: Those of the action.
         state: What is known about the actor at the start.
-        duration: Seconds, if the invocation says.
+        duration: Its length (s), if its own duration or one around it says so.
         event: Name of the event that will carry it out.
         is_start: It begins with the run.
         course: Of the speed, where the changes say it.
@@ -173,14 +173,16 @@ class Leaf:
         event: str,
         *,
         is_start: bool,
+        time_left: float | None = None,
     ) -> None:
-        """Take the invocation."""
+        """Take the invocation; `time_left` (s) is its length if compositions around it end it."""
         self.ctx = ctx
         self.node = node
         self.member = member
         self.arguments = Arguments(ctx, node.arguments, node)
         self.state = ctx.states[member.name]
-        self.duration = None if node.duration is None else ctx.values.number(node.duration)
+        own = None if node.duration is None else ctx.values.number(node.duration)
+        self.duration = time_left if own is None else own
         self.event = event
         self.is_start = is_start
         self.course: Course | None = None

@@ -14,9 +14,8 @@ from osc2tx_runtime.domain.objects.physical_objects import PhysicalObject, Stati
 from osc2tx_runtime.domain.points_and_poses import OdrPoint, Orientation, Point, Pose
 
 from .environment import Environment
-from .map import Map
+from .map import Map, TrafficLightController
 from .movable_objects import Animal, MovableObject, Person, TrafficParticipant
-from .traffic_light_controller import TrafficLightController
 from .vehicles import Trailer, Vehicle
 
 __all__ = [

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from osc2tx_runtime.domain.actors.road_network import RoadNetwork
+from osc2tx_runtime.domain.methods import TrafficLightControllerMethods
 from osc2tx_runtime.domain.objects.base import Actor
 from osc2tx_runtime.domain.signals.traffic_lights import TrafficLightControl, TrafficLightCycle
 from osc2tx_runtime.enums import DrivingRule
@@ -42,3 +43,9 @@ class Map(Actor, RoadNetwork, TrafficLightControl):
     def driving_rule(self) -> DrivingRule:
         """The side on which its roads are driven."""
         return "right_hand_traffic" if self.outer_side() == "right" else "left_hand_traffic"
+
+
+class TrafficLightController(Actor, TrafficLightControllerMethods):
+    """Switches traffic lights."""
+
+    kinds = ("traffic_light_controller", *Actor.kinds)

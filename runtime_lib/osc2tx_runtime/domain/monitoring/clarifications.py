@@ -19,7 +19,7 @@ from osc2tx_runtime.domain.modifiers import (
 from osc2tx_runtime.domain.modifiers.base import now
 from osc2tx_runtime.domain.monitoring.conditions import Condition, Reading
 from osc2tx_runtime.domain.monitoring.lanes import lanes_from_start, lanes_text
-from osc2tx_runtime.domain.monitoring.registry import stands_for
+from osc2tx_runtime.domain.monitoring.registry import stands_for, unmonitored
 from osc2tx_runtime.enums import At, SideLeftRight
 from osc2tx_runtime.world.measuring.distances import (
     along_lanes,
@@ -193,3 +193,15 @@ def _gap_reader(
         return time_to_cover(size, rate) if action.timed else size
 
     return read
+
+
+unmonitored("decides whether a deviation of the others is a failure", "physical_movement")
+unmonitored("a collision is a line of the trace and a criterion of `--fail-on`", "avoid_collisions")
+unmonitored("states the start position alone, which the placement checks", "location", "on_path")
+unmonitored("the world draws a trailer along exactly", "tow_trailer")
+
+unmonitored("only its modifiers state something", "move", "drive", "walk")
+unmonitored("takes no time, so it has no phase", "assign_position", "assign_orientation")
+unmonitored("takes no time, so it has no phase", "assign_speed", "assign_acceleration")
+unmonitored("the standard does not define its modifier", "keep_acceleration")
+unmonitored("changes no motion state", "connect_trailer", "disconnect_trailer")

@@ -9,7 +9,7 @@ from osc2tx_runtime.errors import SettingsError
 from osc2tx_runtime.plain_numbers import to_float, to_int
 from osc2tx_runtime.world.embedded import EmbeddedWorld
 from osc2tx_runtime.worlds import Option, WorldRequest, WorldType
-from osc2tx_runtime.worlds.option import parse_pair, parse_seconds
+from osc2tx_runtime.worlds.world_type import parse_pair, parse_seconds
 
 from .attendance import Attendance
 from .checks import check

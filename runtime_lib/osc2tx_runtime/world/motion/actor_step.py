@@ -11,7 +11,7 @@ from osc2tx_runtime.world.commands import SpeedChange, Standstill
 from osc2tx_runtime.world.geometry.attitude import LEVEL
 from osc2tx_runtime.world.geometry.lane_neighbours import lane_under
 from osc2tx_runtime.world.geometry.seam_smoothing import crossed
-from osc2tx_runtime.world.grip.friction_circle import curvature_ahead
+from osc2tx_runtime.world.grip.friction import curvature_ahead
 from osc2tx_runtime.world.lateral.execution import SIDEWAYS, HoldOffset
 from osc2tx_runtime.world.longitudinal.acceleration import AssignedSpeed
 from osc2tx_runtime.world.longitudinal.execution import ProfileRun, longitudinal_of

@@ -6,24 +6,22 @@ import math
 from dataclasses import field
 
 from osc2tx_runtime.opendrive import DRIVING, LaneCursor, LanePosition, Pose, RoadMap, Route
-from osc2tx_runtime.world.actor_dimensions import TYRES, Limits
+from osc2tx_runtime.world.actor_dimensions import COMFORT, TYRES, Limits
 from osc2tx_runtime.world.geometry.attitude import LEVEL, Tilt, tilt_on
 from osc2tx_runtime.world.geometry.lane_neighbours import offset_from
 from osc2tx_runtime.world.geometry.lane_return import abreast, lane_near, turn_from
 from osc2tx_runtime.world.geometry.seam_smoothing import Residual
-from osc2tx_runtime.world.grip.friction import held_by
-from osc2tx_runtime.world.grip.friction_circle import Wheels
+from osc2tx_runtime.world.grip.friction import Wheels, held_by
 from osc2tx_runtime.world.lateral.attitude_control import Turning
 from osc2tx_runtime.world.lateral.curve_following import Course, Steering
 from osc2tx_runtime.world.lateral.execution import HoldOffset, Lateral, Shift, shift_profile
 from osc2tx_runtime.world.lateral.route_following import Way
 from osc2tx_runtime.world.longitudinal.execution import Longitudinal
-from osc2tx_runtime.world.longitudinal.open_speed import OpenSpeed
+from osc2tx_runtime.world.motion.cruise import Cruise
 from osc2tx_runtime.world.protocol import ActorSpec
 from osc2tx_runtime.world.state import ActorState
+from osc2tx_runtime.world.step_inputs import StepInputs
 from osc2tx_shared.classes import dataclass
-
-from .cruise import Cruise
 
 CRUISE = {"person": 1.4, "animal": 1.4, "movable_object": 1.4}
 """Speed (m/s) at which actors at standstill start on a course; vehicles: `CRUISE_VEHICLE`."""
@@ -45,6 +43,39 @@ ANY_LANE = DRIVING | {
 _NEAR = 0.5  # m: how far outside a lane an actor is still on it
 STILL = 1e-9  # m/s
 ALIGNED = 0.3  # rad to its lane with which a vehicle is in it again
+
+
+class OpenSpeed:
+    """A driver without a command for the speed."""
+
+    __slots__ = ("_held",)
+
+    def __init__(self) -> None:
+        self._held = 0.0  # m/s to gain again behind a bend; no more than the present speed: none
+
+    def forget(self) -> None:
+        """A speed was stated."""
+        self._held = 0.0
+
+    def speed_after(
+        self, me: ActorState, inputs: StepInputs, route: Route | None, limits: Limits
+    ) -> float:
+        """Speed (m/s) at the next step.
+
+        Args:
+            me: The actor.
+            inputs: The snapshot.
+            route: Its route at forks.
+            limits: Of the vehicle on the road as it is.
+        """
+        held = max(self._held, me.v)
+        fastest = inputs.bend(me, route, limits)
+        if me.v >= held and fastest >= held:
+            return me.v
+        self._held = held
+        slowest = me.v - COMFORT * limits.deceleration * inputs.dt
+        rising = me.v + COMFORT * limits.acceleration * inputs.dt
+        return max(min(held, fastest, rising), slowest, 0.0)
 
 
 @dataclass

@@ -6,8 +6,7 @@ from typing import NamedTuple
 
 from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
 from osc2tx_runtime.world.geometry.attitude import LEVEL, Tilt
-from osc2tx_runtime.world.grip.friction import RoadCondition
-from osc2tx_runtime.world.grip.friction_circle import Wheels
+from osc2tx_runtime.world.grip.friction import RoadCondition, Wheels
 from osc2tx_runtime.world.protocol import ActorSpec
 from osc2tx_runtime.world.state import ActorState
 

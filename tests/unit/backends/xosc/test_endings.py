@@ -7,7 +7,7 @@ import pytest
 
 from osc2tx.backends.py_trees.emitter import emit
 from osc2tx.catalogue import catalogue
-from osc2tx.cli.module_loading import scenarios_of_module
+from osc2tx.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx_runtime import RunSettings, run_scenario
 from osc2tx_runtime.errors import UnsupportedError

@@ -7,7 +7,7 @@ import pytest
 from osc2tx.options import XmlOptions
 from osc2tx_runtime import RunSettings
 from tests.unit.backends.xosc.documents import PLAIN, compiled, documents
-from tests.xosc.played import world
+from tests.xosc.parity import world
 
 SCENARIO = """import osc.standard.all
 

@@ -19,8 +19,7 @@ from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions, OneOfPolicy, XmlOptions, XmlVersion
 from osc2tx_runtime import RunSettings
 from tests.unit.backends.xosc.checks import schema_errors, story_problems
-from tests.xosc.parity import NEAR, played
-from tests.xosc.played import compare, world
+from tests.xosc.parity import NEAR, compare, played, world
 
 HEAD = """\
 import osc.standard.all
@@ -277,9 +276,7 @@ def assert_runs_like(
     text = etree.tostring(document, encoding="unicode")
     should = world(path, "logical", settings, CompileOptions())
     difference = compare(replace(found, xml=text), should, played(text, settings.dt), settings.dt)
-    for actor, (metres, t) in difference.apart.items():
-        shifted = difference.late * difference.spread[actor]
-        assert metres < NEAR + shifted, f"{actor} at {t}"
+    assert not difference.beyond(NEAR), difference
 
 
 @pytest.mark.slow

@@ -10,7 +10,7 @@ from osc2tx_runtime.opendrive import RoadMap
 from osc2tx_runtime.simulators.carla.client_process import ClientProcess
 from osc2tx_runtime.simulators.carla.connection import DEFAULT_ADDRESS, LOOKING, TIMEOUT
 from osc2tx_runtime.worlds import CheckRequest
-from osc2tx_runtime.worlds.check import CheckStatus
+from osc2tx_runtime.worlds.world_type import CheckStatus
 from osc2tx_shared.classes import dataclass
 
 

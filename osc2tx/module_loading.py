@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import importlib.util
-import os
 import sys
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
@@ -13,7 +12,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
 
-from osc2tx.compilation.inputs import InputError
 from osc2tx.support.paths import COVERAGE_MODEL, SOURCE_MAP, real_path
 from osc2tx_runtime import Scenario, ScenarioError
 
@@ -68,27 +66,6 @@ def module_files(
     return files, place.as_posix()
 
 
-def written_files(place: Path) -> tuple[dict[str, str], str]:
-    """Return a written module and those that it imports from around it, and the path of its own.
-
-    Raises:
-        InputError: One cannot be read.
-    """
-    place = real_path(place)
-    try:
-        found = [place, *(Path(file) for file in _siblings(place)[0].values() if file)]
-        root = Path(os.path.commonpath([each.parent for each in found]))
-        beside = [each.with_suffix(end) for each in found for end in (SOURCE_MAP, COVERAGE_MODEL)]
-        files = {
-            each.relative_to(root).as_posix(): each.read_text(encoding="utf-8")
-            for each in (*found, *beside)
-            if each in found or each.is_file()
-        }
-    except (OSError, SyntaxError, ValueError) as error:
-        raise InputError(f"{place}: cannot be imported: {error}") from error
-    return files, place.relative_to(root).as_posix()
-
-
 @contextmanager
 def scenarios_of_file(place: Path, name: str) -> Iterator[Mapping[str, type[Scenario]]]:
     """Give the scenario classes of a written module; it is imported under a name of its own.
@@ -115,7 +92,7 @@ def _found_siblings(place: Path) -> Iterator[None]:
     Other modules of the same names are hidden meanwhile, and imported modules are removed
     afterwards: each of several folders has modules of its own.
     """
-    files, folders = _siblings(place)
+    files, folders = sibling_files(place)
     path, writes_none = list(sys.path), sys.dont_write_bytecode
     hidden = {
         name: module
@@ -137,7 +114,7 @@ def _found_siblings(place: Path) -> Iterator[None]:
         sys.modules.update(hidden)
 
 
-def _siblings(place: Path) -> tuple[dict[str, str | None], list[str]]:
+def sibling_files(place: Path) -> tuple[dict[str, str | None], list[str]]:
     """Return the modules that a module imports from around it, and their folders.
 
     Returns:

@@ -1,0 +1,12 @@
+"""Measures the grade of OpenSCENARIO XML: documents are played and compared with the world.
+
+- `grading`: the documents of a file, their reports completed; begin here
+- `measuring`: which runs one document gets, and how far off it is in them
+- `runs`: one run of the scenario in the embedded world, one of its document in the player
+- `comparison`: the deviation of one recording from another
+- `values`: values of open parameters for the runs
+"""
+
+from osc2tx.grading.grading import Source, graded
+
+__all__ = ["Source", "graded"]

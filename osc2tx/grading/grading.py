@@ -1,0 +1,130 @@
+"""Completes the reports of the documents of a file with measured deviations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from osc2tx import ir
+from osc2tx.backends.py_trees.emitter import GeneratedModule
+from osc2tx.backends.xosc import XmlScenario
+from osc2tx.backends.xosc.report import Grade
+from osc2tx.backends.xosc.report_json import report_json
+from osc2tx.diagnostics import DiagnosticSink, InternalCompilerError, Span
+from osc2tx.grading.comparison import first_unlike
+from osc2tx.grading.measuring import Finding, Measuring
+from osc2tx.grading.runs import NoEvidence
+from osc2tx.module_loading import scenarios_of_module
+from osc2tx.options import CompileOptions
+from osc2tx.xosc import read
+from osc2tx_runtime import Scenario, ScenarioError
+from osc2tx_shared.classes import dataclass, replace
+
+UNLIKE = "played, the document does something else than the scenario"
+BEYOND = "played, the document is farther off than its approximations state"
+
+
+@dataclass(frozen=True)
+class Source:
+    """What the documents of a file were made from.
+
+    Attributes:
+        module: The program.
+        options: Of the compilation.
+        folder: The folder of the file, with maps.
+        generate: Makes its Python module, on its own.
+    """
+
+    module: ir.Module
+    options: CompileOptions
+    folder: Path
+    generate: Callable[[], GeneratedModule]
+
+
+def graded(
+    documents: Sequence[XmlScenario], source: Source, sink: DiagnosticSink
+) -> tuple[XmlScenario, ...]:
+    """Return the documents of a file with measured grades.
+
+    Args:
+        documents: What the back end wrote.
+        source: What they were made from.
+        sink: Takes an error for each document that contradicts its report.
+    """
+    if all(each.xml is None for each in documents):
+        return tuple(documents)
+    try:
+        with scenarios_of_module(source.generate()) as scenarios:
+            return tuple(_graded(each, scenarios[each.name], source, sink) for each in documents)
+    except (ScenarioError, ImportError, InternalCompilerError) as error:
+        reason = f"there is no module to run: {error}"
+        return tuple(_unmeasured(each, source, reason) for each in documents)
+
+
+def _graded(
+    found: XmlScenario, scenario: type[Scenario], source: Source, sink: DiagnosticSink
+) -> XmlScenario:
+    """Return a document, graded by its runs."""
+    if found.xml is None:
+        return found
+    try:
+        finding = Measuring(found, scenario, source.options.xml, source.folder).run()
+    except NoEvidence as error:
+        return _unmeasured(found, source, str(error))
+    report = found.report
+    stated = [each.bound for each in report.entries if each.grade is Grade.APPROXIMATED]
+    report.measure(finding.measured)
+    if finding.is_faithful or any(isinstance(bound, str) for bound in stated):
+        return _completed(found, source)
+    span = _blamed(found, finding)
+    construct = report.construct_at(span, "action")
+    if stated:
+        report.cannot(construct, span, f"{BEYOND}; {finding.measured}")
+    else:
+        report.approximate(construct, span, UNLIKE, str(finding.measured))
+    if stated or (report.obstacles and source.options.target == "xosc"):
+        _complain(sink, construct, span, BEYOND if stated else UNLIKE, finding)
+    return _completed(found, source)
+
+
+def _unmeasured(found: XmlScenario, source: Source, reason: str) -> XmlScenario:
+    """Return a document as it is, with the reason why it is not measured."""
+    if found.xml is None:
+        return found
+    found.report.leave_unmeasured(reason)
+    return _completed(found, source)
+
+
+def _completed(found: XmlScenario, source: Source) -> XmlScenario:
+    """Return a document with its report as it is now; without XML if that does not allow it."""
+    module, is_written = source.module, found.report.is_expressible
+    declared = next(each for each in module.scenarios if each.name == found.name)
+    return replace(
+        found,
+        xml=found.xml if is_written else None,
+        parameters=found.parameters if is_written else None,
+        report_json=report_json(found.report, declared, module),
+    )
+
+
+def _blamed(found: XmlScenario, finding: Finding) -> Span:
+    """Return the member of the scenario during which the document begins to deviate."""
+    assert found.xml is not None, "it was played"
+    members = {str(span): span for span in found.origins.values()}
+    where = first_unlike(read(found.xml), found.origins, finding.starts, finding.deviation)
+    return members[where] if where else next(iter(found.report.entries)).span
+
+
+def _complain(
+    sink: DiagnosticSink, construct: str, span: Span, what: str, finding: Finding
+) -> None:
+    notes = list(finding.deviation.problems)
+    notes += [
+        f"`{actor}` is {each.place:.2g} m off at {each.at:g} s"
+        for actor, each in finding.deviation.actors.items()
+        if each.since < float("inf")
+    ]
+    message = f"{construct}: {what}; {finding.measured}"
+    remedy = "`--allow-approx` accepts a measured deviation" if what is UNLIKE else ""
+    remedy = "; ".join(filter(None, (remedy, "`--no-verify` does not play documents")))
+    sink.report("OSC518", span, message, notes=notes, help=remedy)

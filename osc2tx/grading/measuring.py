@@ -1,0 +1,154 @@
+"""The runs that one document gets, and the largest deviation in them.
+
+A run at coarse steps shows that most documents do what their scenarios do. Where it does not, the
+same run at fine steps tells deviations from the delay of events by a step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import inf
+from pathlib import Path
+
+from osc2tx.backends.xosc import XmlScenario
+from osc2tx.backends.xosc.facts.run_options import read_signal, read_spawn
+from osc2tx.backends.xosc.profiles import PROFILES
+from osc2tx.backends.xosc.report import Grade, Measured, Metres
+from osc2tx.grading.comparison import EXACT, Deviation, compare
+from osc2tx.grading.runs import (
+    NoEvidence,
+    cached_map,
+    declared_values,
+    reading_of,
+    run_in_player,
+    run_in_world,
+    time_for,
+    values_for,
+)
+from osc2tx.grading.values import Values, corners
+from osc2tx.options import XmlOptions
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc import read
+from osc2tx_runtime import RunSettings, Scenario
+from osc2tx_runtime.opendrive import RoadMap
+from osc2tx_shared.classes import dataclass, replace
+from osc2tx_shared.map_files import map_places
+
+COARSE, FINE = 0.05, 0.02  # s: lengths of steps
+LONGEST = 300.0  # s: as a run of the module
+MOST_ACTOR_STEPS = 60_000
+"""A run is left when the steps of its actors are so many: what happened until then counts."""
+PACE = 1.0  # m/s: no approximated actor is slower; an event that waits for its position comes late
+
+
+@dataclass(frozen=True)
+class Finding:
+    """The runs of a document.
+
+    Attributes:
+        measured: The largest deviations in them.
+        deviation: The deviation in the run with the largest one.
+        starts: Times (s) at which actions begin in that run, by source line.
+        is_faithful: No deviation is larger than the report states.
+    """
+
+    measured: Measured
+    deviation: Deviation
+    starts: Mapping[str, float]
+    is_faithful: bool
+
+
+class Measuring:
+    """The measurement of one document."""
+
+    def __init__(
+        self,
+        found: XmlScenario,
+        scenario: type[Scenario],
+        options: XmlOptions,
+        folder: Path,
+    ) -> None:
+        """Take what the runs need.
+
+        Args:
+            found: The document with its report; there is one.
+            scenario: The class of the scenario.
+            options: Those of the document.
+            folder: The folder of the source, with maps.
+        """
+        assert found.xml is not None, "there is something to play"
+        self._found = found
+        self._scenario = scenario
+        self._folders = (folder, *map(Path, options.map_path))
+        self._tool = PROFILES[options.profile]
+        self._root = read(found.xml)
+        self._actors = max(1, sum(1 for _ in self._root.below(xml.ScenarioObject)))
+        spawn = dict(map(read_spawn, options.spawns))
+        self._settings = RunSettings(
+            map_path=self._folders,
+            signal=dict(map(read_signal, options.signals)),
+            spawn={actor: (at.road, at.lane, at.s) for actor, at in spawn.items()},
+        )
+        bounds = [e.bound for e in found.report.entries if e.grade is Grade.APPROXIMATED]
+        self._is_bounded = all(isinstance(bound, Metres) for bound in bounds)
+        self._stated = sum(bound.rounded for bound in bounds if isinstance(bound, Metres))
+
+    def run(self) -> Finding:
+        """Return what the runs show: one with nominal values, and those at the corners of ranges.
+
+        Raises:
+            NoEvidence: The run with nominal values shows nothing.
+        """
+        self._map()  # without it there is no run at all
+        results = [self._judged({})]
+        kept = None if self._found.parameters is None else read(self._found.parameters)
+        for values in corners(kept):
+            try:
+                results.append(self._judged(values))
+            except NoEvidence:
+                continue  # constraints or the map leave no room for this corner
+        worst = max(results, key=lambda each: (not each.is_faithful, each.deviation.place))
+        measured = Measured(
+            place=max(each.deviation.place for each in results),
+            speed=max(each.deviation.speed for each in results),
+            time=max(each.deviation.time for each in results),
+            events=max(len(each.deviation.problems) for each in results),
+            runs=len(results),
+        )
+        return replace(worst, measured=measured)
+
+    def _judged(self, values: Values) -> Finding:
+        """Run scenario and document with values of open parameters, at fine steps if necessary."""
+        found = self._at(COARSE, values)
+        if found.is_faithful or not self._is_bounded:
+            return found
+        return self._at(FINE, values)
+
+    def _at(self, dt: float, values: Values) -> Finding:
+        longest = min(LONGEST, MOST_ACTOR_STEPS * dt / self._actors)
+        settings = replace(self._settings, dt=dt, max_time=longest)
+        declared = declared_values(self._root, values)
+        chosen = values_for(self._scenario, settings, declared)
+        world = run_in_world(self._scenario, replace(settings, set=chosen))
+        found = run_in_player(
+            self._root,
+            self._map(),
+            dt,
+            reading=reading_of(self._tool),
+            given={**world.recording.choices, **values},
+            most=time_for(world, longest),
+        )
+        patience = self._stated / PACE if self._is_bounded else inf
+        deviation = compare(self._root, self._found.origins, world.recording, found, dt, patience)
+        allowed = EXACT + self._stated
+        is_near = not deviation.beyond(allowed, is_fine=dt == FINE)
+        measured = Measured(deviation.place, deviation.speed, deviation.time)
+        is_faithful = is_near and not deviation.problems
+        return Finding(measured, deviation, world.recording.starts, is_faithful)
+
+    def _map(self) -> RoadMap:
+        name = self._root.one(xml.RoadNetwork).one(xml.LogicFile).filepath
+        for place in map_places(name, self._folders):
+            if place.is_file():
+                return cached_map(place)
+        raise NoEvidence(f"there is no map {name}")

@@ -1,0 +1,172 @@
+"""One run of a scenario in the embedded world, and one of its document in the player."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Mapping
+from functools import lru_cache
+from pathlib import Path
+
+from osc2tx.backends.xosc.profiles import ToolProfile
+from osc2tx.grading.comparison import Recording, Row
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Element, Unresolved
+from osc2tx.xosc.player import Evaluator, Reading, Unplayable
+from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
+from osc2tx_runtime.opendrive import RoadMap, read_map
+from osc2tx_shared.classes import dataclass
+
+MAPS_KEPT = 8
+OVER = 1.0  # s: a player gets so much more time than the run in the world took, and twice of it
+
+
+class NoEvidence(Exception):
+    """A run that shows nothing about a document: it fails, or nothing here can carry it out."""
+
+
+@dataclass(frozen=True)
+class WorldRun:
+    """A run in the embedded world.
+
+    Attributes:
+        recording: What happened.
+        is_whole: The scenario came to its end within the time of the run.
+    """
+
+    recording: Recording
+    is_whole: bool
+
+
+def cached_map(path: Path) -> RoadMap:
+    """Return a map; the last ones are kept until their files change."""
+    status = path.stat()
+    return _map(path, status.st_mtime_ns, status.st_size)
+
+
+@lru_cache(maxsize=MAPS_KEPT)
+def _map(path: Path, _changed: int, _size: int) -> RoadMap:
+    return read_map(path)
+
+
+def run_in_world(scenario: type[Scenario], settings: RunSettings) -> WorldRun:
+    """Run a scenario in the embedded world.
+
+    Raises:
+        NoEvidence: The run fails.
+    """
+    try:
+        result = run_scenario(scenario, settings, read=cached_map)
+    except (ScenarioError, ArithmeticError) as error:
+        raise NoEvidence(f"the run in the world fails: {error}") from error
+    if result.status == "failure":
+        raise NoEvidence(f"the run in the world fails: {result.reason}")
+    starts: dict[str, float] = {}
+    track: dict[str, list[Row]] = {}
+    choices: dict[str, str] = {}
+    for line in map(json.loads, result.trace_lines):
+        match line["kind"]:
+            case "state":
+                row = (line["t"], line["x"], line["y"], line["v"])
+                track.setdefault(line["actor"], []).append(row)
+            case "action" if line["status"] == "start":
+                starts.setdefault(line["source"], line["t"])
+            case "choice":
+                choices[line["name"]] = line["chosen"]
+    is_whole = result.status == "success"
+    end = result.time if is_whole else math.inf
+    return WorldRun(Recording(end, starts, track, choices), is_whole)
+
+
+def declared_values(document: Element, given: Mapping[str, str]) -> dict[str, float | str]:
+    """Return the values of the parameters of a document.
+
+    Args:
+        document: The document.
+        given: Texts that count instead of those of the declarations.
+    """
+    declarations = document.find(xml.ParameterDeclarations)
+    declared = () if declarations is None else declarations.all(xml.ParameterDeclaration)
+    texts = {node.name: given.get(node.name, node.value) for node in declared}
+    kinds = {node.name: node.parameterType for node in document.below(xml.ParameterDeclaration)}
+    return {name: float(text) if kinds[name] in _NUMBERS else text for name, text in texts.items()}
+
+
+_NUMBERS = ("double", "int", "integer", "unsignedInt", "unsignedShort")
+
+
+def values_for(
+    scenario: type[Scenario], settings: RunSettings, declared: Mapping[str, float | str]
+) -> dict[str, float | str]:
+    """Return the values of parameters of a scenario that its document declares.
+
+    The others of the document hold arguments of events, or follow from parameters.
+
+    Raises:
+        NoEvidence: The scenario cannot be set up.
+    """
+    if not declared:
+        return {}
+    try:
+        made = scenario(settings)
+        made.create_tree()
+    except (ScenarioError, ArithmeticError) as error:
+        raise NoEvidence(f"the run in the world fails: {error}") from error
+    documented = {each: re.sub(r"\W", "_", each) for each in made.parameters}
+    return {each: declared[name] for each, name in documented.items() if name in declared}
+
+
+def reading_of(tool: ToolProfile, *, is_lazy: bool = False) -> Reading:
+    """Return how a tool reads its documents.
+
+    Args:
+        tool: Its profile.
+        is_lazy: It evaluates no condition of a group behind a false one.
+    """
+    return Reading(
+        is_lazy=is_lazy,
+        latches=tool.latches_conditions,
+        counts_from_looking=not tool.has_delays,
+        carries_acceleration=tool.carries_acceleration,
+    )
+
+
+def run_in_player(
+    document: Element,
+    road_map: RoadMap,
+    dt: float,
+    *,
+    reading: Reading,
+    given: Mapping[str, str],
+    most: float,
+) -> Recording:
+    """Play a document.
+
+    Args:
+        document: The document.
+        road_map: Its map.
+        dt: Length of a step (s).
+        reading: How its tool reads it.
+        given: Values of parameters, instead of those of the declarations.
+        most: Time after which it is left (s).
+
+    Raises:
+        NoEvidence: The player cannot carry it out.
+    """
+    try:
+        evaluator = Evaluator(document, road_map, dt, reading=reading, given=given)
+        end = evaluator.play(most)
+    except (Unplayable, Unresolved, ArithmeticError) as error:
+        raise NoEvidence(f"it cannot be played here: {error}") from error
+    return Recording(end, evaluator.starts, evaluator.track)
+
+
+def time_for(world: WorldRun, longest: float) -> float:
+    """Return the time (s) that a player gets for the document of a run.
+
+    Args:
+        world: The run.
+        longest: The time that the run had (s).
+    """
+    return 2.0 * world.recording.end + OVER if world.is_whole else longest

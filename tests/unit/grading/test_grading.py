@@ -1,0 +1,145 @@
+"""Documents that do not what their reports state: what grading makes of them."""
+
+import json
+from collections.abc import Callable
+from dataclasses import replace as changed
+from pathlib import Path
+
+import pytest
+
+from osc2tx.backends.py_trees import emit
+from osc2tx.backends.xosc import XmlScenario
+from osc2tx.backends.xosc.report import Grade, Metres
+from osc2tx.compilation.driver import Compilation
+from osc2tx.grading import Source, graded
+from osc2tx.options import CompileOptions, Target, XmlOptions
+from osc2tx_shared.map_files import SHIPPED
+
+TEXT = """\
+import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario top:
+    road: map with:
+        keep(it.map_file == "highway.xodr")
+    v: speed with:
+        keep(it in [10mps..20mps])
+    ego, other: vehicle
+
+    do parallel:
+        ego.drive(duration: 4s) with:
+            lane(2, at: start)
+            position(100m, at: start)
+            speed(v)
+        serial:
+            other.drive(duration: 2s) with:
+                lane(3, at: start)
+                position(100m, at: start)
+                speed(15mps)
+            slower: other.change_speed(target: 5mps, rate_profile: constant, rate_peak: 5mpss)
+"""
+Change = Callable[[str], str]
+
+
+def grade(
+    folder: Path,
+    change: Change = lambda xml: xml,
+    *,
+    text: str = TEXT,
+    target: Target = "xosc",
+    bound: Metres | None = None,
+    **xml: bool,
+) -> tuple[XmlScenario, Compilation]:
+    """Return a document that was changed after it was written, graded; and its compilation."""
+    path = folder / "top.osc"
+    path.write_text(text, encoding="utf-8")
+    options = CompileOptions(target=target, xml=XmlOptions(**xml))
+    compilation = Compilation(path, path.name, options)
+    assert compilation.check(), compilation.diagnostics
+    (found,) = compilation.xml
+    assert found.xml is not None
+    if bound is not None:
+        entry = found.report.entries[0]
+        found.report.approximate("action drive", entry.span, "it is a test", bound)
+    found = changed(found, xml=change(found.xml))
+    assert compilation.ir is not None
+    module = compilation.ir
+    source = Source(module, options, folder, lambda: emit(module))
+    (result,) = graded([found], source, compilation.sink)
+    return result, compilation
+
+
+def brakes_harder(xml: str) -> str:
+    assert 'dynamicsShape="linear" value="2"' in xml
+    return xml.replace('dynamicsShape="linear" value="2"', 'dynamicsShape="linear" value="1.25"')
+
+
+def codes(compilation: Compilation) -> list[str]:
+    return [each.code for each in compilation.diagnostics]
+
+
+def test_what_is_right_stays_exact_at_all_corners(tmp_path: Path) -> None:
+    found, compilation = grade(tmp_path)
+    assert found.xml is not None and found.report_json is None
+    assert found.report.measured is not None
+    assert found.report.measured.runs == 3
+    assert set(found.report.measured.values().values()) == {0.0}
+    assert codes(compilation) == []
+
+
+def test_a_lie_is_no_document(tmp_path: Path) -> None:
+    """It brakes from 15 to 5 m/s in 1.25 s instead of 2 s: 5 m/s less on average, for 0.75 s."""
+    found, compilation = grade(tmp_path, brakes_harder)
+    assert found.xml is None and found.parameters is None
+    (entry,) = found.report.losses
+    assert (entry.construct, entry.span.line) == ("action change_speed", 22)
+    assert entry.grade is Grade.APPROXIMATED
+    assert "measured: at most 3.8 m" in str(entry.bound)
+    assert codes(compilation) == ["OSC518"]
+    (report,) = compilation.diagnostics
+    assert "`other` is" in "".join(report.notes)
+
+
+def test_where_xml_is_a_by_product_a_lie_is_left_out(tmp_path: Path) -> None:
+    found, compilation = grade(tmp_path, brakes_harder, target="all")
+    assert found.xml is None and codes(compilation) == []
+
+
+def test_an_accepted_deviation_is_written_with_its_number(tmp_path: Path) -> None:
+    found, compilation = grade(tmp_path, brakes_harder, allow_approx=True)
+    assert found.xml is not None and codes(compilation) == []
+    assert found.report_json is not None
+    report = json.loads(found.report_json)
+    assert report["measured"]["place"] == 3.8
+    assert report["measured"]["runs"] == 3
+    assert "measured: at most 3.8 m" in report["losses"][0]["bound"]
+
+
+@pytest.mark.parametrize(("most", "is_enough"), [(4.0, True), (3.0, False)])
+def test_stated_bounds_are_kept_or_an_error(tmp_path: Path, most: float, is_enough: bool) -> None:
+    found, compilation = grade(tmp_path, brakes_harder, bound=Metres(most), allow_approx=True)
+    assert (found.xml is not None) is is_enough
+    assert codes(compilation) == [] if is_enough else ["OSC518"]
+    if not is_enough:
+        assert any(entry.grade is Grade.INEXPRESSIBLE for entry in found.report.losses)
+
+
+def test_a_map_that_is_gone_leaves_no_evidence(tmp_path: Path) -> None:
+    place = tmp_path / "own.xodr"
+    place.write_bytes((SHIPPED / "highway.xodr").read_bytes())
+
+    def loses_its_map(xml: str) -> str:
+        place.unlink()
+        return brakes_harder(xml)
+
+    found, _ = grade(tmp_path, loses_its_map, text=TEXT.replace("highway.xodr", "own.xodr"))
+    assert found.xml is not None
+    assert found.report.measured is None
+    assert found.report_json is not None
+    assert json.loads(found.report_json)["unmeasured"] == "there is no map own.xodr"
+
+
+def test_grades_are_the_same_in_every_run(tmp_path: Path) -> None:
+    reports = {grade(tmp_path, brakes_harder, allow_approx=True)[0].report_json for _ in range(2)}
+    assert len(reports) == 1
