@@ -77,7 +77,7 @@ carla.World.tick = last
 
 @pytest.mark.slow
 def test_a_library_that_dies_in_a_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """An exception that nobody catches in a thread of the library ends its process (carla issue 4072)."""
+    """What nobody catches in a thread of the library ends its process (carla issue 4072)."""
     (tmp_path / "carla.py").write_text(DYING, encoding="utf-8")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     with StandInProcess([OWN_MAPS], "highway") as server:
