@@ -112,6 +112,8 @@ parser: $(STAMP)
 tables: $(STAMP)
 	$(BIN)/python tools/make_maps.py
 	$(BIN)/python tools/make_enums.py
+	$(BIN)/python tools/make_xosc_schema.py
+	$(BIN)/python tools/make_xosc_elements.py
 	$(BIN)/python tools/make_catalogue.py
 	$(BIN)/python tools/make_actor_methods.py
 	$(BIN)/python tools/make_catalogue.py  # once more: it lists the methods that were just made

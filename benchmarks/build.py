@@ -1,20 +1,20 @@
-"""How fast `osc2tx build` is on a tree of many scenarios.
+"""What `osc2tx build` costs in a repository of many scenarios.
 
-    python benchmarks/build.py [--files 1000] [--folder FOLDER]
+    python benchmarks/build.py [--scenarios 1000] [--folder FOLDER]
 
-Makes a tree of scenarios that differ, in folders with an imported file each, and prints what
-these cost, each in a process of its own as a user would start it:
+Makes a repository (`repository.py`) and prints what these cost, each in a process of its own as a
+user would start it:
 
-- the first build, with one process and with one for each processor;
+- the first build, with one process and with one for each processor, and its memory;
 - a build with nothing to do, and `--check` with nothing to find;
-- a build after an edit of one file, after a comment in a file that a tenth of the others import,
-  and after an edit of a value in it that they use;
-- `--check` of a copy in another folder, and `--diff-against` the commit before the edits;
+- a build after an edit of one scenario, after a comment in each library (the greatest), and after
+  an edit of a range in a base that a quarter of the scenarios inherit;
+- `--diff-against` the commit before that edit, and `--check` of a clone in another folder;
 - a build after one that was killed half-way;
 - a build and a `--check` without what earlier builds remember (`OSC2TX_NO_CACHE`).
 
-The ratios of processor time count; `design` is the target at 1,000 files. Least of a few runs where
-a run changes nothing.
+The ratios of processor time count; `design` is the target at 1,000 scenarios. Least of a few runs
+where a run changes nothing.
 """
 
 import argparse
@@ -28,153 +28,108 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from repository import LIBRARIES, make_repository
+
 from osc2tx.building.workers import processors
 
 ROOT = Path(__file__).resolve().parents[1]
-FOLDERS = 10
-NOOP_TARGET = 1  # percent of the first build, with nothing to do
-
-LIBRARY = """\
-import osc.standard.all
-
-namespace null use std, stdtypes
-
-scenario vehicle.settle_{folder}:
-    v: speed = {speed}kph
-    do serial:
-        actor.drive(duration: 2s) with:
-            speed(v)
-"""
-SCENARIO = """\
-# Approach number {n}: the ego vehicle closes in on a slower one and passes it.
-import "library.osc"
-import osc.standard.all
-
-namespace null use std, stdtypes
-
-scenario approach_{n}:
-    road: map with:
-        keep(it.map_file == "highway.xodr")
-    ego: vehicle
-    lead: vehicle
-    v_ego: speed = {fast}kph
-    # Slower than the ego vehicle
-    v_lead: speed with:
-        keep(it in [{slow}kph..{slower}kph])
-    gap: length = {gap}m
-    event close_enough is rise(lead.space_gap(reference: ego, direction: longitudinal) < gap)
-
-    do parallel:
-        lead_drives: lead.drive() with:
-            lane(2, at: start)
-            position({ahead}m, at: start)
-            speed(v_lead)
-        ego_passes: serial:
-            approach: ego.drive() with:
-                lane(same_as: lead, at: start)
-                position(60m, behind: lead, at: start)
-                speed(v_ego)
-                until @close_enough
-            ego.change_lane(num_of_lanes: 1, side: left)
-            one_of:
-                pass: ego.drive(duration: {duration}s)
-                wait elapsed(9s)
-            ego.settle_{folder}()
-"""
+BASE = "scenarios/lib/slow_base.osc"
+RANGE, OTHER_RANGE = "[10kph..60kph]", "[10kph..65kph]"  # of what a quarter inherits
+SCENARIO = "scenarios/jam/queue/queue_0000.osc"
 
 
-def make_tree(folder: Path, files: int) -> None:
-    """Write the scenarios."""
-    for number in range(FOLDERS):
-        place = folder / f"group_{number}"
-        place.mkdir(parents=True)
-        library = LIBRARY.format(folder=number, speed=50 + number)
-        (place / "library.osc").write_text(library)
-    for n in range(files - FOLDERS):
-        text = SCENARIO.format(
-            n=n,
-            folder=n % FOLDERS,
-            fast=90 + n % 40,
-            slow=50 + n % 7,
-            slower=60 + n % 9,
-            gap=8 + n % 11,
-            ahead=200 + n,
-            duration=2 + n % 5,
-        )
-        (folder / f"group_{n % FOLDERS}/approach_{n}.osc").write_text(text)
+class Repository:
+    """A repository with a cache of its own; its builds are timed."""
 
-
-class Builds:
-    """Builds of one tree, timed."""
-
-    def __init__(self, folder: Path) -> None:
-        self.sources = folder / "scenarios"
-        self.out = folder / "generated"
+    def __init__(self, folder: Path, cache: Path) -> None:
+        self.folder = folder
+        self.cache = cache
         self.wall = 0.0
-        self._environment = {
-            **os.environ,
-            "XDG_CACHE_HOME": str(folder / "cache"),
-            "PYTHONPATH": os.pathsep.join([str(ROOT), str(ROOT / "runtime_lib")]),
-        }
-        self._environment.pop("OSC2TX_NO_CACHE", None)
+        self.memory = 0.0
 
     def run(self, *options: str, is_cold: bool = False) -> float:
         """Return the processor time of one build in seconds, with that of its processes."""
-        command = [sys.executable, "-m", "osc2tx", "build", str(self.sources), "-o", str(self.out)]
-        environment = dict(self._environment)
-        if is_cold:
-            environment["OSC2TX_NO_CACHE"] = "1"
         started, before = time.perf_counter(), _spent()
-        ended = subprocess.run(
-            [*command, *options], env=environment, capture_output=True, text=True, check=False
-        )
-        if ended.returncode:
-            sys.exit(ended.stderr[-2000:])
+        process = self._start(*options, is_cold=is_cold)
+        self.memory = 0.0
+        while process.poll() is None:
+            self.memory = max(self.memory, _memory(process.pid))
+            time.sleep(0.1)
+        if process.returncode:
+            sys.exit(process.stderr.read()[-2000:] if process.stderr else 1)
         self.wall = time.perf_counter() - started
         return _spent() - before
 
-    def elsewhere(self, folder: Path) -> "Builds":
-        """Return a copy of the tree in another folder, with the same cache."""
-        copy = Builds(folder)
-        shutil.copytree(self.sources, copy.sources)
-        shutil.copytree(self.out, copy.out)
-        copy._environment["XDG_CACHE_HOME"] = self._environment["XDG_CACHE_HOME"]
-        return copy
-
-    def commit(self) -> None:
-        """Put the sources into a repository of their own."""
-        identity = ("-c", "user.name=benchmark", "-c", "user.email=benchmark@localhost")
-        for arguments in (("init", "-q"), ("add", "."), (*identity, "commit", "-qm", "before")):
-            subprocess.run(["git", "-C", str(self.sources), *arguments], check=True)
-
-    def kill_half_way(self, files: int) -> None:
-        """Start a first build, and end it without a word when half of the files are done."""
-        shutil.rmtree(self.out, ignore_errors=True)
-        cache = Path(self._environment["XDG_CACHE_HOME"])
-        shutil.rmtree(cache, ignore_errors=True)
-        command = [sys.executable, "-m", "osc2tx", "build", str(self.sources), "-o", str(self.out)]
-        started = subprocess.Popen(command, env=self._environment, stderr=subprocess.DEVNULL)
-        results = cache / "osc2tx" / "results"
-        while started.poll() is None and len(list(results.glob("??/*"))) < files // 2:
-            time.sleep(0.05)
-        started.kill()
-        started.wait()
-
     def first(self, workers: int) -> float:
         """Return the seconds of a build into an empty folder, with nothing remembered."""
-        shutil.rmtree(self.out, ignore_errors=True)
-        shutil.rmtree(Path(self._environment["XDG_CACHE_HOME"]), ignore_errors=True)
+        self._forget()
         return self.run("-j", str(workers))
+
+    def kill_half_way(self, scenarios: int) -> None:
+        """Start a first build, and end it without a word when half of the files are done."""
+        self._forget()
+        process = self._start()
+        results = self.cache / "osc2tx" / "results"
+        while process.poll() is None and len(list(results.glob("??/*"))) < scenarios // 2:
+            time.sleep(0.05)
+        process.kill()
+        process.wait()
+
+    def commit(self) -> None:
+        """Put everything into version control."""
+        identity = ("-c", "user.name=benchmark", "-c", "user.email=benchmark@localhost")
+        for arguments in (("init", "-q"), ("add", "."), (*identity, "commit", "-qm", "before")):
+            subprocess.run(["git", "-C", str(self.folder), *arguments], check=True)
+
+    def clone(self, folder: Path) -> "Repository":
+        """Return a clone in another folder, with the same cache."""
+        subprocess.run(["git", "clone", "-q", str(self.folder), str(folder)], check=True)
+        return Repository(folder, self.cache)
 
     def edit(self, name: str, old: str, new: str) -> None:
         """Change a source."""
-        path = self.sources / name
-        path.write_text(path.read_text().replace(old, new))
+        path = self.folder / name
+        text = path.read_text()
+        assert old in text, f"{name} has no {old}"
+        path.write_text(text.replace(old, new))
+
+    def _start(self, *options: str, is_cold: bool = False) -> "subprocess.Popen[str]":
+        environment = {
+            **os.environ,
+            "XDG_CACHE_HOME": str(self.cache),
+            "PYTHONPATH": os.pathsep.join([str(ROOT), str(ROOT / "runtime_lib")]),
+        }
+        environment.pop("OSC2TX_NO_CACHE", None)
+        if is_cold:
+            environment["OSC2TX_NO_CACHE"] = "1"
+        return subprocess.Popen(
+            [sys.executable, "-m", "osc2tx", "build", *options],
+            cwd=self.folder,
+            env=environment,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+
+    def _forget(self) -> None:
+        for place in (self.folder / "generated", self.cache):
+            shutil.rmtree(place, ignore_errors=True)
 
 
 def _spent() -> float:
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
+
+
+def _memory(process: int) -> float:
+    """Return the memory of a process and its children in MB; shared pages count once."""
+    try:
+        children = Path(f"/proc/{process}/task/{process}/children").read_text().split()
+        lines = Path(f"/proc/{process}/smaps_rollup").read_text().splitlines()
+    except OSError:  # it has ended, or this is no Linux
+        return 0.0
+    own = next(float(line.split()[1]) for line in lines if line.startswith("Pss:")) / 1024
+    return own + sum(_memory(int(child)) for child in children)
 
 
 def least(build: Callable[[], float], times: int = 3) -> float:
@@ -185,48 +140,51 @@ def least(build: Callable[[], float], times: int = 3) -> float:
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--files", type=int, default=1000, help="how many scenarios, 11 at least")
+    parser.add_argument("--scenarios", type=int, default=1000)
     parser.add_argument("--folder", type=Path, help="where to work; an empty folder")
     arguments = parser.parse_args()
     if arguments.folder is None:
         with tempfile.TemporaryDirectory(prefix="osc2tx-benchmark-") as folder:
-            measure(Path(folder), arguments.files)
+            measure(Path(folder), arguments.scenarios)
     else:
-        measure(arguments.folder, arguments.files)
+        measure(arguments.folder, arguments.scenarios)
 
 
-def measure(folder: Path, files: int) -> None:
-    """Build the tree in all ways."""
-    builds = Builds(folder)
-    make_tree(builds.sources, files)
+def measure(folder: Path, scenarios: int) -> None:
+    """Build the repository in all ways."""
+    project = Repository(folder / "project", folder / "cache")
+    make_repository(project.folder, scenarios)
     cores = processors()
-    alone, slow = builds.first(1), builds.wall
-    first = builds.first(cores) if cores > 1 else alone
-    faster = slow / builds.wall
-    print(f"{files} scenarios, {cores} processors\n")
+    alone, slow, small = project.first(1), project.wall, project.memory
+    first = project.first(cores) if cores > 1 else alone
+    print(f"{scenarios} scenarios, {len(LIBRARIES)} libraries, {cores} processors\n")
 
     def show(name: str, seconds: float, remark: str = "") -> None:
         share = 100 * seconds / first
-        print(f"{name:34}{seconds:9.2f} s  {share:7.1f} % of the first   {remark}")
+        print(f"{name:36}{seconds:9.2f} s  {share:7.1f} % of the first   {remark}", flush=True)
 
-    show("first build, -j 1", alone)
-    show(f"first build, -j {cores}", first, f"-j {cores}: {faster:.2f} times as fast")
-    noop = least(builds.run)
-    show("nothing to do", noop, f"design: {NOOP_TARGET} % of the first")
-    show("nothing to do, --check", least(lambda: builds.run("--check")))
-    builds.edit("group_0/approach_0.osc", "9s", "8s")
-    show("one file edited", builds.run())
-    builds.commit()
-    builds.edit("group_0/library.osc", "scenario vehicle", "# Reaches a speed\nscenario vehicle")
-    show("a comment in a library", builds.run(), "design: 3 % of the first")
-    builds.edit("group_0/library.osc", "50kph", "55kph")
-    show("a value that a tenth uses edited", builds.run())
-    show("--diff-against", builds.run("--diff-against", "HEAD"), "design: 10 % of the first")
-    show("a copy in another folder, --check", builds.elsewhere(folder / "copy").run("--check"))
-    builds.kill_half_way(files)
-    show("after one killed half-way", builds.run(), "design: 60 % of the first")
-    show("nothing remembered", builds.run(is_cold=True))
-    show("nothing remembered, --check", builds.run("--check", is_cold=True))
+    show("first build, -j 1", alone, f"{small:.0f} MB")
+    faster = f"{project.memory:.0f} MB, {slow / project.wall:.2f} times as fast"
+    show(f"first build, -j {cores}", first, faster)
+    show("nothing to do", least(project.run), "design: 1 % of the first")
+    show("nothing to do, --check", least(lambda: project.run("--check")))
+    project.edit(SCENARIO, "# Stop and go", "# Go and stop")
+    project.edit(SCENARIO, "duration: 3s", "duration: 4s")
+    show("one scenario edited", project.run())
+    project.commit()
+    show("a clone in another folder", project.clone(folder / "clone").run(), "design: 5 %")
+    comments = {}
+    for name in LIBRARIES:
+        project.edit(name, "\nnamespace ", "\n# Units of the standard\nnamespace ")
+        comments[project.run()] = name
+    show(f"a comment in {Path(comments[max(comments)]).name}", max(comments), "design: 3 %")
+    project.edit(BASE, RANGE, OTHER_RANGE)
+    show("a range in a base of a quarter", project.run(), "design: 30 %")
+    show("--diff-against", project.run("--diff-against", "HEAD"), "design: 10 %")
+    project.kill_half_way(scenarios)
+    show("after one killed half-way", project.run(), "design: 60 %")
+    show("nothing remembered", project.run(is_cold=True))
+    show("nothing remembered, --check", project.run("--check", is_cold=True))
 
 
 if __name__ == "__main__":

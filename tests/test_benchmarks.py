@@ -10,10 +10,10 @@ import pytest
 from tests.processes import forked
 
 FOLDER = Path(__file__).parent.parent / "benchmarks"
-MODULES = {"costs", "trees"}
+MODULES = {"costs", "long_runs", "maps", "repository", "trees"}  # or too long for a test
 MAP = FOLDER.parent / "runtime_lib/osc2tx_runtime/maps/highway.xodr"
 SMALLEST = {
-    "build": ["--files", "11"],
+    "build": ["--scenarios", "4"],
     "diffs": ["comment cut_in:"],
     "frontend": ["--no-start", "60"],
     "growth": ["choices"],

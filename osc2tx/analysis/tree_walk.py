@@ -11,7 +11,7 @@ from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.scope import supertypes
 from osc2tx.syntax import ast
 
-SKIPPED = frozenset({"span", "comments", "trailing_comment", "end_comments"})
+SKIPPED = frozenset({"span", "comments", "trailing_comment", "comments_below", "end_comments"})
 _PLAIN = frozenset({"str", "str | None", "float", "int", "bool", "int | float", "tuple[str, ...]"})
 _FIELDS: dict[type[ast.Node], Callable[[ast.Node], tuple[object, ...]]] = {}
 _N = TypeVar("_N", bound=ast.Node)

@@ -269,7 +269,7 @@ class _State:
         made = with_siblings(self.results, self._compile, configs)
         self._memory.close()
         placed, self.problems = place_outputs(made)
-        self.placed = {item.path: item for item in placed if item.is_committed}
+        self.placed = {item.path: item for item in placed if item.owned == item.path}
 
     def digest(self, path: str) -> str | None:
         """Return the digest of an output; `None` if it makes none."""

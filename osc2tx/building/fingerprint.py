@@ -22,7 +22,7 @@ _KINDS = (".py", ".osc", ".json", ".toml", ".j2", ".xodr")
 # OpenSCENARIO XML holds its sizes, courses and maps, the runtime. Of the others one file tells the
 # version.
 _OURS = ("osc2tx_shared.classes", "osc2tx_shared.rules", "osc2tx_runtime", "osc2tx_shared.text")
-_LIBRARIES = ("antlr4", "black", "jinja2", "lxml", "pint")
+_LIBRARIES = ("antlr4", "black", "jinja2", "pint")
 STARTED = time.time_ns()
 _VERSIONS = f"{__version__} {sys.version_info[:3]}"
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Final
 from xml.sax.saxutils import unescape
 
-from osc2tx.support.paths import MODULE, XML, is_committed, is_output
+from osc2tx.support.paths import MODULE, SOURCE_MAP, XML, is_output
 
 _IN_MODULE: Final = re.compile(
     rb"^Made by osc2tx from (.+): edit the scenario, not this module\.$", re.MULTILINE
@@ -43,7 +43,7 @@ def stated_source(path: str, data: bytes) -> str | None:
         return _text(_IN_MODULE.search(data), path)
     if path.endswith(XML):
         return _text(_IN_XML.search(data[:_HEADER_SIZE]), path)
-    return _in_json(data) if is_committed(path) else None
+    return None if path.endswith(SOURCE_MAP) else _in_json(data)
 
 
 def _text(found: re.Match[bytes] | None, path: str) -> str | None:

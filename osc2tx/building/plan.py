@@ -18,6 +18,7 @@ from osc2tx.building.written_digests import Digests, is_inside
 from osc2tx.support.paths import (
     LOSS_REPORT,
     MODULE,
+    SOURCE_MAP,
     XML,
     is_committed,
     is_portable,
@@ -64,7 +65,7 @@ class Planned:
     @property
     def owned(self) -> str:
         """The output that tells whose it is: itself, for a source map its module."""
-        return self.path if self.is_committed else module_of(self.path)
+        return module_of(self.path) if self.path.endswith(SOURCE_MAP) else self.path
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,8 +176,6 @@ class Folder:
             return State.CURRENT
         if self.source_of(planned.owned) is None:
             return State.FOREIGN
-        if not planned.is_committed:
-            return State.STALE
         if is_in_conflict(self._read(planned.path) or b""):
             return State.CONFLICTED
         return State.STALE if self.is_untouched(planned.path) else State.EDITED
@@ -184,9 +183,13 @@ class Folder:
     def is_untouched(self, path: str) -> bool:
         """Return whether an output is as osc2tx wrote it, as it was committed, or missing.
 
+        Edits of files that are not committed do not count.
+
         Raises:
             OSError: As `digest_of`.
         """
+        if not is_committed(path):
+            return True
         present = self.digest_of(path)
         if not present:
             return present is None
@@ -286,7 +289,7 @@ def find_orphans(
     targets = {result.job.name: result.job.options.target for result in results}
     inner = scope.folders() or {name.rpartition("/")[0] for name in compiled}
     candidates = {path for each in inner for path in folder.outputs_below(each)}
-    for path in sorted(filter(is_committed, candidates - made)):
+    for path in sorted(candidates - made):
         source = folder.source_of(path)
         if source is None or source in failed or folder.is_missing(path):
             continue

@@ -69,7 +69,8 @@ def update_folder(out_dir: Path, written: Digests, update: Update) -> tuple[list
             return [], writer.failures
     writer.stage({planned.path: text for planned, text in update.writes})
     for planned, _ in sorted(update.writes, key=lambda pair: not pair[0].is_committed):
-        is_wanted = planned.is_committed or records.has(planned.owned)  # a map needs its module
+        needs_other = planned.owned != planned.path  # a map needs its module
+        is_wanted = not needs_other or records.has(planned.owned)
         if is_wanted and writer.put(planned.path):
             records.enter(planned)
     for orphan in update.removals:

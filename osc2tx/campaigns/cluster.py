@@ -17,7 +17,7 @@ from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.campaigns import Plan, Row, RowResult
 from osc2tx_runtime.campaigns.remote import parcel_of, run_rows, unchanged
 from osc2tx_runtime.campaigns.worker import Refused
-from osc2tx_runtime.errors import told
+from osc2tx_runtime.errors import message_of
 
 from .store import CampaignError
 
@@ -50,7 +50,8 @@ class DaskEngine:
             )
         except (OSError, ValueError) as error:
             raise CampaignError(
-                f"--engine dask://{self._address}: no scheduler of Dask answers: {told(error)}"
+                f"--engine dask://{self._address}: no scheduler of Dask answers: "
+                f"{message_of(error)}"
             ) from error
         try:
             yield from _Flight(dask, client, plan, rows, self._batch, self._patience).results()
@@ -153,7 +154,7 @@ class _Flight:
         except self._dask.CancelledError:
             raise
         except Exception as error:  # of the cluster: rows have their errors in their results
-            raise CampaignError(f"a worker cannot run rows: {told(error)}") from error
+            raise CampaignError(f"a worker cannot run rows: {message_of(error)}") from error
         if isinstance(found, Refused):
             raise CampaignError(found.message)
         return found

@@ -27,7 +27,7 @@ from osc2tx.campaigns.records import (
     require_types,
 )
 from osc2tx_runtime.campaigns import RowResult
-from osc2tx_runtime.errors import NO_RESULT, told
+from osc2tx_runtime.errors import NO_RESULT, message_of
 from osc2tx_shared.links import target_outside
 
 
@@ -214,7 +214,7 @@ class Store:
             yield
         except (*NO_RESULT, AttributeError, TypeError) as error:
             raise CampaignError(
-                f"{self.path}: {what} is damaged ({told(error)}); nothing was changed"
+                f"{self.path}: {what} is damaged ({message_of(error)}); nothing was changed"
             ) from error
 
     @property

@@ -38,6 +38,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "campaign": ("osc2tx.cli.campaign:campaign", "Run a scenario many times, with other values."),
     "verify": ("osc2tx.cli.verify:verify", "Check whether a trace does what its scenario states."),
     "report": ("osc2tx.cli.report:report", "Make pages of traces: one run, two, or a folder."),
+    "import": ("osc2tx.cli.import_:import_", "Make scenarios of OpenSCENARIO XML documents."),
     "fmt": ("osc2tx.cli.fmt:fmt", "Lay scenario files out in the style of the standard."),
     "tree": ("osc2tx.cli.tree:tree", "Draw the behavior tree of a scenario."),
     "graph": ("osc2tx.cli.graph:graph", "Show who uses what in a project."),

@@ -108,5 +108,13 @@ from osc2tx.ir.user_types import (
     lineages,
     merged,
 )
-from osc2tx.ir.values import ExpressionBase, Kind, TrailingComment, Unit, ValueType, qualified
+from osc2tx.ir.values import (
+    CommentBelow,
+    ExpressionBase,
+    Kind,
+    TrailingComment,
+    Unit,
+    ValueType,
+    qualified,
+)
 from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors

@@ -145,11 +145,12 @@ class Variable(DeclarationBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class MethodParameter:
-    """A parameter of a method or event."""
+    """A parameter of a method, event or modifier."""
 
     name: str
     type: ValueType
     default: Expression | None
+    comments: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

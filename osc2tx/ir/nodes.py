@@ -40,6 +40,7 @@ class Override:
     overridden: str
     by: str
     mode: str
+    comments: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

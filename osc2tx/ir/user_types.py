@@ -43,8 +43,8 @@ class UserType:
         fields: Those of its own that have values.
         unused: Those of its own that no file speaks of.
         methods: Its own methods, in source order.
-        keeps: Its constraints as the source has them, each with the comment lines above it; every
-            object of it states those that it needs itself.
+        keeps: Its constraints as the source has them, each with the comment lines above it, and
+            the comment lines below the type; every object states the constraints that it needs.
         is_of_library: Whether it is a type of the library, with what `extend` adds to it or to one
             of its bases; its bases then are those of them.
     """
@@ -143,6 +143,7 @@ class UserModifier:
         key: Tells it apart from others of the same name.
         parameters: Its parameters, in source order.
         calls: What it stands for, in terms of them.
+        keeps: Its constraints as the source has them; every application is checked for itself.
     """
 
     name: str
@@ -151,6 +152,7 @@ class UserModifier:
     parameters: tuple[MethodParameter, ...]
     calls: tuple[ModifierCall, ...]
     comments: tuple[str, ...] = ()
+    keeps: tuple[str, ...] = ()
 
 
 def lineage(type_: str, own: Mapping[str, UserType]) -> tuple[str, ...]:

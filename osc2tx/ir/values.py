@@ -55,7 +55,13 @@ class Unit:
 
 
 class TrailingComment(str):
-    """The last comment line of a statement, where it stands behind the first line of it."""
+    """A comment line that stands behind the first line of a statement; those above come first."""
+
+    __slots__ = ()
+
+
+class CommentBelow(str):
+    """A comment line below a statement, the last of its lines."""
 
     __slots__ = ()
 

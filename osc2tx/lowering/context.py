@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
 from typing import TypeVar
 
@@ -14,6 +14,7 @@ from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx.analysis.constraints.parameter_lookup import Place
 from osc2tx.analysis.same_actors import SameActor
 from osc2tx.diagnostics import DiagnosticSink, Span
+from osc2tx.ir.source_text import condensed
 from osc2tx.lowering.constraints.parameter_settings import Setting
 from osc2tx.lowering.value_types import authored_unit
 from osc2tx.semantics import SemanticModel
@@ -221,8 +222,29 @@ def present(parts: Sequence[Part | None]) -> tuple[Part, ...]:
     return tuple(part for part in parts if part is not None)
 
 
+def apart(lines: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the comment lines above and behind a statement, and those below it."""
+    below = tuple(line for line in lines if isinstance(line, ir.CommentBelow))
+    return lines[: len(lines) - len(below)], below
+
+
+def stated_keeps(statements: Iterable[ast.Statement]) -> Iterator[str]:
+    """Yield constraints as comment lines, each below its own comments."""
+    for statement in statements:
+        if isinstance(statement, ast.KeepConstraint):
+            yield from map(str, statement_comments(statement))
+            yield condensed(statement.span.text)
+
+
+def comments_around(lines: tuple[str, ...], inside: Iterable[str]) -> tuple[str, ...]:
+    """Return the comment lines of a statement, with some from inside of it below those above it."""
+    marked = [each for each in lines if isinstance(each, ir.TrailingComment | ir.CommentBelow)]
+    return (*lines[: len(lines) - len(marked)], *map(str, inside), *marked)
+
+
 def statement_comments(node: ast.Statement) -> tuple[str, ...]:
-    """Return the comment lines that belong to a statement, its trailing one last."""
-    if node.trailing_comment is None:
+    """Return the comment lines that belong to a statement: above, behind and below it."""
+    if node.trailing_comment is None and not node.comments_below:
         return node.comments
-    return (*node.comments, ir.TrailingComment(node.trailing_comment))
+    behind = () if node.trailing_comment is None else (ir.TrailingComment(node.trailing_comment),)
+    return (*node.comments, *behind, *map(ir.CommentBelow, node.comments_below))

@@ -22,7 +22,7 @@ from osc2tx.lowering.behavior.durations import own_duration
 from osc2tx.lowering.behavior.time_system import TimeSystem
 from osc2tx.lowering.behavior.user_actions import lower_actions
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
-from osc2tx.lowering.context import LoweringContext, present, statement_comments
+from osc2tx.lowering.context import LoweringContext, apart, present, statement_comments
 from osc2tx.lowering.coverage.coverage import lower_coverage
 from osc2tx.lowering.declarations.combined_types import lineage
 from osc2tx.lowering.declarations.declaration_order import in_order_of_use
@@ -224,7 +224,7 @@ def _lower_scenario(
     made = ir.AbstractScenario(
         name=scenario.qualified_name,
         span=node.name.span,
-        comments=statement_comments(node),
+        comments=apart(statement_comments(node))[0],
         declarations=in_order_of_use(
             ctx,
             (
@@ -239,7 +239,7 @@ def _lower_scenario(
         ),
         methods=(*methods, *type_methods),
         placements=merged(ctx, (*_member_placements(ctx, statements, standing), *placements)),
-        end_comments=node.end_comments if isinstance(node, ast.ScenarioDeclaration) else (),
+        end_comments=(*_end_comments(node), *node.comments_below),
         overrides=lower_overrides(ctx, statements),
         coverage=coverage,
         constraints=(*shared.constraints, *left_over, *times.constraints),
@@ -247,6 +247,10 @@ def _lower_scenario(
         is_action=isinstance(scenario, sym.ActionSymbol),
     )
     return made if body is None else ir.Scenario(**_fields(made), body=body)
+
+
+def _end_comments(node: ast.Statement) -> tuple[str, ...]:
+    return node.end_comments if isinstance(node, ast.ScenarioDeclaration) else ()
 
 
 def _fields(scenario: ir.AbstractScenario) -> dict[str, Any]:

@@ -18,8 +18,11 @@ LOSS_REPORT = ".xosc.report.json"
 
 
 def is_committed(name: str) -> bool:
-    """Whether a file belongs into version control: source maps hold line numbers."""
-    return not name.endswith(SOURCE_MAP)
+    """Whether a file belongs into version control: what is run, and so what a reviewer reads.
+
+    Source maps hold line numbers, and reports only say what the others show; builds write them.
+    """
+    return name.endswith((MODULE, XML))
 
 
 def is_output(name: str) -> bool:

@@ -102,6 +102,8 @@ class CommentTable:
         self._above: dict[int, list[Comment]] = {}
         self._inside: dict[int, list[Comment]] = {}
         self._ends: dict[int, list[Comment]] = {}
+        self._below: dict[int, list[Comment]] = {}  # by the token that follows the statement
+        self._apart = set[int]()  # statements below a blank line below their comments
         prose = (comment for comment in table.comments if not is_suppression(comment.text))
         for (line, before), comments in groupby(prose, lambda c: (c.line, c.before)):
             if line is None:
@@ -121,20 +123,38 @@ class CommentTable:
             blank_lines=table.blank_lines.get(before, 0),
         )
         shared = share(comments, gap)
-        self._above[below + opens] = shared.above
+        self._below[below] = [*shared.deeper, *shared.touching]
+        if table.types[below] == EOF:
+            self._below[below] += shared.above
+        else:
+            self._above[below + opens] = shared.above
+        if shared.above and gap.blank_lines and gap.column:
+            self._apart.add(below + opens)
         self._ends.update(zip(range(before, below), shared.ends, strict=False))
 
     def above(self, token: int) -> tuple[str, ...]:
-        """Return the comments above the statement that starts at a token."""
-        return _texts(self._above.get(token, ()))
+        """Return the comments above the statement that starts at a token.
+
+        In a block, an empty line ends them if a blank line parts them from the statement.
+        """
+        texts = _texts(self._above.get(token, ()))
+        return (*texts, "") if token in self._apart else texts
+
+    def below(self, token: int) -> tuple[str, ...]:
+        """Return the comments below the statement that ends before a token."""
+        return _texts(self._below.get(token, ()))
 
     def inside(self, token: int) -> list[Comment]:
         """Return the comments inside the logical line that starts at a token."""
         return self._inside.get(token, [])
 
     def at_end_of_block(self, dedent: int) -> tuple[str, ...]:
-        """Return the comments at the end of the block that a token closes."""
-        return _texts(self._ends.get(dedent, ()))
+        """Return the comments at the end of the block that a token closes, for its owner."""
+        return _texts(self._ends.pop(dedent, ()))
+
+    def hand_end_on(self, dedent: int) -> None:
+        """Give those at the end of a block whose owner has no place for them to its last member."""
+        self._below[dedent] = [*self._below.get(dedent, ()), *self._ends.pop(dedent, ())]
 
     def hand_on(self, line: int, statement: int) -> None:
         """Give the comments of a logical line that is no statement to the statement below it."""

@@ -9,7 +9,7 @@ from enum import Enum
 from osc2tx.diagnostics import Span
 from osc2tx.syntax import ast
 
-_HIDDEN = frozenset({"span", "comments", "trailing_comment", "end_comments"})
+_HIDDEN = frozenset({"span", "comments", "trailing_comment", "comments_below", "end_comments"})
 
 
 def dump_ast(file: ast.File) -> str:
@@ -52,7 +52,8 @@ def _node_lines(role: str, node: ast.Node, depth: int) -> Iterator[str | tuple[s
         yield from _comment_lines(node, name, indent)
     for child_role, child in children:
         yield child_role, child, depth + 1
-    yield from _comment_lines(node, "end_comments", indent)
+    for name in ("end_comments", "comments_below"):
+        yield from _comment_lines(node, name, indent)
 
 
 def _comment_lines(node: ast.Node, name: str, indent: str) -> Iterator[str]:

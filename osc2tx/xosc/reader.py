@@ -7,7 +7,7 @@ stands: any order, parts of other versions, unknown elements. `checking` says wh
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 from xml.parsers import expat
 
 from osc2tx.xosc.element import Element, Place
@@ -48,19 +48,34 @@ class Unreadable(Exception):
         self.place = place
 
 
-def read(data: bytes | str, limits: Limits = BOUNDED) -> Element:
+class Comment(NamedTuple):
+    """A comment of a document.
+
+    Attributes:
+        text: Its text.
+        within: Where the element begins that it stands in; `None`: outside of the root.
+    """
+
+    text: str
+    within: Place | None
+
+
+def read(
+    data: bytes | str, limits: Limits = BOUNDED, comments: list[Comment] | None = None
+) -> Element:
     """Return the root element of a document.
 
     Args:
         data: The document; the encoding of bytes is the one that they declare, else UTF-8.
         limits: What it may ask for.
+        comments: Takes its comments, in their order.
 
     Raises:
         Unreadable: It is no XML, or asks for too much.
     """
     if len(data) > limits.size:
         raise Unreadable(f"it has more than {limits.size} bytes", Place(1, 1))
-    return _Reading(limits).run(data)
+    return _Reading(limits, comments).run(data)
 
 
 @dataclass(slots=True)
@@ -82,8 +97,9 @@ class _Open:
 class _Reading:
     """Reads one document."""
 
-    def __init__(self, limits: Limits) -> None:
+    def __init__(self, limits: Limits, comments: list[Comment] | None) -> None:
         self._limits = limits
+        self._comments = comments
         self._open: list[_Open] = []
         self._root: Element | None = None
         self._count = 0
@@ -93,6 +109,8 @@ class _Reading:
         parser.StartElementHandler = self._start
         parser.EndElementHandler = self._end
         parser.CharacterDataHandler = self._text
+        if comments is not None:
+            parser.CommentHandler = self._comment
         parser.EntityDeclHandler = self._refuse_entity
         parser.SetParamEntityParsing(expat.XML_PARAM_ENTITY_PARSING_NEVER)
 
@@ -130,6 +148,11 @@ class _Reading:
 
     def _text(self, text: str) -> None:
         self._open[-1].texts.append(text)
+
+    def _comment(self, text: str) -> None:
+        if self._comments is not None and text.strip():
+            within = self._open[-1].place if self._open else None
+            self._comments.append(Comment(text.strip(), within))
 
     def _refuse_entity(self, name: str, *_: Any) -> None:
         raise Unreadable(f"it declares an entity of its own, `{name}`", self._place())

@@ -180,11 +180,11 @@ class OwnCode:
         """Translate what was raised."""
         if raised is None or isinstance(raised, ScenarioError | KeyboardInterrupt):
             return
-        raise self.error(f"{self.what} {told(raised)}", self.source or None) from raised
+        raise self.error(f"{self.what} {message_of(raised)}", self.source or None) from raised
 
 
-def told(error: BaseException) -> str:
-    """Return an exception in words; of one without a description, the name."""
+def message_of(error: BaseException) -> str:
+    """Return the class and the message of an exception; without a message, the class alone."""
     text = ""
     with suppress(Exception):  # its `__str__` is code of the user's own
         text = str(error)

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from osc2tx.cli.module_loading import scenarios_of_file
+from osc2tx.module_loading import scenarios_of_file
 from osc2tx_runtime import RunResult, RunSettings, run_scenario
 from osc2tx_runtime.errors import SimulatorError
 from osc2tx_runtime.simulators.carla.client import actors, surroundings

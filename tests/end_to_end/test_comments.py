@@ -30,6 +30,7 @@ OURS = [
     for path in sorted(SCENARIOS.rglob("*.osc"))
 ]
 CASES = [path for stage in ("ir", "py_trees") for path in sorted((GOLDEN / stage).rglob("*.osc"))]
+RULES = ("keep", "remove_default", "extend")
 WITHOUT_CODE = ("type", "extend", "action")
 SORTED = ("def declare(", "# keep(", "# Units that")
 NUMBER = re.compile(r"<(\d+)>")
@@ -119,6 +120,13 @@ class Source:
         columns = [c.column for c in self.comments if before < c.line <= comment.line]
         return below if any(each <= below.column for each in columns if each is not None) else None
 
+    def is_rule(self, number: int) -> bool:
+        """Whether a comment is of a constraint or extension: with what that is about."""
+        comment = self.comments[number]
+        above = [line for line in self.lines if line.first <= comment.line]
+        near = (self.statement(comment), above[-1] if above else None)
+        return any(x and self.rows[x.first - 1].strip().startswith(RULES) for x in near)
+
     def block(self, line: Line) -> range:
         """Return the lines of a statement, its block included."""
         below = (each.first for each in self.lines if each.first > line.first)
@@ -153,27 +161,33 @@ def logical_lines(table: TokenTable) -> Iterator[Line]:
 # --- What came of them ----------------------------------------------------------------------------
 
 
-def commented(node: Any, name: str) -> Iterator[tuple[Any, int]]:
-    """Yield each node of the IR below one with the number of each of its comments."""
+def commented(node: Any, name: str) -> Iterator[tuple[Any, str, int]]:
+    """Yield each node of the IR below one with each of its comments and the number of that."""
     if isinstance(node, tuple):
         for each in node:
             yield from commented(each, name)
     elif is_dataclass(node) and not isinstance(node, type):
         for comment in getattr(node, name, ()):
             if found := NUMBER.fullmatch(comment):
-                yield node, int(found[1])
+                yield node, comment, int(found[1])
         for field in fields(node):
             yield from commented(getattr(node, field.name), name)
 
 
 def assert_above(module: ir.Module, source: Source) -> None:
     """What stands below a comment is made from the statement that it stands above."""
-    for node, number in commented(module.scenarios + module.types, "comments"):
+    for node, written, number in commented(module.scenarios + module.types, "comments"):
         comment = source.comments[number]
+        if isinstance(written, ir.CommentBelow):
+            assert node.span.line < comment.line
+            continue
         statement = source.statement(comment)
+        header = next(x for x in source.lines if x.first <= node.span.line <= x.last)
+        if comment.line in source.block(header):
+            continue  # of a part of it that is nothing of its own
         assert statement is not None, (node, comment)
         said = source.rows[statement.first - 1].strip()
-        if said.startswith("keep") or isinstance(node, ir.Placement):
+        if said.startswith(("keep", "extend")) or isinstance(node, ir.Placement):
             continue  # said in the declaration of a field, in the one placement of an actor
         if source.header(node.span.line).startswith("modifier"):
             continue  # said where the modifier is applied
@@ -181,14 +195,17 @@ def assert_above(module: ir.Module, source: Source) -> None:
 
 
 def assert_below(module: ir.Module, source: Source) -> None:
-    """What stands at the end of a block is deeper than its header and than what follows."""
-    for node, number in commented(module.scenarios, "end_comments"):
+    """What stands at the end of a block is deeper than its header, or below the whole block."""
+    for node, _, number in commented(module.scenarios, "end_comments"):
         comment = source.comments[number]
         header = next(x for x in source.lines if x.first <= node.span.line <= x.last)
         assert comment.column is not None
-        assert header.column < comment.column
         assert header.first < comment.line
-        assert comment.line < source.block(header).stop
+        if header.column < comment.column:
+            assert comment.line < source.block(header).stop
+        else:
+            inside = [line.first for line in source.lines if line.first in source.block(header)]
+            assert not [x for x in source.lines if max(inside) < x.first < comment.line]
 
 
 def assert_once_and_in_order(python: str, source: Source) -> None:
@@ -202,7 +219,7 @@ def assert_once_and_in_order(python: str, source: Source) -> None:
         lines = [source.comments[number].line for number in repeated]
         assert not [n for n in lines if not source.header(n).startswith("modifier")]
         for function in re.split(r"\n(?=(?: *#.*\n)*(?: *@.*\n)*(?:class| *def) )", class_):
-            found = [int(number) for number in NUMBER.findall(function)]
+            found = [int(n) for n in NUMBER.findall(function) if not source.is_rule(int(n))]
             applied = any(source.header(source.comments[n].line).startswith("modif") for n in found)
             gathered = any(each in function for each in SORTED)
             if not gathered and not applied:

@@ -13,7 +13,16 @@ from pathlib import Path
 import py_trees
 import pytest
 
-from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
+from osc2tx_runtime import (
+    Behaviour,
+    RunSettings,
+    Scenario,
+    ScenarioError,
+    Serial,
+    Wait,
+    elapsed,
+    run_scenario,
+)
 from osc2tx_runtime.units import kph
 from tests.end_to_end.harness import REPOSITORY
 from tests.processes import HANGING
@@ -23,11 +32,11 @@ GENERATED = REPOSITORY / "generated"
 
 BROKEN = """
 from cut_in import CutIn
-from osc2tx_runtime import main
+from osc2tx_runtime import Call, Wait, main
 
 class Broken(CutIn):
     def other_cuts_in(self):
-        return self.other.drvie()
+        MISTAKE
 
 raise SystemExit(main(Broken))
 """
@@ -48,7 +57,7 @@ def test_the_page_runs(cut_in: type[Scenario]) -> None:
     with contextlib.redirect_stdout(said):
         for block in blocks:
             exec(block, names)
-    assert said.getvalue().split() == ["success", "90.0"]
+    assert said.getvalue().split() == ["success", "success", "90.0"]
 
 
 def test_an_assigned_parameter_is_what_trace_and_world_have(cut_in: type[Scenario]) -> None:
@@ -85,9 +94,19 @@ def test_a_tree_without_a_run_says_what_to_call(cut_in: type[Scenario]) -> None:
         py_trees.trees.BehaviourTree(cut_in().create_tree()).root.tick_once()
 
 
-def test_mistakes_in_a_subclass_are_those_of_its_file(tmp_path: Path) -> None:
+MISTAKES = {
+    "return self.other.drvie()": (4, "error: {script}:7: AttributeError: "),
+    "return Wait(1, 2, 3)": (5, "{script}:7: error[OSC801]: `Wait(1, 2, 3)` cannot be computed"),
+    "return Wait(lambda: self.other.sped > 3)": (4, "error: {script}:7: AttributeError: "),
+    "return Wait(lambda: 1 / 0)": (5, "{script}:7: error[OSC801]: the condition has no value"),
+    "return Call(lambda: self.nothing())": (5, "{script}:7: error[OSC801]: call nothing()"),
+}
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_mistakes_in_a_subclass_are_those_of_its_file(mistake: str, tmp_path: Path) -> None:
     script = tmp_path / "broken.py"
-    script.write_text(BROKEN, encoding="utf-8")
+    script.write_text(BROKEN.replace("MISTAKE", mistake), encoding="utf-8")
     done = subprocess.run(
         [sys.executable, str(script)],
         capture_output=True,
@@ -95,7 +114,21 @@ def test_mistakes_in_a_subclass_are_those_of_its_file(tmp_path: Path) -> None:
         timeout=HANGING,
         env={"PYTHONPATH": f"{GENERATED}:{REPOSITORY / 'runtime_lib'}"},
     )
-    assert done.returncode == 4
+    code, message = MISTAKES[mistake]
+    assert done.returncode == code
     last = done.stderr.splitlines()[-1]
-    assert last.startswith(f"error: {script}:7: AttributeError: ")
+    assert last.startswith(message.format(script=script)), done.stderr
     assert "bug" not in done.stderr
+
+
+def test_an_overridden_behavior_may_hold_that_of_the_base(cut_in: type[Scenario]) -> None:
+    class Waits(cut_in):  # type: ignore[misc, valid-type]
+        name = "waits"
+
+        def behavior(self) -> Behaviour:
+            return Serial("first the base", super().behavior(), Wait("then", elapsed(1.0)))
+
+    base, both = (run_scenario(each, RunSettings()) for each in (cut_in, Waits))
+    assert (base.status, both.status) == ("success", "success")
+    ends = [max(json.loads(x).get("t", 0.0) for x in r.trace_lines) for r in (base, both)]
+    assert ends[1] == pytest.approx(ends[0] + 1.0)

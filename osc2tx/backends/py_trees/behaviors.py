@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import assert_never
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.calls import CallWriter, apart, code, comments
+from osc2tx.backends.py_trees.calls import CallWriter, around, code, comments
 from osc2tx.backends.py_trees.code import (
     Level,
     PyDocLine,
@@ -86,12 +86,12 @@ class BehaviorTreeBuilder:
         """
         index = len(self._written)
         value = self._node(node)
-        story = docstring_of(node.comments)
+        story = docstring_of(_not_below(node))
         method = MethodView(
             signature=signature(name, (), BEHAVIOUR),
-            value=replace(value, comments=(), trailing=None),
+            value=replace(value, comments=(), trailing=None, below=()),
             docstring=tuple(PyDocLine.of(text) for text in (story,) if text),
-            comments=() if story else comments(node.comments),
+            comments=() if story else comments(_not_below(node)),
         )
         self._written.insert(index, method)
 
@@ -101,7 +101,8 @@ class BehaviorTreeBuilder:
         if name is None:
             return self._node(node)
         self._method(name, node)
-        return ArgumentView(call=CallView(self_attribute(name)))
+        below = around(node.comments)["below"]
+        return ArgumentView(call=CallView(self_attribute(name)), below=below)
 
     def _node(self, node: ir.Behavior) -> ArgumentView:
         until = (
@@ -112,8 +113,7 @@ class BehaviorTreeBuilder:
             triggers = self._calls.triggers(until)
             call = self._calls.runtime_call("Until", ArgumentView(call=call), *triggers)
             call = replace(call, exploded=True)
-        above, behind = apart(node.comments)
-        return ArgumentView(call=call, comments=above, trailing=behind)
+        return ArgumentView(call=call, **around(node.comments))
 
     def _call(self, node: ir.Behavior) -> CallView:
         match node:
@@ -214,9 +214,16 @@ def _own_name(scenario: ir.Scenario) -> PyExpr:
     return self_attribute(PyName("short_name" if "." in scenario.name else "name"))
 
 
+def _not_below(node: ir.Behavior) -> tuple[str, ...]:
+    """Return the comment lines above and behind a member."""
+    return tuple(line for line in node.comments if not isinstance(line, ir.CommentBelow))
+
+
 def docstring_of(lines: Sequence[str]) -> str:
     """Return a comment as a docstring, without rules and frames around it; empty if it is long."""
     plain = [text for line in lines if (text := line.strip(RULES))]
+    if lines and not lines[-1]:
+        return ""  # a blank line parts them from the phase
     if len(plain) != 1 or len(plain[0]) >= DOC_WIDTH:
         return ""
     return f"{plain[0]}." if plain[0][-1].isalnum() else plain[0]
@@ -231,4 +238,4 @@ def _override(override: ir.Override) -> StatementView:
     labels = (code(literal(override.overridden)), code(literal(override.by)))
     mode = () if override.mode == "on_start" else (code(literal(override.mode), "mode"),)
     call = CallView(self_attribute(PyName("override")), (*labels, *mode))
-    return StatementView(None, ArgumentView(call=call))
+    return StatementView(None, ArgumentView(call=call), **around(override.comments))

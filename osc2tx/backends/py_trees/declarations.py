@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.calls import CallWriter, apart, code, comments
+from osc2tx.backends.py_trees.calls import CallWriter, around, code, comments
 from osc2tx.backends.py_trees.code import (
     Level,
     PyDocLine,
@@ -125,12 +125,10 @@ class DeclarationWriter:
         lines = declaration.comments
         if declaration is self._first_implicit_event:
             lines = ("Events that the scenario uses without declaring them",)
-        above, behind = apart(lines)
         return StatementView(
             target=self_attribute(name),
             value=self._declared_value(declaration),
-            comments=above,
-            trailing=behind,
+            **around(lines),
             blank_before=not is_first and self._stands_apart(declaration),
             annotation=self._declared_type(declaration),
         )

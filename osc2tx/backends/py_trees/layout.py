@@ -66,12 +66,15 @@ def _lines(call: CallView, on_one_line: str | None, column: int) -> list[str]:
 def _commented(view: ArgumentView | StatementView, indent: str, text: str) -> list[str]:
     """Write a text with its comments: the trailing one behind it, or above where it is too long."""
     above = [f"{indent}{comment}" for comment in view.comments]
+    if isinstance(view, StatementView) and above and not view.comments[-1].text:
+        above[-1] = ""
+    below = [f"{indent}{comment}" for comment in view.below]
     if view.trailing is None:
-        return [*above, text]
+        return [*above, text, *below]
     line = f"{text}  {view.trailing}"
     if "\n" in text or len(line) > LINE_LENGTH or not is_plain(text):
-        return [*above, f"{indent}{view.trailing}", text]
-    return [*above, line]
+        return [*above, f"{indent}{view.trailing}", text, *below]
+    return [*above, line, *below]
 
 
 def _on_one_line(call: CallView) -> str | None:
@@ -86,7 +89,7 @@ def _on_one_line(call: CallView) -> str | None:
             if inner is None:
                 return None
             text = inner.join(_brackets(each.call))
-        if each.comments or each.trailing:
+        if each.comments or each.trailing or each.below:
             return None
         written.append(f"{each.keyword}={text}" if each.keyword else text)
     return ", ".join(written)

@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.calls import CallWriter
+from osc2tx.backends.py_trees.calls import CallWriter, comments
 from osc2tx.backends.py_trees.code import Level, PyDocLine, PyExpr
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
@@ -55,15 +55,17 @@ def write_modifiers(
             hidden=functions.hidden(modifier),
         )
         calls = CallWriter(expressions, uses.name, uses.modifier, functions)
-        parameters = [_parameter(p, expressions, types) for p in modifier.parameters]
+        parameters = tuple(
+            (comments(p.comments), _parameter(p, expressions, types)) for p in modifier.parameters
+        )
         about = ("", *modifier.comments) if modifier.comments else ()
         written = tuple(calls.modifiers(modifier.calls))
-        listed = ", ".join(("*", *parameters)) if parameters else ""
         kinds = dict.fromkeys(uses.modifier(identifier(call.name)) for call in modifier.calls)
-        result = " | ".join(map(str, kinds))
-        signature = f"{names[modifier.key]}({listed}) -> list[{result}]"
         return UserModifierView(
-            signature=PyExpr(signature, Level.ATOM),
+            name=names[modifier.key],
+            parameters=parameters,
+            result=PyExpr(f"list[{' | '.join(map(str, kinds))}]", Level.ATOM),
+            keeps=comments(modifier.keeps),
             docstring=tuple(map(PyDocLine.of, (f"Modifier `{modifier.name}`.", *about))),
             value=ArgumentView(call=CallView(None, written, exploded=True)),
         )
@@ -73,7 +75,9 @@ def write_modifiers(
 
 def _parameter(
     parameter: ir.MethodParameter, expressions: ExpressionWriter, types: TypeTable
-) -> str:
+) -> PyExpr:
     name = expressions.parameter(parameter.name)
     text = f"{name}: {types.annotation(parameter.type)}"
-    return text if parameter.default is None else f"{text} = {expressions.write(parameter.default)}"
+    if parameter.default is not None:
+        text = f"{text} = {expressions.write(parameter.default)}"
+    return PyExpr(text, Level.ATOM)

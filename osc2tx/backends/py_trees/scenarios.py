@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.behaviors import BehaviorTreeBuilder
-from osc2tx.backends.py_trees.calls import CallWriter, apart, code, comments
+from osc2tx.backends.py_trees.calls import CallWriter, around, code, comments
 from osc2tx.backends.py_trees.code import (
     Level,
     PyDocLine,
@@ -185,15 +185,13 @@ class ScenarioWriter:
         write = self._calls.expressions.write
         statements = []
         for index, constraint in enumerate(self._own.constraints):
-            above, behind = apart(constraint.comments)
             statements.append(
                 StatementView(
                     target=None,
                     value=ArgumentView(
                         call=CallView(_self("keep"), (code(write(constraint.expression)),))
                     ),
-                    comments=above,
-                    trailing=behind,
+                    **around(constraint.comments),
                     blank_before=index == 0 or bool(constraint.comments),
                 )
             )

@@ -11,13 +11,14 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(frozen=True, slots=True)
 class ArgumentView:
-    """An argument of a call: plain code, or a call of its own; `trailing` stands behind it."""
+    """An argument of a call: plain code, or a call of its own, with the comments around it."""
 
     code: PyExpr | None = None
     call: CallView | None = None
     keyword: PyName | None = None
     comments: tuple[PyComment, ...] = ()
     trailing: PyComment | None = None
+    below: tuple[PyComment, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +39,7 @@ class StatementView:
     value: ArgumentView
     comments: tuple[PyComment, ...] = ()
     trailing: PyComment | None = None
+    below: tuple[PyComment, ...] = ()
     blank_before: bool = False
     annotation: PyExpr | None = None
 
@@ -207,12 +209,28 @@ class UserActionView:
 
 @dataclass(frozen=True, slots=True)
 class UserModifierView:
-    """A modifier of the user's own, as a function; `copied` says why it is a copy, if it is one."""
+    """A modifier of the user's own, as a function.
 
-    signature: PyExpr
+    Attributes:
+        name: Its name.
+        parameters: As they are written, each below its comments.
+        result: Type of its result.
+        keeps: Its constraints, as comments.
+        copied: Why it is a copy, if it is one.
+    """
+
+    name: PyName
+    parameters: tuple[tuple[tuple[PyComment, ...], PyExpr], ...]
+    result: PyExpr
+    keeps: tuple[PyComment, ...]
     docstring: tuple[PyDocLine, ...]
     value: ArgumentView
     copied: PyComment | None = None
+
+    @property
+    def is_long(self) -> bool:
+        """Whether each parameter has a line, since some have comments."""
+        return any(above for above, _ in self.parameters)
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,9 +22,9 @@ class Names:
         self._numbers: dict[str, int] = {}  # the last one of a name
         self._key = str.lower if folds_case else str
 
-    def new(self, wish: str) -> str:
+    def new(self, preferred: str) -> str:
         """Return a name that nobody has."""
-        base = name = plain(wish)
+        base = name = plain(preferred)
         number = self._numbers.get(self._key(base), 1)
         while self._key(name) in self._taken:
             number += 1

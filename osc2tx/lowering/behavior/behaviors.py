@@ -48,11 +48,13 @@ class BehaviorLowering:
     def lower_do(self, node: ast.DoDirective, *, is_phase: bool) -> ir.Behavior | None:
         """Lower a `do`; the compositions right below its member are phases."""
         member = node.member
-        comments = (*statement_comments(node), *statement_comments(member))
         if isinstance(member, ast.Composition):
+            comments = (*statement_comments(node), *statement_comments(member))
             return self._composition(member, comments, is_phase=is_phase, is_root=True)
         body = self.lower(member)
-        return None if body is None else replace(body, comments=comments)
+        if body is None:
+            return None
+        return replace(body, comments=(*statement_comments(node), *body.comments))
 
     def lower(self, node: ast.BehaviorMember, *, below_root: bool = False) -> ir.Behavior | None:
         """Lower a member; `None` if it was refused."""
@@ -62,7 +64,7 @@ class BehaviorLowering:
                 is_phase = below_root or node.label is not None
                 return self._composition(node, comments, is_phase=is_phase, is_root=False)
             case ast.Invocation():
-                return self._invocations.lower(node, comments)
+                return self._invocations.lower(node)
             case ast.WaitDirective(event=event):
                 trigger = lower_trigger(self._ctx, event)
                 if trigger is None:
@@ -103,7 +105,7 @@ class BehaviorLowering:
             "span": node.span,
             "label": label_of(node),
             "name": composition_name(node.operator.value, members, is_phase=is_phase),
-            "comments": comments,
+            "comments": self._invocations.comments_of(node, comments),
             "members": members,
             "is_phase": is_phase,
             "duration": self._time(arguments.get("duration")) or kept.get("duration"),

@@ -31,7 +31,7 @@ from osc2tx.lowering.behavior.triggers import lower_until
 from osc2tx.lowering.behavior.user_actions import default_arguments, is_user_defined
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
 from osc2tx.lowering.constraints.parameter_settings import Instance, Setting
-from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.context import LoweringContext, comments_around, statement_comments
 from osc2tx.lowering.declarations.objects import ObjectLowering
 from osc2tx.lowering.modifiers.modifiers import draw_ranges, is_override
 from osc2tx.lowering.modifiers.standing_modifiers import StandingModifiers
@@ -50,6 +50,8 @@ from osc2tx.semantics.scope import supertypes
 from osc2tx.syntax import ast
 from osc2tx_shared.classes import replace
 
+Rule = ast.KeepConstraint | ast.RemoveDefault
+
 
 class InvocationLowering:
     """Lowers the invocations of one scenario."""
@@ -62,8 +64,12 @@ class InvocationLowering:
         self._constraints = constraints
         self._standing = standing
 
-    def lower(self, node: ast.Invocation, comments: tuple[str, ...]) -> ir.Behavior | None:
-        """Lower an invocation, with what its modifiers attach; `None` if it was refused."""
+    def lower(self, node: ast.Invocation) -> ir.Behavior | None:
+        """Lower an invocation, with what its modifiers attach; `None` if it was refused.
+
+        What constraints say of it becomes arguments, which have no comments of their own.
+        """
+        comments = self.comments_of(node, statement_comments(node))
         binding = self._ctx.model.binding_of(node)
         callee = binding.callee
         actor = self._actor(node, binding)
@@ -79,6 +85,14 @@ class InvocationLowering:
         if invocation is None:
             return None
         return attached.around(invocation, f"{name_of_member(node)} with reactions")
+
+    def comments_of(
+        self, node: ast.Invocation | ast.Composition, lines: tuple[str, ...]
+    ) -> tuple[str, ...]:
+        """Return the comment lines of a member, those of the rules in its `with` block included."""
+        rules = [each for each in node.with_members if isinstance(each, Rule)]
+        said = (line for each in rules for line in self._constraints.comments_of(each))
+        return comments_around(lines, said)
 
     def _attach_extension(
         self,

@@ -395,9 +395,15 @@ class ConstraintLowering:
         )
 
     def _comments(self, constraint: Constraint) -> tuple[str, ...]:
-        """Return the comments of a constraint; one on several fields has them at the first."""
-        node = constraint.node
-        if not isinstance(node, ast.KeepConstraint) or node in self._with_comments:
+        """Return the comments of a constraint; the class of a type has those inside of the type."""
+        is_of_type = isinstance(next(iter(constraint.place.prefix), None), sym.FieldSymbol)
+        return () if is_of_type else self.comments_of(constraint.node)
+
+    def comments_of(self, node: ast.Node) -> tuple[str, ...]:
+        """Return the comments of a rule; one on several fields has them at the first."""
+        if not isinstance(node, ast.KeepConstraint | ast.RemoveDefault) or node in (
+            self._with_comments
+        ):
             return ()
         self._with_comments.add(node)
         return statement_comments(node)

@@ -8,7 +8,13 @@ from osc2tx import ir
 from osc2tx.lowering.behavior.composed_behaviors import Composed, is_placeholder, lineage_of
 from osc2tx.lowering.behavior.triggers import boundary_of, event_parameter, lower_trigger
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
-from osc2tx.lowering.context import LoweringContext, Receiver, present, statement_comments
+from osc2tx.lowering.context import (
+    LoweringContext,
+    Receiver,
+    comments_around,
+    present,
+    statement_comments,
+)
 from osc2tx.lowering.declarations.fields import FieldLowering
 from osc2tx.lowering.placement.carla_paths import is_path, path_declarations, path_members
 from osc2tx.lowering.value_types import lower_type
@@ -94,7 +100,7 @@ class DeclarationLowering:
     def _statement(self, statement: ast.Statement) -> Iterator[ir.Declaration]:
         match statement:
             case ast.ParameterDeclaration() | ast.VariableDeclaration():
-                comments = statement_comments(statement)
+                comments = _comments_of(statement)
                 for name in statement.names:
                     yield from self._declared(statement, name, comments)
                     comments = ()
@@ -202,3 +208,11 @@ class DeclarationLowering:
         for member in self._scenario.members.values():
             if isinstance(member, sym.EventSymbol) and member.is_implicit:
                 yield ir.Event(name=member.name, span=member.span, trigger=None, is_implicit=True)
+
+
+def _comments_of(node: ast.ParameterDeclaration | ast.VariableDeclaration) -> tuple[str, ...]:
+    """Return the comment lines of a declaration; nothing but them is left of a `remove_default`."""
+    rules = node.constraints if isinstance(node, ast.ParameterDeclaration) else ()
+    removals = (each for each in rules if isinstance(each, ast.RemoveDefault))
+    said = (line for each in removals for line in statement_comments(each))
+    return comments_around(statement_comments(node), said)

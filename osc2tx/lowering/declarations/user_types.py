@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import takewhile
-from typing import TypeVar
+from typing import TypeAlias, TypeVar
 
 from osc2tx import ir
 from osc2tx.diagnostics import Span
 from osc2tx.ir.source_text import condensed
-from osc2tx.lowering.context import LoweringContext, present, statement_comments
+from osc2tx.lowering.context import (
+    LoweringContext,
+    apart,
+    present,
+    stated_keeps,
+    statement_comments,
+)
 from osc2tx.lowering.declarations.user_fields import (
     TypeSymbol,
     class_default,
@@ -35,8 +41,15 @@ def lower_enums(model: SemanticModel, module: ir.Module) -> tuple[ir.UserEnum, .
         model: The checked program.
         module: Its other parts.
     """
-    nodes = {_place(node.name.span): node for node in _of_files(model, ast.EnumDeclaration)}
-    lowered = tuple(_lower_enum(e, nodes.get(_place(e.span))) for e in _user_enums(model))
+    declared = {_place(each.span): each for each in _user_enums(model)}
+    nodes: dict[sym.Symbol | None, list[EnumNode]] = {each: [] for each in declared.values()}
+    for node in _of_files(model, ast.EnumDeclaration):
+        if (symbol := declared.get(_place(node.name.span))) is not None:
+            nodes[symbol].append(node)
+    for extension in _of_files(model, ast.EnumExtension):
+        if (extended := model.symbol_of(extension.name)) in nodes:
+            nodes[extended].append(extension)
+    lowered = tuple(_lower_enum(each, nodes[each]) for each in declared.values())
     own = {each.span for each in lowered if each.span.source is model.root.span.source}
     if len(own) == len(lowered):
         return lowered
@@ -48,14 +61,15 @@ def _user_enums(model: SemanticModel) -> Iterator[sym.EnumSymbol]:
     return (each for each in model.symbols if isinstance(each, sym.EnumSymbol))
 
 
-def _lower_enum(symbol: sym.EnumSymbol, node: ast.EnumDeclaration | None) -> ir.UserEnum:
+def _lower_enum(symbol: sym.EnumSymbol, nodes: Sequence[EnumNode]) -> ir.UserEnum:
+    """Lower an enum; what its declaration and its extensions tell is together."""
     type_ = lower_type(types.EnumType(symbol))
-    told = ((m.name.text, statement_comments(m)) for m in (node.members if node else ()))
+    told = ((m.name.text, statement_comments(m)) for node in nodes for m in node.members)
     return ir.UserEnum(
         name=type_.name,
         span=symbol.span,
         members=type_.members,
-        comments=() if node is None else statement_comments(node),
+        comments=tuple(map(str, (line for each in nodes for line in statement_comments(each)))),
         told=tuple((name, lines) for name, lines in told if lines),
     )
 
@@ -69,6 +83,8 @@ def lower_units(model: SemanticModel) -> tuple[ir.UserUnit, ...]:
         if statement_comments(node)
     )
 
+
+EnumNode: TypeAlias = ast.EnumDeclaration | ast.EnumExtension
 
 StatementT = TypeVar("StatementT", bound=ast.Statement)
 
@@ -192,17 +208,28 @@ def _lower_type(
     node: ast.ActorDeclaration | ast.StructDeclaration | None,
 ) -> ir.UserType:
     defaults = _class_defaults(ctx, symbol)
+    comments, below = apart(() if node is None else statement_comments(node))
     return ir.UserType(
         name=symbol.name,
         span=symbol.span,
-        comments=() if node is None else statement_comments(node),
+        comments=(*comments, *_told_by(ctx, symbol)),
         bases=() if symbol.base is None else (symbol.base.name,),
         is_actor=isinstance(symbol, sym.ActorSymbol),
         fields=tuple(_lower_field(ctx, field) for field in user_fields(ctx, symbol)),
         unused=tuple(_lower_field(ctx, field) for field in unused_fields(ctx, symbol)),
         methods=present([_lower_method(ctx, each) for each in _methods(symbol)]),
-        keeps=tuple(_keeps(symbol.statements, defaults)),
+        keeps=(
+            *stated_keeps(each for each in symbol.statements if each not in defaults),
+            *map(str, below),
+        ),
     )
+
+
+def _told_by(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[str]:
+    """Yield the comments of the extensions of a type."""
+    for extended, node in _extensions(ctx):
+        if extended is symbol:
+            yield from map(str, statement_comments(node))
 
 
 def _lower_extended(ctx: LoweringContext, symbol: TypeSymbol) -> ir.UserType:
@@ -224,7 +251,9 @@ def _lower_extended(ctx: LoweringContext, symbol: TypeSymbol) -> ir.UserType:
         fields=tuple(_lower_field(ctx, field) for field in user_fields(ctx, symbol)),
         unused=tuple(_lower_field(ctx, field) for field in unused_fields(ctx, symbol)),
         methods=present([_lower_method(ctx, each) for each in _methods(symbol)]),
-        keeps=tuple(line for node in own for line in _keeps(node.members, defaults)),
+        keeps=tuple(
+            stated_keeps(each for node in own for each in node.members if each not in defaults)
+        ),
         is_of_library=True,
     )
 
@@ -234,16 +263,6 @@ def _class_defaults(ctx: LoweringContext, symbol: TypeSymbol) -> frozenset[ast.S
     fields = (each for each in own_members(symbol) if isinstance(each, sym.FieldSymbol))
     keeps = (class_default_keep(ctx, field) for field in fields)
     return frozenset(keep for keep in keeps if keep is not None)
-
-
-def _keeps(
-    statements: Iterable[ast.Statement], defaults: Container[ast.Statement]
-) -> Iterator[str]:
-    """Yield the constraints of a type as comment lines, behind those that stand above them."""
-    for statement in statements:
-        if isinstance(statement, ast.KeepConstraint) and statement not in defaults:
-            yield from map(str, statement_comments(statement))
-            yield condensed(statement.span.text)
 
 
 def _methods(symbol: TypeSymbol) -> Iterable[sym.MethodSymbol]:

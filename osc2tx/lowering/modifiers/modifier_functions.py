@@ -14,7 +14,13 @@ from collections.abc import Iterable, Iterator, Mapping
 from osc2tx import ir
 from osc2tx.analysis.constraints.parameter_lookup import Place
 from osc2tx.lowering.constraints.parameter_domains import as_type
-from osc2tx.lowering.context import LoweringContext, present, statement_comments
+from osc2tx.lowering.context import (
+    LoweringContext,
+    comments_around,
+    present,
+    stated_keeps,
+    statement_comments,
+)
 from osc2tx.lowering.modifiers.modifiers import lower_modifier
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.lowering.values.arguments import lower_arguments
@@ -101,6 +107,7 @@ class _Functions:
             parameters=tuple(parameters),
             calls=tuple(calls),
             comments=statement_comments(modifier.node),
+            keeps=tuple(stated_keeps(modifier.statements)),
         )
 
     def _parameter(self, ctx: LoweringContext, field: sym.FieldSymbol) -> ir.MethodParameter:
@@ -114,6 +121,7 @@ class _Functions:
             name=field.name,
             type=lower_type(field.type),
             default=None if value is None else as_type(value, field.type),
+            comments=_comments_of(field),
         )
 
     def _calls(
@@ -146,6 +154,15 @@ class _Functions:
         )
         yield replace(first, comments=(*statement_comments(node), *first.comments))
         yield from others
+
+
+def _comments_of(field: sym.FieldSymbol) -> tuple[str, ...]:
+    """Return the comment lines of a parameter, and its constraints as the source has them."""
+    node = field.node
+    if node is None or node.names[0].span != field.span:
+        return ()
+    rules = node.constraints if isinstance(node, ast.ParameterDeclaration) else ()
+    return comments_around(statement_comments(node), stated_keeps(rules))
 
 
 def _arguments(call: ir.ModifierCall) -> Iterator[ir.Argument]:

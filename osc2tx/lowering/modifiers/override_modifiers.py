@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 from osc2tx import ir
 from osc2tx.analysis.tree_walk import do_members
-from osc2tx.lowering.context import LoweringContext, present
+from osc2tx.lowering.context import LoweringContext, present, statement_comments
 from osc2tx.lowering.modifiers.modifiers import is_override
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
@@ -63,7 +63,13 @@ def _override(
         )
         return None
     mode = given["mode"].span.text if "mode" in given else "on_start"
-    return ir.Override(span=node.span, overridden=labels[0].name, by=labels[1].name, mode=mode)
+    return ir.Override(
+        span=node.span,
+        overridden=labels[0].name,
+        by=labels[1].name,
+        mode=mode,
+        comments=statement_comments(node),
+    )
 
 
 def _kind(node: ast.BehaviorMember) -> str:

@@ -93,14 +93,14 @@ def path_declarations(
         for modifier in own
         if modifier.name == MAP_MODIFIER
     ]
-    wishes = [modifier for modifier in own if modifier.name in SEARCH_CRITERIA]
+    criteria = [modifier for modifier in own if modifier.name in SEARCH_CRITERIA]
     road = ir.Struct(
         name=field.name,
         span=field.span,
         comments=comments,
         type=TYPE,
         lineage=(TYPE,),
-        values=tuple(v for m in wishes for v in _values(m, SEARCH_CRITERIA[m.name], m.comments)),
+        values=tuple(v for m in criteria for v in _values(m, SEARCH_CRITERIA[m.name], m.comments)),
     )
     return (*maps, road)
 

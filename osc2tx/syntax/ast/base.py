@@ -24,10 +24,12 @@ class Statement(Node):
         comments: The comment lines that belong to it, without `#` and surrounding blanks; an empty
             one where blank lines part them.
         trailing_comment: The comment at the end of its first line.
+        comments_below: Comment lines that touch it from below, and not the next statement.
     """
 
     comments: tuple[str, ...] = field(default=(), repr=False)
     trailing_comment: str | None = field(default=None, repr=False)
+    comments_below: tuple[str, ...] = field(default=(), repr=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -76,8 +76,8 @@ def _members_of(
     arguments: tuple[ast.Argument, ...],
 ) -> ast.Composition:
     block = check_body(b, tree, f"`{word}`", optional=False)
-    members = build_block(b, block, Place.DO)
     end_comments = comments_at_end(b, block)
+    members = build_block(b, block, Place.DO)
     with_members: Any = ()
     if tree.children[-1].__class__ is Grammar.WithBlockContext:
         with_members = build_with_block(b, tree.children[-1], Place.WITH)

@@ -117,6 +117,7 @@ def _actor(b: Builder, tree: Tree, head: Head, place: Place) -> ast.Statement:
 def _scenario(b: Builder, tree: Tree, head: Head, place: Place) -> ast.Statement:
     name, base, condition = _header(b, tree)
     body = tree.children[-1]
+    end_comments = comments_at_end(b, block_of(b, body))
     members = build_body(b, body, Place.BEHAVIOR, f"`scenario {name}`")
     return ast.ScenarioDeclaration(
         **head.fields(),
@@ -124,7 +125,7 @@ def _scenario(b: Builder, tree: Tree, head: Head, place: Place) -> ast.Statement
         base=base,
         condition=condition,
         members=members,
-        end_comments=comments_at_end(b, block_of(b, body)),
+        end_comments=end_comments,
     )
 
 
@@ -149,7 +150,7 @@ def _extension(b: Builder, tree: Tree, head: Head, place: Place) -> ast.Statemen
     enum_members = enum_members_of(b, tree)
     if enum_members is not None:
         enum = _without_actor(b, name, "an enumeration")
-        members = build_enum_members(b, enum_members, head)
+        members, head = build_enum_members(b, enum_members, head)
         refuse_block(b, tree)
         return ast.EnumExtension(**head.fields(), name=enum, members=members)
     shown = f"`extend {name}`"

@@ -82,14 +82,19 @@ def _report_si(b: Builder, argument: ast.Argument, name: str | None) -> None:
 
 
 def _enum(b: Builder, tree: Tree, head: Head, place: Place) -> ast.Statement:
-    members = build_enum_members(b, tree.children[3], head)
+    members, head = build_enum_members(b, tree.children[3], head)
     refuse_block(b, tree)
     name = b.name(tree.children[1])
     return ast.EnumDeclaration(**head.fields(), name=name, members=members)
 
 
-def build_enum_members(b: Builder, tree: Tree, head: Head) -> tuple[ast.EnumMember, ...]:
-    """Build the members of an enumeration; the comments between them are theirs."""
+def build_enum_members(
+    b: Builder, tree: Tree, head: Head
+) -> tuple[tuple[ast.EnumMember, ...], Head]:
+    """Build the members of an enumeration; the comments between them are theirs.
+
+    Those behind the last one are comments of the statement.
+    """
     trees = [c for c in tree.children if c.__class__ is Grammar.EnumMemberContext]
     members: list[ast.EnumMember] = []
     waiting = list(head.inside)
@@ -99,7 +104,10 @@ def build_enum_members(b: Builder, tree: Tree, head: Head) -> tuple[ast.EnumMemb
         behind = [c for c in waiting if child.start < c.before <= end and not c.alone]
         waiting = [c for c in waiting if c not in above and c not in behind]
         members.append(_enum_member(b, child, above, behind))
-    return tuple(members)
+    left = [comment.text for comment in waiting]
+    if head.trailing is None and waiting and not waiting[0].alone:
+        head = head._replace(trailing=left.pop(0))
+    return tuple(members), head._replace(below=(*left, *head.below))
 
 
 def _enum_member(

@@ -23,6 +23,7 @@ class HeadFields(TypedDict):
     span: Span
     comments: tuple[str, ...]
     trailing_comment: str | None
+    comments_below: tuple[str, ...]
 
 
 class Head(NamedTuple):
@@ -33,12 +34,14 @@ class Head(NamedTuple):
         comments: Those above it.
         trailing: The comment at the end of its first line.
         inside: Those between the members of an enumeration, not given to anything yet.
+        below: Those below it.
     """
 
     span: Span
     comments: tuple[str, ...] = ()
     trailing: str | None = None
     inside: tuple[Comment, ...] = ()
+    below: tuple[str, ...] = ()
 
     def fields(self) -> HeadFields:
         """Return them as keyword arguments."""
@@ -46,6 +49,7 @@ class Head(NamedTuple):
             "span": self.span,
             "comments": self.comments,
             "trailing_comment": self.trailing,
+            "comments_below": self.below,
         }
 
 
@@ -76,10 +80,10 @@ def _report_misplaced(b: Builder, tree: Tree, place: Place) -> None:
 def _head(b: Builder, tree: Tree) -> Head:
     """Return extent and comments of the statement that a tree holds."""
     start = tree.start
-    comments = b.comments.above(start)
+    comments, below = b.comments.above(start), b.comments.below(tree.stop + 1)
     inside = b.comments.inside(start)
     if not inside:
-        return Head(b.tree_span(tree), comments)
+        return Head(b.tree_span(tree), comments, below=below)
     first = inside[0]
     is_trailing = not first.alone and first.before <= _first_member(b, tree)
     trailing = first.text if is_trailing else None
@@ -87,7 +91,7 @@ def _head(b: Builder, tree: Tree) -> Head:
     if others and enum_members_of(b, tree) is None:
         comments += tuple(comment.text for comment in inside)
         trailing, others = None, ()
-    return Head(b.tree_span(tree), comments, trailing, others)
+    return Head(b.tree_span(tree), comments, trailing, others, below)
 
 
 def enum_members_of(b: Builder, tree: Tree) -> Tree | None:
@@ -111,6 +115,7 @@ def build_block(b: Builder, block: Tree | None, place: Place) -> tuple[Any, ...]
     """Build the statements of a block."""
     if block is None:
         return ()
+    b.comments.hand_end_on(block.stop)
     nodes = []
     for child in block.children:
         if child.__class__ is Grammar.StatementContext:
@@ -123,7 +128,7 @@ def build_block(b: Builder, block: Tree | None, place: Place) -> tuple[Any, ...]
 
 
 def comments_at_end(b: Builder, block: Tree | None) -> tuple[str, ...]:
-    """Return the comments at the end of a block."""
+    """Take the comments at the end of a block; before it is built, else its last member does."""
     return () if block is None else b.comments.at_end_of_block(block.stop)
 
 

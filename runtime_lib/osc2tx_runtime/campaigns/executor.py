@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.domain.scenario import Scenario
-from osc2tx_runtime.errors import ScenarioError, told
+from osc2tx_runtime.errors import ScenarioError, message_of
 from osc2tx_runtime.kpis import Measuring, measures_by_name
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.trace import to_json
@@ -127,7 +127,7 @@ class Executor:
         except ScenarioError as error:
             reason, source = error.message, error.source
         except Exception as error:  # internal, or of the user's code: it affects this row alone
-            reason = f"internal error: {told(error)}"
+            reason = f"internal error: {message_of(error)}"
         measures = {
             name: value if value is None or math.isfinite(value) else None
             for name, value in measuring.results().items()

@@ -14,7 +14,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from threading import Lock
 
-from osc2tx_runtime.errors import ScenarioError, told
+from osc2tx_runtime.errors import ScenarioError, message_of
 from osc2tx_shared.classes import dataclass, replace
 
 from .executor import Executor
@@ -77,7 +77,7 @@ def run_rows(parcel: Parcel, rows: Sequence[Row]) -> list[RowResult] | Refused:
         except ScenarioError as error:
             return Refused(error.message)
         except Exception as error:  # any exception of the module
-            return Refused(told(error))
+            return Refused(message_of(error))
         return [executor.run(row) for row in rows]
 
 

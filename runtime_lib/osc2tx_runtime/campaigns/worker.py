@@ -14,7 +14,7 @@ from multiprocessing.connection import Connection, wait
 from threading import Event, Lock, Thread
 from typing import Any
 
-from osc2tx_runtime.errors import ScenarioError, told
+from osc2tx_runtime.errors import ScenarioError, message_of
 from osc2tx_shared.classes import dataclass
 
 from .executor import Executor
@@ -79,7 +79,7 @@ def work(pipe: Connection, plan: Plan, beat: float) -> None:
             teller.send(Refused(error.message))
             return
         except Exception as error:  # any exception of the module
-            teller.send(Refused(told(error)))
+            teller.send(Refused(message_of(error)))
             return
         teller.send(READY)
         while True:

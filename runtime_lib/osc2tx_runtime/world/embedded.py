@@ -104,7 +104,7 @@ class EmbeddedWorld:
         for member in members:
             member.follows = self._plant.control(member.spec.id) not in EXTERNAL
         self._outside = tuple(member for member in members if not member.follows)
-        self._scene.wish(members, [member.state for member in members], frozenset(), frozenset())
+        self._scene.command(members, [member.state for member in members], frozenset(), frozenset())
         found = self._plant.begin(self._scene)
         if found:
             placed = [member.state for member in members]
@@ -335,28 +335,28 @@ class EmbeddedWorld:
         before = [member.state for member in members]
         coupled = self._couplings.pairs()
         towed = self._couplings.towed() if coupled else NOBODY
-        wished, others = [], []
+        commanded, others = [], []
         for member in members:
             state = member.reference if member.still else member.cruised()
             if state is None:
                 others.append(member)
-                state = self._wish(member, towed)
-            wished.append(state)
+                state = self._commanded(member, towed)
+            commanded.append(state)
         if coupled:
-            self._couplings.draw(self._cast, wished, self.dt, self.map)
+            self._couplings.draw(self._cast, commanded, self.dt, self.map)
         jumped = frozenset([m.spec.id for m in others if m.jumped]) if others else NOBODY
         put, kicked = self._take_changes() if self._changes else (NOBODY, NOBODY)
         elsewhere = put | jumped
-        self._scene.wish(members, wished, elsewhere, kicked)
+        self._scene.command(members, commanded, elsewhere, kicked)
         found = self._plant.moved(self._scene)
         self._scene.step += 1
-        states = wished
+        states = commanded
         if found:
             states = arrive(
-                self._cast, wished, found, elsewhere, self._couplings, self.map, self.dt
+                self._cast, commanded, found, elsewhere, self._couplings, self.map, self.dt
             )
         else:
-            for member, state in zip(members, wished, strict=True):
+            for member, state in zip(members, commanded, strict=True):
                 member.state = member.reference = state
         if coupled:
             for tow, trailer, angle in self._couplings.take_folded():
@@ -381,7 +381,7 @@ class EmbeddedWorld:
             frozenset([each for each, change in changes.items() if change.speed is not None]),
         )
 
-    def _wish(self, member: CommandedActor, towed: Collection[str]) -> ActorState:
+    def _commanded(self, member: CommandedActor, towed: Collection[str]) -> ActorState:
         """Commanded state of an actor at the next step; trailers are moved later."""
         if member.follows and member.spec.movable and member.spec.id not in towed:
             return member.moved(self, self.map)

@@ -208,7 +208,7 @@ def _write(name: StreamName, text: str) -> None:
         OutputError: If it is full or not read any more, or standard output is closed.
     """
     stream: TextIO = getattr(sys, name)
-    told = f"standard {'output' if name == 'stdout' else 'error'}"
+    described = f"standard {'output' if name == 'stdout' else 'error'}"
     if name == "stdout":
         expect_output()
     encoding = stream.encoding or "utf-8"
@@ -218,7 +218,7 @@ def _write(name: StreamName, text: str) -> None:
     except OSError as error:
         _abandon(stream)
         code = READER_HAS_GONE if isinstance(error, BrokenPipeError) else UNWRITABLE
-        raise OutputError(told, error.strerror or str(error), code) from None
+        raise OutputError(described, error.strerror or str(error), code) from None
 
 
 def _abandon(stream: TextIO) -> None:

@@ -226,6 +226,58 @@ def test_git_ignores_the_digests(project: Project) -> None:
     assert committed_objects(project.out).keys() == {"a.map.json", "a.py"}
 
 
+TEMPLATES = Path(__file__).parents[3] / "templates/project"
+ALL = GivenOptions(target="all")
+REPORT = "a.xosc.report.json"
+COMPUTED = """import osc.standard
+
+scenario computed:
+  ego, other: vehicle
+  do ego.drive() with:
+    speed(30kph)
+    until ego.speed > 2 * other.speed
+"""
+
+
+@pytest.fixture
+def reported(project: Project) -> Project:
+    """A scenario that XML cannot express, which has a report instead."""
+    write(project.sources / "a.osc", COMPUTED)
+    assert set(project.written(project.build(given=ALL))) == {"a.map.json", "a.py", REPORT}
+    return project
+
+
+def test_reports_are_not_committed(reported: Project) -> None:
+    """A check in a clone, without them, is content; a build writes them."""
+    (reported.folder / ".gitignore").write_bytes((TEMPLATES / "gitignore").read_bytes())
+    commit(reported)
+    assert committed_objects(reported.out).keys() == {"a.py"}
+    for name in ("a.map.json", REPORT):
+        (reported.out / name).unlink()
+    assert reported.build(given=ALL, check_only=True).changes == ()
+    assert reported.written(reported.build(given=ALL)) == ["a.map.json", REPORT]
+
+
+def test_reports_are_replaced_whoever_wrote_them(reported: Project) -> None:
+    """There is nothing in them to keep, and version control does not say how they were."""
+    (reported.out / DIGESTS_NAME).unlink()
+    path = reported.out / REPORT
+    path.write_text(path.read_text().replace('"written": false', '"written": true'))
+    assert reported.build(given=ALL, check_only=True).changes == ()
+    assert reported.written(reported.build(given=ALL)) == [REPORT]
+    path.write_text("mine")
+    assert reported.written(reported.build(given=ALL)) == []
+    assert path.read_text() == "mine"
+
+
+def test_reports_go_with_their_sources(reported: Project) -> None:
+    (reported.out / DIGESTS_NAME).unlink()
+    (reported.sources / "a.osc").unlink()
+    reported.drive("b.osc")
+    reported.build(given=ALL, prune=True)
+    assert not (reported.out / REPORT).exists()
+
+
 def test_what_is_as_committed_may_be_replaced(project: Project) -> None:
     """As after a clone: nothing is known of earlier builds, and sources have moved on."""
     project.drive("a.osc")

@@ -144,9 +144,9 @@ def columns_of(
         by_texts.setdefault(texts, []).append(place)
     found = []
     for texts, alike in by_texts.items():
-        type_, wish = _type_and_name(stories[0], alike[0])
+        type_, preferred = _type_and_name(stories[0], alike[0])
         name = known.get(texts) if type_ == "string" else None
-        found.append(Column(name or names.new(wish), type_, texts, tuple(alike)))
+        found.append(Column(name or names.new(preferred), type_, texts, tuple(alike)))
     return found
 
 

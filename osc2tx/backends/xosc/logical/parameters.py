@@ -237,10 +237,10 @@ def _open(declaration: ir.Parameter, scope: Scope, names: Names) -> OpenParamete
             return None
         if is_whole and high - low < MOST_WHOLE:
             choices, range_ = tuple(range(int(low), int(high) + 1)), None
-    wish = name if declaration.is_global else f"{scope.prefix}{name}"
+    preferred = name if declaration.is_global else f"{scope.prefix}{name}"
     return OpenParameter(
         key=key,
-        name=names.new(wish),
+        name=names.new(preferred),
         path=scope.path,
         span=span,
         construct=made.construct,

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from osc2tx_runtime.domain.map.road_graph import RoadGraph
 from osc2tx_runtime.domain.map.roads_and_lanes import Lane, Route
-from osc2tx_runtime.domain.map.route_elements import Wish, fulfils, said
+from osc2tx_runtime.domain.map.route_elements import Required, fulfils, stated
 from osc2tx_runtime.domain.map.segments import CrossingLine, MapSegment
 from osc2tx_runtime.enums import CrossingElevation, CrossingMarking, CrossingUse
 from osc2tx_runtime.errors import ScenarioError
@@ -72,10 +72,10 @@ class Crossing(Route):
         end_lane: Lane | None = None,
         start_s_coord: float | None = None,
         end_s_coord: float | None = None,
-        width: Wish | None = None,
+        width: Required | None = None,
         crossing_type: CrossingType | None = None,
         anchors: Sequence[str] = (),
-        length: Wish | None = None,
+        length: Required | None = None,
     ) -> None:
         super().__init__(anchors=anchors, length=length)
         self.wanted_lanes = (start_lane, end_lane)
@@ -84,7 +84,7 @@ class Crossing(Route):
         self._type = crossing_type or CrossingType()
 
     @property
-    def wishes(self) -> str:
+    def requirements(self) -> str:
         """Its constraints on the map."""
         asked = (
             ("marking", self._type.marking),
@@ -92,7 +92,7 @@ class Crossing(Route):
             ("elevation", self._type.elevation),
         )
         own = [f"{name} is {value}" for name, value in asked if value is not None]
-        own += [said("width is {} m", self._width), super().wishes]
+        own += [stated("width is {} m", self._width), super().requirements]
         return " and ".join(filter(None, own))
 
     def names_of(self, graph: RoadGraph, segment: MapSegment) -> tuple[str, ...]:

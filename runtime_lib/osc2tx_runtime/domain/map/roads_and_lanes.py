@@ -11,11 +11,11 @@ from osc2tx_runtime.domain.map.road_graph import RoadGraph
 from osc2tx_runtime.domain.map.route_elements import (
     SAME,
     PartT,
+    Required,
     RoadPart,
     Route,
-    Wish,
     fulfils,
-    said,
+    stated,
 )
 from osc2tx_runtime.domain.map.segments import MapSegment
 from osc2tx_runtime.enums import Directionality, LaneType, LaneUse
@@ -43,9 +43,9 @@ class Road(Route):
         self,
         *,
         anchors: Sequence[str] = (),
-        min_lanes: Wish | None = None,
-        max_lanes: Wish | None = None,
-        length: Wish | None = None,
+        min_lanes: Required | None = None,
+        max_lanes: Required | None = None,
+        length: Required | None = None,
         directionality: Directionality | None = None,
         s_positive: Sequence[LaneSection] | None = None,
         s_negative: Sequence[LaneSection] | None = None,
@@ -84,9 +84,9 @@ class LaneSection(Route):
         *,
         road: Road | None = None,
         anchors: Sequence[str] = (),
-        min_lanes: Wish | None = None,
-        max_lanes: Wish | None = None,
-        length: Wish | None = None,
+        min_lanes: Required | None = None,
+        max_lanes: Required | None = None,
+        length: Required | None = None,
         directionality: Directionality | None = None,
         lanes: Sequence[Lane] | None = None,
         s_axis: Lane | None = None,
@@ -138,9 +138,9 @@ class Lane(Route):
         lane_section: LaneSection | None = None,
         lane_type: LaneType | None = None,
         lane_use: LaneUse | None = None,
-        width: Wish | None = None,
+        width: Required | None = None,
         anchors: Sequence[str] = (),
-        length: Wish | None = None,
+        length: Required | None = None,
         directionality: Directionality | None = None,
     ) -> None:
         super().__init__(
@@ -149,11 +149,11 @@ class Lane(Route):
         self._type, self._use, self._width = lane_type, lane_use, width
 
     @property
-    def wishes(self) -> str:
+    def requirements(self) -> str:
         """Its constraints on the map."""
         named = (("lane_type", self._type), ("lane_use", self._use))
         own = [f"{name} is {value}" for name, value in named if value is not None]
-        own += [said("width is {} m", self._width), super().wishes]
+        own += [stated("width is {} m", self._width), super().requirements]
         return " and ".join(filter(None, own))
 
     def candidates(self, graph: RoadGraph) -> tuple[MapSegment, ...]:
@@ -203,7 +203,7 @@ class CompoundLane(Route):
         self,
         *,
         anchors: Sequence[str] = (),
-        length: Wish | None = None,
+        length: Required | None = None,
         lanes: Sequence[Lane] | None = None,
     ) -> None:
         super().__init__(anchors=anchors, length=length, listed={"lanes": lanes})
@@ -223,7 +223,7 @@ class CompoundRoute(Route):
         self,
         *,
         anchors: Sequence[str] = (),
-        length: Wish | None = None,
+        length: Required | None = None,
         route_elements: Sequence[Route] | None = None,
     ) -> None:
         super().__init__(anchors=anchors, length=length, listed={"route_elements": route_elements})
@@ -278,10 +278,10 @@ class RoadPath(RoadPart):
         self.different_dest, self.different_origin = different_dest, different_origin
 
     @property
-    def wishes(self) -> str:
+    def requirements(self) -> str:
         """Its constraints on the map."""
         own = f"there are {self._min_length:g} m" if self._min_length > 0.0 else ""
-        return " and ".join(filter(None, [super().wishes, own]))
+        return " and ".join(filter(None, [super().requirements, own]))
 
     def suits(self, graph: RoadGraph, segment: MapSegment) -> bool:
         """Whether it is long enough as well."""

@@ -21,11 +21,11 @@ from osc2tx_runtime.errors import ScenarioError
 if TYPE_CHECKING:
     from osc2tx_runtime.language.values.parameters import Range
 
-Wish: TypeAlias = "float | Range[Any]"
+Required: TypeAlias = "float | Range[Any]"
 
 
 def fulfils(
-    wish: Wish | None,
+    required: Required | None,
     value: float,
     tolerance: float = 0.0,
     *,
@@ -35,23 +35,25 @@ def fulfils(
     """Whether a number of the map is as asked for.
 
     Args:
-        wish: The required value; None: no requirement.
+        required: The required value; None: no requirement.
         value: The number.
         tolerance: Allowed difference from a plain number.
         at_least: A plain number is a lower bound,
         at_most: or an upper one.
     """
-    if wish is None:
+    if required is None:
         return True
-    low, high = _bounds(wish, at_least=at_least, at_most=at_most)
+    low, high = _bounds(required, at_least=at_least, at_most=at_most)
     return low - tolerance <= value <= high + tolerance
 
 
-def said(text: str, wish: Wish | None, *, at_least: bool = False, at_most: bool = False) -> str:
+def stated(
+    text: str, required: Required | None, *, at_least: bool = False, at_most: bool = False
+) -> str:
     """The requirement in words, for `{}` of a text; empty without one."""
-    if wish is None:
+    if required is None:
         return ""
-    low, high = _bounds(wish, at_least=at_least, at_most=at_most)
+    low, high = _bounds(required, at_least=at_least, at_most=at_most)
     if low == high:
         return text.format(f"{low:g}")
     if high == math.inf:
@@ -59,10 +61,10 @@ def said(text: str, wish: Wish | None, *, at_least: bool = False, at_most: bool 
     return text.format(f"at most {high:g}" if low == -math.inf else f"{low:g} to {high:g}")
 
 
-def _bounds(wish: Wish, *, at_least: bool, at_most: bool) -> tuple[float, float]:
-    if isinstance(wish, int | float):
-        return -math.inf if at_most else wish, math.inf if at_least else wish
-    return wish.low, wish.high
+def _bounds(required: Required, *, at_least: bool, at_most: bool) -> tuple[float, float]:
+    if isinstance(required, int | float):
+        return -math.inf if at_most else required, math.inf if at_least else required
+    return required.low, required.high
 
 
 SAME = 0.01  # m between the required and the existing value
@@ -90,9 +92,9 @@ class RoadPart(MapObject, RouteAxis):
         self,
         *,
         anchors: Sequence[str] = (),
-        min_lanes: Wish | None = None,
-        max_lanes: Wish | None = None,
-        length: Wish | None = None,
+        min_lanes: Required | None = None,
+        max_lanes: Required | None = None,
+        length: Required | None = None,
         directionality: Directionality | None = None,
         within: RoadPart | None = None,
         listed: Mapping[str, Sequence[RoadPart] | None] | None = None,
@@ -120,15 +122,15 @@ class RoadPart(MapObject, RouteAxis):
         self._found = segment
 
     @property
-    def wishes(self) -> str:
+    def requirements(self) -> str:
         """Its own constraints on the map, besides its anchors."""
-        wishes = (
-            said("there are {} lanes", self._least, at_least=True),
-            said("there are {} lanes", self._most, at_most=True),
-            said("there are {} m", self._long),
+        requirements = (
+            stated("there are {} lanes", self._least, at_least=True),
+            stated("there are {} lanes", self._most, at_most=True),
+            stated("there are {} m", self._long),
             "" if self._ways is None else f"directionality is {self._ways}",
         )
-        return " and ".join(filter(None, wishes))
+        return " and ".join(filter(None, requirements))
 
     def candidates(self, graph: RoadGraph) -> tuple[MapSegment, ...]:
         """Segments of the map that it could be, in the order in which they are tried."""

@@ -91,10 +91,10 @@ class StartPlaces:
                 return place
             if distance is not None:
                 return self._beside(actor, lane, place, taken_by, f"{other} {distance:g} m")
-        wish = "" if lane is None else f" with a lane {lane.number} from the {lane.edge}"
+        wanted = "" if lane is None else f" with a lane {lane.number} from the {lane.edge}"
         far = "" if distance is None else f", {distance:g} m from its start"
         raise PlacementError(
-            f"{actor}: map {self._map.name} has no free place on a road{wish}{far}"
+            f"{actor}: map {self._map.name} has no free place on a road{wanted}{far}"
         )
 
     def _beside(

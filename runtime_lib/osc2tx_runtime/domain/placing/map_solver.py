@@ -75,7 +75,7 @@ class MapSolver:
                 )
         part = self._parts[self._furthest]
         names = [r.modifier.name for r in self._relations if part in r.modifier.parts().values()]
-        alone = part.wishes or "its anchors hold"
+        alone = part.requirements or "its anchors hold"
         what = f"{' and '.join(dict.fromkeys(names))} hold" if names else alone
         sources = [r.source for r in self._relations if part in r.modifier.parts().values()]
         return PlacementError(

@@ -17,7 +17,7 @@ from typing import Any, Protocol
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from osc2tx_runtime.errors import OwnCode, ScenarioError, is_own, name_of, told
+from osc2tx_runtime.errors import OwnCode, ScenarioError, is_own, message_of, name_of
 from osc2tx_runtime.language.context import ExecutionContext, PostedEvent
 
 __all__ = [
@@ -291,7 +291,7 @@ class Leaf(Node):
         except BaseException as error:  # a subclass of the user's own may raise anything
             if not is_own(type(self)):
                 raise
-            text = f"{self.name}: {name_of(type(self))} raised {told(error)}"
+            text = f"{self.name}: {name_of(type(self))} raised {message_of(error)}"
             raise ScenarioError(text, self.source or None) from error
 
 

@@ -27,11 +27,11 @@ class Turning:
         self._steps += 1
         self._time, most = self._steps * dt, TURN_RATE * dt
         heading, pitch, roll = (min(max(left, -most), most) for left in self._missing(state))
-        told = Tilt(
+        tilt = Tilt(
             tilt.pitch if self._command.pitch is None else state.pitch + pitch,
             tilt.roll if self._command.roll is None else state.roll + roll,
         )
-        return wrap(state.h + heading), told
+        return wrap(state.h + heading), tilt
 
     def progress(self, state: ActorState) -> Progress:
         """Done when it is turned so."""

@@ -275,10 +275,10 @@ def lateral_of(
     if isinstance(command, (LaneChange, LaneOffset)) and command.course is not None:
         course = Mapped(command.course, 1.0, centre) if centre else command.course
     else:
-        said: tuple[DynamicProfile, float | None, float | None] = ("none", None, None)
+        stated: tuple[DynamicProfile, float | None, float | None] = ("none", None, None)
         if isinstance(command, (LaneChange, LaneOffset)):
-            said = (command.profile, command.rate_peak, command.duration)
-        course = shift_profile(centre + start, centre + end, rate, said, limits)
+            stated = (command.profile, command.rate_peak, command.duration)
+        course = shift_profile(centre + start, centre + end, rate, stated, limits)
     here = LanePosition(target.road, target.lane, target.s, centre + start)
     return here, Shift(course, centre + end, centre)
 

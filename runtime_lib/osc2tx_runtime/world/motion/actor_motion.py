@@ -57,8 +57,8 @@ class CommandedActor(MovingActor):
         if not self.follows:
             expectation = self._expected.get(slot)
             return REACHED if expectation is None else expectation.progress()
-        wished = self.speed_progress() if slot == LONGITUDINAL else self.side_progress()
-        return wished if self.tracking is None else self.tracking.progress(slot, wished)
+        commanded = self.speed_progress() if slot == LONGITUDINAL else self.side_progress()
+        return commanded if self.tracking is None else self.tracking.progress(slot, commanded)
 
     @property
     def is_physical(self) -> bool:

@@ -24,7 +24,7 @@ from osc2tx_runtime.world.tracking.tracking import Tracking
 
 def arrive(
     cast: Mapping[str, CommandedActor],
-    wished: list[ActorState],
+    commanded: list[ActorState],
     found: Mapping[str, Measurement],
     jumped: Collection[str],
     couplings: Couplings,
@@ -35,7 +35,7 @@ def arrive(
 
     Args:
         cast: The actors.
-        wished: Their commanded states, in the same order.
+        commanded: Their commanded states, in the same order.
         found: The measured states; the other actors are exact.
         jumped: Teleported actors; a teleport is no motion.
         couplings: The trailers; they follow their towing vehicles.
@@ -53,30 +53,30 @@ def arrive(
         (
             measured_state(member, found[member.spec.id], road_map, dt)
             if member.spec.id in measured
-            else wish
+            else target
         )
-        for member, wish in zip(members, wished, strict=True)
+        for member, target in zip(members, commanded, strict=True)
     ]
     if dt:
         couplings.draw(cast, states, dt, road_map)
-    for member, state, wish in zip(members, states, wished, strict=True):
+    for member, state, target in zip(members, states, commanded, strict=True):
         if member.spec.id not in measured:
             member.settle(state)
             member.motion = member.tracking = None
         elif member.follows:
-            track(member, state, wish, road_map, dt)
+            track(member, state, target, road_map, dt)
         else:
             observe(member, state, road_map)
     return states
 
 
 def track(
-    member: CommandedActor, state: ActorState, wished: ActorState, road_map: RoadMap, dt: float
+    member: CommandedActor, state: ActorState, commanded: ActorState, road_map: RoadMap, dt: float
 ) -> None:
     """Put a driven actor where it was measured, and its reference beside it."""
     member.state = state
     member.upset()
-    member.reference = anchored(member, wished, road_map)
+    member.reference = anchored(member, commanded, road_map)
     if member.tracking is None:
         member.tracking = Tracking()
     wished_progress = {LONGITUDINAL: member.speed_progress(), LATERAL: member.side_progress()}
@@ -118,24 +118,28 @@ def measured_state(
     )
 
 
-def anchored(member: CommandedActor, wished: ActorState, road_map: RoadMap) -> ActorState:
+def anchored(member: CommandedActor, commanded: ActorState, road_map: RoadMap) -> ActorState:
     """The reference of an actor abreast of its measured state.
 
     Args:
         member: The actor, with its measured state.
-        wished: The reference at the end of the step, as commanded.
+        commanded: The reference at the end of the step.
         road_map: The map.
     """
     state = member.state
-    along = (state.x - wished.x) * math.cos(wished.h) + (state.y - wished.y) * math.sin(wished.h)
+    along = (state.x - commanded.x) * math.cos(commanded.h) + (state.y - commanded.y) * math.sin(
+        commanded.h
+    )
     member.slid(along)
     bound = member.bound
     if bound is None:
-        x, y = wished.x + along * math.cos(wished.h), wished.y + along * math.sin(wished.h)
-        return wished._replace(x=x, y=y)
+        x, y = commanded.x + along * math.cos(commanded.h), commanded.y + along * math.sin(
+            commanded.h
+        )
+        return commanded._replace(x=x, y=y)
     left = member.left or bound
     on = abreast(road_map, LanePosition(left.road, left.lane, left.s), state, member.route)
     if on is None:
-        return wished
+        return commanded
     member.bound = LanePosition(on.road, on.lane, on.s, bound.offset)
-    return member.on_lane(member.bound, wished.v, wished.lateral_speed, wished.a, road_map)
+    return member.on_lane(member.bound, commanded.v, commanded.lateral_speed, commanded.a, road_map)

@@ -123,14 +123,14 @@ class Scene:
         self.signals = signals
         self._lights, self._surroundings, self._couplings = lights, surroundings, couplings
         self._members: Sequence[CommandedActor] = ()
-        self._wished: Sequence[ActorState] = ()
+        self._commanded: Sequence[ActorState] = ()
         self._jumped: frozenset[str] | set[str] = frozenset()
         self._kicked: frozenset[str] | set[str] = frozenset()
         self._setpoints: Mapping[str, Setpoint] | None = None
         self._notes: list[Note] = []
         self._warnings: dict[str, None] = {}
 
-    def wish(
+    def command(
         self,
         members: Sequence[CommandedActor],
         states: Sequence[ActorState],
@@ -138,7 +138,7 @@ class Scene:
         kicked: frozenset[str] | set[str],
     ) -> None:
         """Takes the commands of the actors for the next step."""
-        self._members, self._wished = members, states
+        self._members, self._commanded = members, states
         self._jumped, self._kicked = jumped, kicked
         self._setpoints = None
 
@@ -159,7 +159,7 @@ class Scene:
                 kicked=member.spec.id in self._kicked,
                 towed=self._couplings.is_towed(member.spec.id),
             )
-            for member, state in zip(self._members, self._wished, strict=True)
+            for member, state in zip(self._members, self._commanded, strict=True)
         }
 
     @property

@@ -37,7 +37,7 @@ class Tracking:
         self,
         state: ActorState,
         reference: ActorState,
-        wished: Mapping[str, Progress],
+        commanded: Mapping[str, Progress],
         dt: float,
     ) -> None:
         """Note a step.
@@ -45,12 +45,12 @@ class Tracking:
         Args:
             state: Measured at its end.
             reference: As commanded at its end.
-            wished: Progress of the reference in each slot.
+            commanded: Progress of the reference in each slot.
             dt: Its length (s).
         """
         self._deviation = Deviation.of(state, reference)
         self._standing = reference.v == 0.0
-        for slot, progress in wished.items():
+        for slot, progress in commanded.items():
             late = self._late.get(slot, -dt) + dt
             self._late[slot] = late if progress.done else -dt
         astray = abs(self._deviation.place) > OFF_ITS_PATH
@@ -67,14 +67,14 @@ class Tracking:
         late = max((self._late.get(slot, 0.0) for slot in slots), default=0.0)
         return self._deviation._replace(late=max(late, 0.0))
 
-    def progress(self, slot: str, wished: Progress) -> Progress:
+    def progress(self, slot: str, commanded: Progress) -> Progress:
         """Progress of the command in a slot, given the progress of the reference."""
-        if wished.failed is not None or self._deviation is None:
-            return wished
+        if commanded.failed is not None or self._deviation is None:
+            return commanded
         off = self._deviation
         if self._astray > _LEFT:
             return Progress(False, f"it came {abs(off.place):.1f} m off its path")
-        if not wished.done:
+        if not commanded.done:
             return PENDING
         missed = self._missed(slot, off)
         if missed is None:

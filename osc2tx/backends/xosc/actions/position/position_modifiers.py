@@ -13,7 +13,7 @@ from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
 from osc2tx.backends.xosc.actions.speed.speed_notes import NEAR, with_profiles
 from osc2tx.backends.xosc.actions.speed.steady_speeds import steady_speed
 from osc2tx.backends.xosc.facts.actors import Linear, way_between
-from osc2tx.backends.xosc.report import Inexpressible, Metres
+from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass, replace
@@ -44,6 +44,12 @@ def _position(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[
     gap = Gap(reference, side, size, is_time=distance is None, is_headway=False)
     if call.at == "end":
         return (_in_time(leaf, call, gap),)
+    if not leaf.is_start:
+        raise Inexpressible(
+            "it holds from the start of the action on, and where both are then only the run shows",
+            call.span,
+            Remedy(instead="`at: end`, or `keep_space_gap` from the distance that is there then"),
+        )
     return (_held(leaf, gap, keeps=True),)
 
 

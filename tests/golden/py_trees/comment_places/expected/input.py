@@ -35,7 +35,10 @@ class Part:
     tag::part[]
     """
 
+    # weight: mass
     size: Length = 2 * m
+
+    # end::part[]
 
 
 class Top(Scenario):
@@ -50,7 +53,9 @@ class Top(Scenario):
     def declare(self) -> None:
         """Cast, events and values."""
         # First in its block.
+
         self.one = self.argument("one", Part())
+        # touches the field above only
 
         self.ego = self.cast("ego", Vehicle())
 
@@ -60,6 +65,7 @@ class Top(Scenario):
         self.over = Event()
 
         self.keep(self.v < 50 * kph)
+        # keep(it > 10kph)
 
     def placement(self) -> None:
         """Where the actors are when the scenario starts."""
@@ -69,14 +75,19 @@ class Top(Scenario):
     def behavior(self) -> Behaviour:
         return Parallel(
             self.name,
-            self.ego.drive(speed(self.v)),
+            self.ego.drive(
+                # speed(99kph)
+                speed(self.v)
+            ),
             self.other.drive(
                 # Above a modifier.
                 # beside a bracket
                 # within brackets
                 # behind an argument
+                # lane(2)
                 speed(self.v)
             ),
+            # touches the drive above only
             self._wait_serial(),
             duration=1 * s,
             # At the end of the parallel.
@@ -91,10 +102,12 @@ class Top(Scenario):
                 # emit over
             ),
             # Above the `with` of the serial.
+            # until @over
             elapsed(1 * s),
         )
 
     # At the end of the scenario.
+    # end::top[]
 
 
 def create_root() -> Behaviour:

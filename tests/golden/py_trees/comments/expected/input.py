@@ -91,6 +91,7 @@ class Comments(Scenario):
         )
 
     # below the last member of the scenario
+    # At the end of the file.
 
 
 def create_root() -> Behaviour:

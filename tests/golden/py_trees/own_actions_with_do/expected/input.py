@@ -28,6 +28,7 @@ require_api(1)
 
 def brief() -> list[speed]:
     """Modifier `brief`."""
+    # keep(it.duration == 2s)
     return [
         speed(9 * mps),
     ]

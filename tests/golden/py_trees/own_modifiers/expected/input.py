@@ -30,7 +30,11 @@ def gentle(*, top: Speed = 8 * mps) -> list[speed]:
     ]
 
 
-def calm(*, top: Speed) -> list[keep_lane | speed]:
+def calm(
+    *,
+    # keep(it == 6mps)
+    top: Speed,
+) -> list[keep_lane | speed]:
     """Modifier `calm`."""
     return [
         # as it was
@@ -41,6 +45,7 @@ def calm(*, top: Speed) -> list[keep_lane | speed]:
 
 def easy(*, top: Speed = 8 * mps, side: int) -> list[lane | speed]:
     """Modifier `easy`."""
+    # keep(top <= 10mps)
     return [
         # in the end
         lane(side, at="end"),

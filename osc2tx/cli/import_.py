@@ -1,0 +1,311 @@
+"""`osc2tx import`."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import sys
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import click
+
+from osc2tx.building.write import replace_file
+from osc2tx.cli.reporting import Exit, count_of
+from osc2tx.compilation.driver import Compilation
+from osc2tx.diagnostics import Severity
+from osc2tx.importing.cast import Libraries
+from osc2tx.importing.distributions import MOST_ROWS, Distribution, read_distribution
+from osc2tx.importing.document import Folders, Refused
+from osc2tx.importing.importer import Imported, import_document
+from osc2tx.importing.names import snake
+from osc2tx.importing.report import ImportReport
+from osc2tx.options import CompileOptions
+from osc2tx.xosc import Unreadable, read
+from osc2tx_shared.classes import dataclass
+from osc2tx_shared.text import complain, put_document, say
+
+INPUT = "-"
+SUFFIX = ".xosc"
+MOST_SHOWN = 10
+SETTINGS = "osc2tx.toml"
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """A document that was imported.
+
+    Attributes:
+        imported: The scenario.
+        text: Its text, formatted.
+        faults: Errors that a check of it finds.
+        distribution: Values for its runs.
+    """
+
+    imported: Imported
+    text: str
+    faults: tuple[str, ...]
+    distribution: Distribution | None = None
+
+
+@click.command(name="import")
+@click.argument("paths", metavar="PATH...", nargs=-1, required=True)
+@click.option(
+    "-o",
+    "--out",
+    metavar="DIR",
+    type=click.Path(path_type=Path, file_okay=False),
+    required=True,
+    help="Folder of the scenarios.",
+)
+@click.option(
+    "--map-path",
+    "maps",
+    metavar="DIR",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    help="Folder with maps, besides those of the documents.",
+)
+@click.option(
+    "--catalog-path",
+    "catalogs",
+    metavar="DIR",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    help="Folder that catalogs are looked for in, besides those of the documents.",
+)
+@click.option("--scenario-name", metavar="NAME", help="Name of the scenario, of a single document.")
+@click.option("--allow-approx", is_flag=True, help="Accept what is said nearly, or left out.")
+@click.option(
+    "--output-format",
+    "form",
+    type=click.Choice(("text", "json")),
+    default="text",
+    show_default=True,
+    help="Form of the summary.",
+)
+def import_(
+    paths: tuple[str, ...],
+    out: Path,
+    maps: tuple[Path, ...],
+    catalogs: tuple[Path, ...],
+    scenario_name: str | None,
+    allow_approx: bool,
+    form: str,
+) -> Exit:
+    """Make scenarios of OpenSCENARIO XML documents; folders are searched for .xosc files.
+
+    Each document becomes NAME.osc, with NAME.import.json on how exactly it says the same; each
+    catalog that is used becomes a library file. `-` is standard input. Files that exist are
+    replaced.
+
+    The exit code is 0 if all is exact, 3 if not (0 with --allow-approx), 4 if a document cannot be
+    read.
+    """
+    folders = Folders(maps, catalogs)
+    libraries: Libraries = {}
+    results: list[Result] = []
+    refused = 0
+    sources = list(_sources(paths))
+    if scenario_name is not None and len(sources) != 1:
+        raise click.UsageError("--scenario-name is for one document")
+    names: set[str] = set()
+    for source in sources:
+        name = scenario_name or ("scenario" if source is None else source.stem)
+        while snake(name) in names:
+            name += "_2"
+        names.add(snake(name))
+        try:
+            found = _import(source, name, libraries, folders)
+        except Refused as error:
+            where = f"{source or 'standard input'}:{error.place or ''}".rstrip(":")
+            complain(f"{where}: {error.reason}")
+            refused += 1
+            continue
+        if found is not None:
+            results.append(found)
+    out.mkdir(parents=True, exist_ok=True)
+    for library in libraries.values():
+        _write(out / f"{library.name}.osc", library.text)
+    checked = [_checked(each, out) for each in results]
+    for each in checked:
+        _write(out / f"{each.imported.name}.osc", each.text)
+        _write(out / f"{each.imported.name}.import.json", each.imported.report.to_json())
+    _write_settings(checked, out)
+    _sum_up(checked, form)
+    if refused:
+        return Exit.UNREADABLE
+    inexact = any(each.imported.report.grade != "exact" for each in checked)
+    if any(each.faults for each in checked) or (inexact and not allow_approx):
+        return Exit.ERRORS
+    return Exit.OK
+
+
+def _sources(paths: Sequence[str]) -> Iterator[Path | None]:
+    for path in paths:
+        if path == INPUT:
+            yield None
+        elif Path(path).is_dir():
+            yield from sorted(Path(path).rglob(f"*{SUFFIX}"))
+        else:
+            yield Path(path)
+
+
+def _import(
+    source: Path | None, name: str, libraries: Libraries, folders: Folders
+) -> Result | None:
+    """Return what became of a document; nothing of a catalog, which others use.
+
+    Raises:
+        Refused: It is none, or cannot be read.
+    """
+    data = _read(source)
+    try:
+        root = read(data)
+    except Unreadable as error:
+        raise Refused(error.reason, error.place) from None
+    tags = {child.tag for child in root.children}
+    if "Catalog" in tags:
+        return None
+    if "ParameterValueDistribution" not in tags:
+        said = "-" if source is None else source.name
+        imported = import_document(data, said, libraries, path=source, name=name, folders=folders)
+        return Result(imported, imported.text, ())
+    report = ImportReport("")
+    distribution = read_distribution(root, report)
+    scenario = (Path() if source is None else source.parent) / distribution.scenario.replace(
+        "\\", "/"
+    )
+    imported = import_document(
+        _read(scenario),
+        scenario.name,
+        libraries,
+        path=scenario,
+        name=name,
+        folders=folders,
+        distribution=distribution,
+    )
+    for finding in report.findings:
+        imported.report.findings.append(finding)
+    return Result(imported, imported.text, (), distribution)
+
+
+def _read(source: Path | None) -> bytes:
+    if source is None:
+        return sys.stdin.buffer.read()
+    try:
+        return source.read_bytes()
+    except OSError as error:
+        raise Refused(f"it cannot be read: {error.strerror}") from None
+
+
+def _checked(result: Result, out: Path) -> Result:
+    """Return a result with its text formatted and checked beside the libraries."""
+    place = out / f"{result.imported.name}.osc"
+    first = Compilation(place, place.name, CompileOptions(), text=result.text)
+    text = first.formatted or result.text
+    compilation = Compilation(place, place.name, CompileOptions(), text=text)
+    compilation.module  # noqa: B018 - the stages report to the sink
+    faults = tuple(
+        f"{each.code}: {each.message}"
+        for each in compilation.sink.sorted()
+        if each.severity is Severity.ERROR
+    )
+    return Result(result.imported, text, faults, result.distribution)
+
+
+def _write(path: Path, text: str) -> None:
+    replace_file(path, text.encode())
+
+
+# --- settings -------------------------------------------------------------------------------------
+
+
+def _write_settings(results: Sequence[Result], out: Path) -> None:
+    """Write where the maps are, and the rows of campaigns; settings that exist stay."""
+    folders = {
+        os.path.relpath(file.parent, out)
+        for each in results
+        if (file := each.imported.document.map_file) is not None
+    }
+    lines = [f"map_paths = {json.dumps(sorted(folders))}"] if folders else []
+    for each in results:
+        lines += _campaign(each, out)
+    if not lines:
+        return
+    place = out / SETTINGS
+    if place.exists():
+        complain(f"{place}: exists, left as it is")
+        return
+    _write(place, "\n".join(lines) + "\n")
+
+
+def _campaign(result: Result, out: Path) -> Iterator[str]:
+    found, name = result.distribution, result.imported.name
+    if found is None:
+        return
+    yield ""
+    yield f"[scenarios.{name}.campaign]"
+    parameters = {
+        said: parameter
+        for said, parameter in result.imported.parameters.items()
+        if parameter.is_used and said in found.open and len(found.open[said].values) != 1
+    }
+    if found.is_drawn or not parameters:
+        yield 'sampler = "random"'
+        yield f"samples = {found.runs or 1}"
+        return
+    rows = (
+        list(dict.fromkeys(tuple(row.get(said, "") for said in parameters) for row in found.rows()))
+        if found.size <= MOST_ROWS * 20
+        else []
+    )
+    if not rows or len(rows) > MOST_ROWS:
+        yield 'sampler = "pairwise"'
+        return
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(each.name for each in parameters.values())
+    for row in rows:
+        units = (each.unit[0] if each.kind == "double" else "" for each in parameters.values())
+        writer.writerow(f"{_plain(value)}{unit}" for value, unit in zip(row, units, strict=True))
+    _write(out / f"{name}.csv", text.getvalue())
+    yield f'sampler = "table:{name}.csv"'
+    yield f"samples = {len(rows)}"
+
+
+def _plain(value: str) -> str:
+    try:
+        return f"{float(value):.12g}"
+    except ValueError:
+        return value
+
+
+# --- the summary ----------------------------------------------------------------------------------
+
+
+def _sum_up(results: Sequence[Result], form: str) -> None:
+    if form == "json":
+        documents = [json.loads(each.imported.report.to_json()) for each in results]
+        put_document(json.dumps(documents, indent=1, ensure_ascii=False) + "\n")
+        return
+    grades: Counter[str] = Counter()
+    for each in results:
+        report = each.imported.report
+        grades[report.grade] += 1
+        name = f"{each.imported.name}.osc"
+        for finding in report.ordered[:MOST_SHOWN]:
+            what = f"{finding.grade}: {finding.construct}: {finding.reason}"
+            say(f"{report.source}:{finding.where}: {what}")
+        if (more := len(report.findings) - MOST_SHOWN) > 0:
+            say(f"{report.source}: {more} more in {each.imported.name}.import.json")
+        for fault in each.faults:
+            complain(f"{name}: {fault}")
+        if report.under_test:
+            driven = ", ".join(report.under_test)
+            say(f"{name}: under test: {driven} (`osc2tx run --ego` drives it)")
+    parts = ", ".join(f"{count} {grade}" for grade, count in sorted(grades.items()))
+    say(f"{count_of(len(results), 'scenario')} imported" + (f": {parts}" if parts else ""))

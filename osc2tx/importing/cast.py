@@ -1,0 +1,245 @@
+"""Entities as actors; those of catalogs are of types in a library file for each catalog."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field
+from pathlib import Path
+
+from osc2tx.importing.cursor import Ledger, Node
+from osc2tx.importing.document import Document
+from osc2tx.importing.names import Names, snake
+from osc2tx.importing.program import INDENT, declaration
+from osc2tx.importing.report import ImportReport
+from osc2tx.importing.values import LENGTH, Values, literal
+from osc2tx.xosc.element import Element, Unresolved
+from osc2tx_shared.classes import dataclass
+
+CATEGORIES: Mapping[str, str] = {
+    "car": "car",
+    "van": "car",
+    "truck": "truck",
+    "semitrailer": "trailer",
+    "trailer": "trailer",
+    "bus": "bus",
+    "motorbike": "vru_vehicle",
+    "bicycle": "vru_vehicle",
+    "train": "other",
+    "tram": "other",
+}
+"""Categories of vehicles in DSL 2.1."""
+
+RENAMED = {"van", "semitrailer", "motorbike", "bicycle", "train", "tram"}
+KINDS = ("Vehicle", "Pedestrian", "MiscObject")
+
+
+@dataclass
+class Actor:
+    """An entity of the document.
+
+    Attributes:
+        name: Its name in the scenario.
+        kind: `vehicle`, `person` or `movable_object`.
+        is_under_test: Whether a controller drives it.
+    """
+
+    name: str
+    kind: str
+    is_under_test: bool = False
+
+    @property
+    def verb(self) -> str:
+        """The action that does what its modifiers say."""
+        verb = {"vehicle": "drive", "person": "walk"}.get(self.kind, "move")
+        return f"{self.name}.{verb}"
+
+    @property
+    def goes_on(self) -> str:
+        """The action that goes on as the actor does."""
+        return f"{self.name}.keep_speed()"
+
+
+@dataclass
+class Library:
+    """The types of the entities of a catalog.
+
+    Attributes:
+        name: Name of its file and of its namespace.
+        types: Lines by name of the type.
+        entries: Names of the types by those in the catalog, with their kinds.
+    """
+
+    name: str
+    types: dict[str, list[str]] = field(default_factory=dict)
+    entries: dict[str, tuple[str, str]] = field(default_factory=dict)
+
+    @property
+    def text(self) -> str:
+        """The text of the file."""
+        lines = [
+            "import osc.standard.all",
+            "",
+            f"namespace {self.name} use std, stdtypes",
+            "",
+            f"export {', '.join(self.types)}",
+        ]
+        for text in self.types.values():
+            lines += ["", *text]
+        return "\n".join(lines) + "\n"
+
+
+Libraries = dict[Path, Library]
+"""Library files by the catalogs that they are made from."""
+
+
+def facts(node: Node, document: Document) -> tuple[str, list[str]]:
+    """Return the type of an entity, and what is known about it, as constraints."""
+    found: list[str] = []
+    kind = {"Vehicle": "vehicle", "Pedestrian": "person"}.get(node.tag, "movable_object")
+    category = document.text_at(
+        node.text(f"{snake(node.tag).replace('misc_object', 'miscObject')}Category") or ""
+    )
+    if node.tag == "Vehicle":
+        said = CATEGORIES.get(category, "other")
+        if category in RENAMED or category not in CATEGORIES:
+            node.approximate(f"DSL 2.1 has no category {category}, so it is {said}")
+        found.append(f"vehicle_category == {said}")
+        for each in node.children("Trailer"):
+            if any(part.get("entityRef") for part in each.element.walk()):
+                each.leave_out("trailers are not coupled here")
+            each.use_all()
+    elif category and category not in ("pedestrian", "none", "obstacle"):
+        node.approximate(f"its category {category} is not said here")
+    box = node.find("BoundingBox")
+    if box is not None:
+        found += _box(box, kind, document)
+    for name in ("role", "model"):
+        if node.has(name) and (name, node.tag) != ("model", "Pedestrian"):
+            node.approximate(f"{name}={node.text(name)!r} is not said here")
+    return kind, found
+
+
+def _box(box: Node, kind: str, document: Document) -> list[str]:
+    sizes, center = box.find("Dimensions"), box.find("Center")
+    found = []
+    for name in ("length", "width", "height"):
+        if sizes is None:
+            break
+        value = float(document.text_at(sizes.text(name) or "0"))
+        if value > 0.0:
+            found.append(f"bounding_box.{name} == {literal(value, LENGTH)}")
+    for name in ("x", "y", "z"):
+        if center is None:
+            break
+        value = float(document.text_at(center.text(name) or "0"))
+        if name == "z":
+            center.idle("actors stand on the ground", "z")
+            continue
+        if kind == "vehicle" and name == "x":
+            found.append(f"bounding_box.center.x == {literal(value, LENGTH)}")
+        elif abs(value) > 1e-6:
+            center.approximate(f"its box is {value:g} m from its origin along {name}, here none")
+    return found
+
+
+class Cast:
+    """The actors of a scenario.
+
+    Attributes:
+        actors: By their names in the document.
+        lines: Their declarations.
+        imports: The libraries that they need.
+    """
+
+    def __init__(
+        self,
+        document: Document,
+        values: Values,
+        ledger: Ledger,
+        names: Names,
+        libraries: Libraries,
+    ) -> None:
+        self.actors: dict[str, Actor] = {}
+        self.lines: list[str] = []
+        self.imports: set[str] = set()
+        self._document, self._values, self._ledger = document, values, ledger
+        self._names, self._libraries = names, libraries
+
+    def add(self, node: Node) -> None:
+        """Take an entity.
+
+        Raises:
+            Unresolved: It has no name or no object.
+        """
+        said = node.said("name")
+        name = self._names.new(said, kind="actor")
+        controllers = list(node.children("ObjectController"))
+        for each in controllers:
+            each.use_all()
+        for child in node.children(*KINDS):
+            kind, constraints = facts(child, self._document)
+            self.lines += declaration(name, kind, [f"it.{each}" for each in constraints])
+            self.actors[said] = Actor(name, kind, bool(controllers))
+            return
+        reference = node.find("CatalogReference")
+        if reference is None:
+            for child in node.children("ExternalObjectReference"):
+                child.leave_out("what it is stands in another document")
+            kind = "vehicle"
+            self.lines.append(f"{name}: {kind}")
+        else:
+            kind = self._of_catalog(reference, name)
+        self.actors[said] = Actor(name, kind, bool(controllers))
+
+    def _of_catalog(self, reference: Node, name: str) -> str:
+        entry_name = self._values.text(reference, "entryName")
+        self._values.text(reference, "catalogName")
+        for each in reference.children("ParameterAssignments"):
+            each.use_all()
+        found = self._document.entry(reference.element)
+        if found is None:
+            reference.approximate(
+                f"there is no entry {entry_name} in the catalogs; it is any vehicle"
+            )
+            self.lines.append(f"{name}: vehicle")
+            return "vehicle"
+        entry, path = found
+        if path not in self._libraries:
+            self._libraries[path] = self._library(path)
+        library = self._libraries[path]
+        if entry_name not in library.entries:
+            self._add_type(library, self._ledger.track(entry, path.name))
+        self.imports.add(library.name)
+        type_name, kind = library.entries[entry_name]
+        self.lines.append(f"{name}: {type_name}")
+        return kind
+
+    def _library(self, path: Path) -> Library:
+        taken = {each.name for each in self._libraries.values()}
+        names = Names(ImportReport(""), taken)
+        return Library(names.new(path.stem, kind="library"))
+
+    def _add_type(self, library: Library, node: Node) -> None:
+        said = node.said("name")
+        others = {name for each in self._libraries.values() for name in each.types}
+        type_name = Names(ImportReport(""), others | library.types.keys()).new(
+            said, kind="entity type"
+        )
+        kind, constraints = facts(node, self._document)
+        lines = [f"actor {type_name} inherits {kind}:"]
+        lines += [f"{INDENT}keep({each})" for each in constraints] or [f"{INDENT}event unused"]
+        library.types[type_name] = lines
+        library.entries[said] = (type_name, kind)
+
+
+def bodies_of(document: Document) -> list[Element]:
+    """Return the entities with what the catalogs say about them."""
+    entities = next((each for each in document.resolved.children if each.tag == "Entities"), None)
+    return (
+        []
+        if entities is None
+        else [each for each in entities.children if each.tag == "ScenarioObject"]
+    )
+
+
+__all__ = ["Actor", "Cast", "Libraries", "Library", "Unresolved", "bodies_of"]

@@ -1,0 +1,153 @@
+"""Values for runs: documents with distributions become scenarios with open parameters.
+
+What varies is an open parameter; `keep` says its range or its values. Deterministic distributions
+say which rows there are: a table of them is what a campaign runs. Stochastic ones are drawn.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import field
+from itertools import product
+
+from osc2tx.importing.document import Refused
+from osc2tx.importing.report import ImportReport
+from osc2tx.xosc import Element
+from osc2tx_shared.classes import dataclass
+
+MOST_ROWS = 5000
+MOST_VALUES = 10_000
+
+
+@dataclass
+class Open:
+    """What a parameter may be.
+
+    Attributes:
+        values: Its values; empty: a range.
+        low: Lower limit.
+        high: Upper limit.
+    """
+
+    values: tuple[str, ...] = ()
+    low: float = -math.inf
+    high: float = math.inf
+
+
+@dataclass
+class Distribution:
+    """Values for the runs of a scenario.
+
+    Attributes:
+        scenario: Path of its document.
+        open: What each parameter may be, by its name in the document.
+        axes: Rows of values that are combined with each other, of parameters that vary together.
+        is_drawn: Whether values are drawn.
+        runs: How many rows are drawn.
+        seed: Seed of what is drawn.
+    """
+
+    scenario: str
+    open: dict[str, Open] = field(default_factory=dict)
+    axes: list[list[Mapping[str, str]]] = field(default_factory=list)
+    is_drawn: bool = False
+    runs: int = 0
+    seed: int = 0
+
+    @property
+    def size(self) -> int:
+        """The number of rows."""
+        return math.prod(len(axis) for axis in self.axes)
+
+    def rows(self) -> Iterator[Mapping[str, str]]:
+        """Yield the rows of deterministic distributions, all combinations."""
+        for parts in product(*self.axes):
+            yield {name: value for part in parts for name, value in part.items()}
+
+
+def read_distribution(root: Element, report: ImportReport) -> Distribution:
+    """Return the values of a document with distributions.
+
+    Raises:
+        Refused: It names no scenario.
+    """
+    holder = next(
+        (each for each in root.children if each.tag == "ParameterValueDistribution"), None
+    )
+    if holder is None:
+        raise Refused("it has neither a storyboard nor distributions", root.place)
+    files = [each.get("filepath") or "" for each in holder.children if each.tag == "ScenarioFile"]
+    if not files or not files[0]:
+        raise Refused("it names no scenario", holder.place)
+    found = Distribution(files[0])
+    for kind in holder.children:
+        if kind.tag == "Deterministic":
+            for each in kind.children:
+                _deterministic(each, found, report)
+        elif kind.tag == "Stochastic":
+            found.is_drawn = True
+            found.runs = int(float(kind.get("numberOfTestRuns") or 0))
+            found.seed = int(float(kind.get("randomSeed") or 0))
+            for each in kind.children:
+                _stochastic(each, found, report)
+    return found
+
+
+def _deterministic(node: Element, found: Distribution, report: ImportReport) -> None:
+    name = node.get("parameterName") or ""
+    for each in node.children:
+        if each.tag == "DistributionSet":
+            values = tuple(element.get("value") or "" for element in each.children)
+            found.open[name] = Open(values)
+            found.axes.append([{name: value} for value in values])
+        elif each.tag == "DistributionRange":
+            values = tuple(_steps(each))
+            low, high = _limits(each)
+            found.open[name] = Open((), low, high)
+            found.axes.append([{name: value} for value in values])
+        elif each.tag == "ValueSetDistribution":
+            rows = [
+                {cell.get("parameterRef") or "": cell.get("value") or "" for cell in row.children}
+                for row in each.children
+            ]
+            found.axes.append(list(rows))
+            for key in dict.fromkeys(key for row in rows for key in row):
+                found.open[key] = Open(tuple(dict.fromkeys(row[key] for row in rows if key in row)))
+        else:
+            report.add("left out", f"<{each.tag}>", "only sets and ranges are imported", each.place)
+
+
+def _stochastic(node: Element, found: Distribution, report: ImportReport) -> None:
+    name = node.get("parameterName") or ""
+    for each in node.children:
+        if each.tag in ("UniformDistribution", "NormalDistribution", "LogNormalDistribution"):
+            low, high = _limits(each)
+            found.open[name] = Open((), low, high)
+            if each.tag != "UniformDistribution":
+                reason = "values are drawn evenly from the range"
+                report.add("approximated", f"<{each.tag}>", reason, each.place)
+        elif each.tag == "ProbabilityDistributionSet":
+            found.open[name] = Open(tuple(element.get("value") or "" for element in each.children))
+            report.add("approximated", f"<{each.tag}>", "values are drawn evenly", each.place)
+        else:
+            report.add("left out", f"<{each.tag}>", "only ranges and sets are imported", each.place)
+
+
+def _limits(node: Element) -> tuple[float, float]:
+    range_ = next((each for each in node.children if each.tag == "Range"), None)
+    if range_ is None:
+        return -math.inf, math.inf
+    return float(range_.get("lowerLimit") or "-inf"), float(range_.get("upperLimit") or "inf")
+
+
+def _steps(node: Element) -> Iterator[str]:
+    low, high = _limits(node)
+    step = float(node.get("stepWidth") or 0.0)
+    if not math.isfinite(low) or not math.isfinite(high) or step <= 0.0:
+        raise Refused("a range without limits or steps", node.place)
+    count = math.floor((high - low) / step + 1e-9) + 1
+    if count > MOST_VALUES:
+        raise Refused(f"a range of {count} values", node.place)
+    for index in range(count):
+        yield repr(round(low + index * step, 12))

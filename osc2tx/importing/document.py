@@ -1,0 +1,233 @@
+"""A document with the files that it names: catalogs, the map, and the places of its start."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+
+from osc2tx.xosc import Element, Place, Unreadable, read
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.arithmetic import evaluated
+from osc2tx.xosc.reader import Comment
+from osc2tx_runtime.domain.map.search import find_map
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_shared.classes import dataclass
+
+CATALOG_SIZE = 20_000_000
+_PARAMETER = re.compile(r"\$([A-Za-z_]\w*)")
+
+
+class Refused(Exception):
+    """A document that is not imported.
+
+    Attributes:
+        reason: A sentence without full stop.
+        place: Where that shows.
+    """
+
+    def __init__(self, reason: str, place: Place | None = None) -> None:
+        """Take what there is to say."""
+        super().__init__(reason)
+        self.reason = reason
+        self.place = place
+
+
+@dataclass(frozen=True, slots=True)
+class Folders:
+    """Where the files are that documents name.
+
+    Attributes:
+        maps: Folders of maps, besides that of the document.
+        catalogs: Folders of catalogs, besides those that the document names.
+    """
+
+    maps: tuple[Path, ...] = ()
+    catalogs: tuple[Path, ...] = ()
+
+
+NOWHERE = Folders()
+
+
+class Document:
+    """A scenario of OpenSCENARIO XML.
+
+    Attributes:
+        root: Its root element.
+        path: Its file; `None` for standard input.
+        comments: Its comments.
+    """
+
+    def __init__(
+        self,
+        root: Element,
+        path: Path | None,
+        comments: Sequence[Comment],
+        folders: Folders = NOWHERE,
+    ) -> None:
+        self.root = _scoped(root)
+        self.path = path
+        self.comments = comments
+        self._folders = folders
+        self._entries: dict[tuple[str, str], tuple[Element, Path]] | None = None
+        self._instances: dict[int, tuple[Element, Path] | None] = {}
+
+    @property
+    def folder(self) -> Path:
+        """The folder that relative paths start from."""
+        return Path() if self.path is None else self.path.parent
+
+    # --- parameters -------------------------------------------------------------------------------
+
+    @cached_property
+    def parameters(self) -> Mapping[str, str]:
+        """The texts of the parameters at their nominal values, computed where they are given so."""
+        found: dict[str, str] = {}
+        declarations = self.root.find(xml.ParameterDeclarations)
+        for node in () if declarations is None else declarations.all(xml.ParameterDeclaration):
+            found[node.get("name") or ""] = self.text_at(node.get("value") or "", found)
+        return found
+
+    def text_at(self, text: str, values: Mapping[str, str] | None = None) -> str:
+        """Return a text with its parameters at nominal values; itself if it has no value."""
+        if not text.startswith("$"):
+            return text
+        shown = self.parameters if values is None else values
+        if text[1:] in shown:
+            return shown[text[1:]]
+        numbers: dict[str, float] = {}
+        for name, said in shown.items():
+            try:
+                numbers[name] = float(said)
+            except ValueError:
+                continue
+        value = evaluated(text, numbers)
+        return text if value is None else repr(value)
+
+    # --- catalogs ---------------------------------------------------------------------------------
+
+    def entry(self, reference: Element) -> tuple[Element, Path] | None:
+        """Return the entry that a `CatalogReference` names, with its parameters, and its file."""
+        key = id(reference)
+        if key not in self._instances:
+            self._instances[key] = self._instance(reference)
+        return self._instances[key]
+
+    def _instance(self, reference: Element) -> tuple[Element, Path] | None:
+        if self._entries is None:
+            self._entries = self._read_catalogs()
+        names = [self.text_at(reference.get(key) or "") for key in ("catalogName", "entryName")]
+        found = self._entries.get((names[0], names[1]))
+        if found is None:
+            return None
+        entry, path = found
+        given = {
+            node.get("parameterRef") or "": node.get("value") or ""
+            for node in reference.below(xml.ParameterAssignment)
+        }
+        declared = {
+            node.get("name") or "": node.get("value") or ""
+            for node in entry.below(xml.ParameterDeclaration)
+        }
+        values = declared | given
+        children = [child for child in entry.children if child.tag != "ParameterDeclarations"]
+        bare = entry.with_children(*children)
+        return (_substituted(bare, values) if values else bare), path
+
+    def _read_catalogs(self) -> dict[tuple[str, str], tuple[Element, Path]]:
+        entries: dict[tuple[str, str], tuple[Element, Path]] = {}
+        for path in self._catalog_files():
+            try:
+                root = read(path.read_bytes()) if path.stat().st_size < CATALOG_SIZE else None
+            except (OSError, Unreadable):
+                continue
+            catalog = None if root is None else root.find(xml.Catalog)
+            for entry in () if catalog is None else catalog.children:
+                key = (catalog.get("name") or "", entry.get("name") or "")  # type: ignore[union-attr]
+                entries.setdefault(key, (entry, path))
+        return entries
+
+    def _catalog_files(self) -> list[Path]:
+        folders = list(self._folders.catalogs)
+        for node in self.root.below(xml.Directory):
+            named = self.text_at(node.get("path") or "").replace("\\", "/")
+            folders += [base / named for base in (self.folder, *self._folders.catalogs) if named]
+        files: dict[Path, None] = {}
+        for folder in folders:
+            if folder.is_file():
+                files[folder] = None
+            elif folder.is_dir():
+                files |= dict.fromkeys(sorted(folder.glob("*.xosc")))
+        return list(files)
+
+    @cached_property
+    def resolved(self) -> Element:
+        """The document with the entries of catalogs in it, and parameters at nominal values."""
+        return self._resolve(self.root)
+
+    def _resolve(self, node: Element) -> Element:
+        if node.tag == "CatalogReference":
+            found = self.entry(node)
+            if found is not None:
+                return self._resolve(found[0])
+        attributes = {name: self.text_at(text) for name, text in node.attributes}
+        children = [self._resolve(child) for child in node.children]
+        return node.with_attributes(attributes).with_children(*children)
+
+    # --- the map ----------------------------------------------------------------------------------
+
+    @cached_property
+    def map_file(self) -> Path | None:
+        """The file of the map; `None` if the document names none, or it is not found."""
+        network = self.root.find(xml.RoadNetwork)
+        logic = None if network is None else network.find(xml.LogicFile)
+        named = "" if logic is None else self.text_at(logic.get("filepath") or "")
+        if not named:
+            return None
+        relative = Path(named.replace("\\", "/"))
+        for folder in (self.folder, *self._folders.maps):
+            for place in (relative, Path(relative.name)):
+                for suffix in ("", ".xodr"):
+                    candidate = folder / f"{place}{suffix}"
+                    if candidate.is_file():
+                        return candidate
+        try:
+            return find_map(relative.name, self._folders.maps)
+        except ScenarioError:
+            return None
+
+
+def _scoped(node: Element) -> Element:
+    """Return an element in which the parameters of stories and maneuvers have their values."""
+    own = [each for each in node.children if each.tag == "ParameterDeclarations"]
+    if node.tag != "OpenSCENARIO" and own and own[0].children:
+        values = {
+            each.get("name") or "": each.get("value") or ""
+            for declarations in own
+            for each in declarations.children
+        }
+        kept = [each for each in node.children if each not in own]
+        return _scoped(_substituted(node.with_children(*kept), values))
+    return node.with_children(*(_scoped(child) for child in node.children))
+
+
+def _substituted(node: Element, values: Mapping[str, str]) -> Element:
+    attributes = {name: _with_values(text, values) for name, text in node.attributes}
+    children = [_substituted(child, values) for child in node.children]
+    return node.with_attributes(attributes).with_children(*children)
+
+
+def _with_values(text: str, values: Mapping[str, str]) -> str:
+    if not text.startswith("$"):
+        return text
+    if text[1:] in values:
+        return values[text[1:]]
+
+    def inner(found: re.Match[str]) -> str:
+        said = values.get(found[1])
+        if said is None:
+            return found[0]
+        return f"({said[2:-1]})" if said.startswith("${") else f"({said})"
+
+    return _PARAMETER.sub(inner, text)

@@ -1,0 +1,73 @@
+"""Names of documents as names of the language: lower case, words joined by underscores, unique."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from functools import cache
+
+from osc2tx.importing.report import ImportReport
+from osc2tx.options import STANDARDS
+from osc2tx.stdlib import LIBRARY, library_source
+
+_WORD = re.compile(r"[A-Z]+(?=[A-Z][a-z])|[A-Z]?[a-z]+\d*|[A-Z]+\d*|\d+")
+_DECLARED = re.compile(r"^(?:enum|struct|actor|unit) (\w+)", re.MULTILINE)
+_WORDS = (
+    "import namespace use export struct actor action scenario modifier enum unit type extend def"
+    " var event global inherits of is if with in as do on wait call until emit serial parallel"
+    " one_of keep hard default remove_default cover record range every fall rise elapsed and or"
+    " not it true false null list actor int uint float bool string SI expression undefined"
+    " external only override repeat at start end fail"
+)
+KINDS = ("event", "action", "maneuver", "act", "story", "group", "sequence")
+"""Last words of names that only say what an element is."""
+
+
+def snake(name: str) -> str:
+    """Return a name in lower case with underscores: `CutInVehicle_1` is `cut_in_vehicle_1`."""
+    words = _WORD.findall(name)
+    joined = "_".join(word.lower() for word in words)
+    return f"n{joined}" if joined[:1].isdigit() else joined or "unnamed"
+
+
+def short(name: str) -> str:
+    """Return the name of an event without the words that say that it is one."""
+    words = snake(name).split("_")
+    while len(words) > 1 and words[-1] in KINDS:
+        words.pop()
+    return "_".join(words)
+
+
+@cache
+def reserved() -> frozenset[str]:
+    """Return the names that the language and its library have."""
+    texts = [library_source(name, STANDARDS[-1]).text for name in LIBRARY]
+    found = {name for text in texts for name in _DECLARED.findall(text)}
+    return frozenset(found | set(_WORDS.split()))
+
+
+class Names:
+    """The names of a scenario; each is given once."""
+
+    def __init__(self, report: ImportReport, taken: Iterable[str] = ()) -> None:
+        self._report = report
+        self._taken = set(taken)
+
+    def new(self, said: str, *, kind: str, base: str | None = None) -> str:
+        """Return the name for something of the document.
+
+        Args:
+            said: Its name there.
+            kind: What it is, for the table of names.
+            base: What to call it if that is free; its own name in the style of the language.
+        """
+        wanted = base or snake(said)
+        if wanted in reserved():
+            wanted = f"{wanted}_{kind.split()[-1]}"
+        name, count = wanted, 2
+        while name in self._taken:
+            name, count = f"{wanted.rstrip('_')}_{count}", count + 1
+        self._taken.add(name)
+        if said and said != name:
+            self._report.names[f"{kind} {said}"] = name
+        return name

@@ -1,0 +1,344 @@
+"""Positions: where actors are at the start, and where actions and conditions take them.
+
+A place of the map is a point of the road, of the world, or a relation to another actor. What the
+language has no form for is computed where the reference is known: at the start.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import field
+
+from osc2tx.importing.cast import bodies_of
+from osc2tx.importing.cursor import Node
+from osc2tx.importing.document import Document
+from osc2tx.importing.names import Names
+from osc2tx.importing.program import declaration
+from osc2tx.importing.values import ANGLE, LENGTH, Quantity, Values, literal
+from osc2tx.xosc.element import Element, Unresolved
+from osc2tx.xosc.player.bodies import Body, Pose, body_of
+from osc2tx.xosc.player.errors import Unplayable
+from osc2tx.xosc.player.places import place_of
+from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap, read_map
+from osc2tx_shared.classes import dataclass
+
+STRAIGHT = 1e-4
+
+
+@dataclass
+class Spot:
+    """A place in the language.
+
+    Attributes:
+        argument: `position: p` or `odr_point: …` of `assign_position`; `""`: only modifiers say it.
+        modifiers: Modifiers that say it, without their `at`.
+        yaw: A modifier for the heading, where it is not that of the lane.
+    """
+
+    argument: str = ""
+    modifiers: list[str] = field(default_factory=list)
+    yaw: str = ""
+
+
+class Places:
+    """Positions of a document.
+
+    Attributes:
+        map: The map; `None` without it.
+        bodies: The entities where they are at the start, as far as that is known.
+        lines: Declarations of the points in the world.
+    """
+
+    def __init__(
+        self, document: Document, values: Values, names: Names, actors: dict[str, str]
+    ) -> None:
+        self._document, self._values, self._names = document, values, names
+        self._actors = actors
+        self.lines: list[str] = []
+        self.map: RoadMap | None = None
+        if document.map_file is not None:
+            try:
+                self.map = read_map(document.map_file)
+            except MapError:
+                self.map = None
+        self.bodies: dict[str, Body] = {}
+        self._declared: dict[tuple[float, float], str] = {}
+        self._place_bodies()
+
+    def _place_bodies(self) -> None:
+        """Put the entities at their places of `Init`, references before what is beside them."""
+        for element in bodies_of(self._document):
+            try:
+                body = body_of(element)
+            except (Unresolved, StopIteration, ValueError):
+                body = Body(element.get("name") or "", "Vehicle", 3.7, 0.9, 1.9, {})
+            self.bodies[body.name] = body
+        waiting = {
+            private.get("entityRef") or "": teleport
+            for private in _privates(self._document.resolved)
+            for teleport in _teleports(private)
+        }
+        for _ in range(len(waiting)):
+            for name, position in list(waiting.items()):
+                refs = [node.get("entityRef") for node in position.walk()]
+                if any(ref in waiting and ref != name for ref in refs):
+                    continue
+                del waiting[name]
+                found = self._static(position)
+                body_ = self.bodies.get(name)
+                if found is not None and body_ is not None and self.map is not None:
+                    try:
+                        body_.put(self.map, *found)
+                    except (Unplayable, MapError, ArithmeticError, LookupError):
+                        continue
+
+    def _static(self, position: Element) -> tuple[LanePosition | Pose, float | None] | None:
+        """Return the place of a resolved position at the start; `None` if it is not known."""
+        try:
+            inner = position.inner
+            if self.map is None and inner.tag != "WorldPosition":
+                return None
+            return place_of(inner, self.bodies, self.map)  # type: ignore[arg-type]
+        except (
+            Unplayable,
+            Unresolved,
+            MapError,
+            ValueError,
+            LookupError,
+            AssertionError,
+            AttributeError,
+        ):
+            return None
+
+    # --- forms ------------------------------------------------------------------------------------
+
+    def spot(self, position: Node, name: str, *, at_start: bool) -> Spot | None:
+        """Return a place in the language; `None`, with a finding, if there is none.
+
+        Args:
+            position: `Position`.
+            name: The actor that it is for, for names of points.
+            at_start: Whether it counts at the start, when the places of others are known.
+        """
+        inner = position.inner
+        if inner.tag == "LanePosition":
+            return self._lane(inner)
+        if inner.tag == "RoadPosition":
+            return self._road(inner)
+        if inner.tag == "RelativeLanePosition":
+            found = self._beside(inner, name, at_start)
+            if found is not None:
+                return found
+        if inner.tag == "WorldPosition" or at_start:
+            found = self._known(position, name)
+            if found is not None:
+                return found
+        inner.leave_out(
+            "the language has no form for this place, and it is not known before the run"
+        )
+        return None
+
+    def _lane(self, node: Node) -> Spot:
+        road, lane = self._values.text(node, "roadId"), self._values.text(node, "laneId")
+        s = self._values.quantity(node, "s", LENGTH)
+        t = self._values.quantity(node, "offset", LENGTH)
+        lane = str(int(float(lane))) if lane.replace(".", "").lstrip("-").isdigit() else lane
+        text = _odr_point(road, lane, s.text, t.text)
+        direction = 0.0
+        if self.map is not None and road in self.map.roads:
+            try:
+                along = self.map.travel_direction(road, int(lane))
+                direction = self.map.pose(LanePosition(road, int(lane), s.value)).h
+                direction += math.pi if along < 0 else 0.0
+            except (MapError, LookupError, ValueError, AttributeError):
+                along = 1
+        else:
+            along = -1 if lane.lstrip("-").isdigit() and int(lane) > 0 else 1
+        return Spot(text, yaw=self._yaw(node, direction, 0.0 if along > 0 else math.pi))
+
+    def _yaw(self, node: Node, road: float, of_lane: float) -> str:
+        """Return the modifier for an orientation, given those of road and lane."""
+        orientation = node.find("Orientation")
+        if orientation is None:
+            return ""
+        kind = orientation.text("type") or "absolute"
+        for name in ("p", "r"):
+            if abs(self._values.nominal(orientation, name)) > 1e-6:
+                orientation.approximate(f"{name} is that of the road here")
+        h = self._values.nominal(orientation, "h")
+        turned = h - of_lane if kind == "relative" else h - road - of_lane
+        turned = _wrapped(turned)
+        if abs(turned) < STRAIGHT:
+            return ""
+        return f"yaw({literal(round(turned, 9), ANGLE)})"
+
+    def _road(self, node: Node) -> Spot:
+        road = self._values.text(node, "roadId")
+        s, t = (self._values.quantity(node, name, LENGTH) for name in ("s", "t"))
+        text = _odr_point(road, "", s.text, t.text)
+        node_pose = None
+        if self.map is not None and road in self.map.roads:
+            try:
+                node_pose = self.map.road_pose(road, s.value, t.value)
+            except (MapError, LookupError, ValueError):
+                node_pose = None
+        if node_pose is None:
+            return Spot(text, yaw=self._yaw(node, 0.0, 0.0))
+        found = self._static_of(node)
+        h = found[1] if found is not None and found[1] is not None else node_pose.h
+        node.find("Orientation") and node.find("Orientation").use_all()  # type: ignore[union-attr]
+        return Spot(text, yaw=_absolute(h))
+
+    def _static_of(self, inner: Node) -> tuple[LanePosition | Pose, float | None] | None:
+        wrapped = Element.of((), (self._document._resolve(inner.element),))
+        return self._static(wrapped)
+
+    def _beside(self, node: Node, name: str, at_start: bool) -> Spot | None:
+        """Return a place in lanes and metres beside another actor."""
+        said = node.said("entityRef")
+        reference = self._actors.get(said)
+        if reference is None or node.find("Orientation") is not None:
+            return None
+        lanes = int(self._values.nominal(node, "dLane"))
+        if abs(self._values.nominal(node, "offset")) > 1e-9:
+            return None
+        body, found = self.bodies.get(said), self._static_of(node)
+        direction = 1
+        if self.map is not None and at_start:
+            if (
+                body is None
+                or body.pose is None
+                or found is None
+                or not isinstance(found[0], LanePosition)
+            ):
+                return None
+            theirs, ours = body.in_lane(self.map), found[0]
+            directions = [
+                self.map.travel_direction(each.road, each.lane) for each in (theirs, ours)
+            ]
+            if theirs.road != ours.road or len(set(directions)) > 1 or body.along < 0:
+                return None
+            direction = directions[0]
+        along = "dsLane" if node.has("dsLane") else "ds"
+        ahead = self._values.quantity(node, along, LENGTH)
+        side = "ahead_of" if direction > 0 or along == "dsLane" else "behind"
+        if not ahead.is_open and ahead.value < 0.0:
+            ahead = Quantity(literal(-ahead.value, LENGTH), -ahead.value)
+            side = {"ahead_of": "behind", "behind": "ahead_of"}[side]
+        modifiers = [
+            self._beside_lane(node, reference, lanes),
+            f"position({ahead.text}, {side}: {reference})",
+        ]
+        return Spot(modifiers=modifiers)
+
+    def _beside_lane(self, node: Node, reference: str, lanes: int) -> str:
+        text = node.text("dLane") or "0"
+        parameter = self._values.parameters.get(text[1:]) if text.startswith("$") else None
+        if (
+            parameter is not None
+            and lanes != 0
+            and parameter.kind != "double"
+            and parameter.expression is not None
+        ):
+            parameter.is_used = True
+            p = parameter.name
+            return f"lane({p} > 0 ? {p} : -{p}, side_of: {reference}, side: {p} > 0 ? left : right)"
+        if text.startswith("$"):
+            node.approximate(f"dLane keeps the nominal value of `{text}`")
+        if lanes == 0:
+            return f"lane(same_as: {reference})"
+        count = "" if abs(lanes) == 1 else f"{abs(lanes)}, "
+        return f"lane({count}side_of: {reference}, side: {'left' if lanes > 0 else 'right'})"
+
+    def _known(self, position: Node, name: str) -> Spot | None:
+        """Return a place that is known: a point of a road, or of the world."""
+        inner = position.inner
+        found = self._static_of(inner)
+        if found is None:
+            return None
+        for element in inner.element.walk():
+            if any(text.startswith("$") for _, text in element.attributes):
+                inner.approximate("it keeps the place that its nominal values give")
+                break
+        inner.use_all()
+        where, heading = found
+        if isinstance(where, LanePosition) and self.map is not None:
+            t = where.offset * self.map.travel_direction(where.road, where.lane)
+            at = literal(where.s, LENGTH), literal(t, LENGTH)
+            text = _odr_point(where.road, str(where.lane), *at)
+            return Spot(text, yaw="" if heading is None else _absolute(heading))
+        assert isinstance(where, Pose)
+        point = self.point(where.x, where.y, name)
+        h = where.h if heading is None else heading
+        return Spot(f"position: {point}", yaw=_absolute(h))
+
+    def point(self, x: float, y: float, name: str) -> str:
+        """Return the name of a point in the world."""
+        key = (round(x, 6), round(y, 6))
+        if key not in self._declared:
+            made = self._names.new("", kind="point", base=f"{name}_point")
+            told = [
+                f"it.{axis} == {literal(v, LENGTH)}"
+                for axis, v in zip("xyz", (*key, 0.0), strict=True)
+            ]
+            self.lines += declaration(made, "position_3d", told)
+            self._declared[key] = made
+        return self._declared[key]
+
+    def pose(self, x: float, y: float, name: str) -> str:
+        """Return the name of a pose in the world, of a corner of a path."""
+        made = self._names.new("", kind="point", base=f"{name}_pose")
+        told = [
+            f"it.position.{axis} == {literal(round(v, 6), LENGTH)}"
+            for axis, v in zip("xyz", (x, y, 0.0), strict=True)
+        ]
+        self.lines += declaration(made, "pose_3d", told)
+        return made
+
+    def coordinates(self, position: Node) -> tuple[float, float] | None:
+        """Return where a place is in the world, if that is known."""
+        found = self._static_of(position.inner)
+        if found is None:
+            return None
+        where, _ = found
+        if isinstance(where, LanePosition):
+            assert self.map is not None
+            try:
+                pose = self.map.pose(where)
+            except (MapError, LookupError):
+                return None
+            return pose.x, pose.y
+        return where.x, where.y
+
+
+def _odr_point(road: str, lane: str, s: str, t: str) -> str:
+    point = f'road_id: "{road}", lane_id: "{lane}", s: {s}, t: {t}'
+    return f"odr_point: road.create_odr_point({point})"
+
+
+def _absolute(h: float) -> str:
+    return f"orientation(yaw: {literal(round(_wrapped(h), 9), ANGLE)}, measure_by: absolute)"
+
+
+def _wrapped(angle: float) -> float:
+    return math.atan2(math.sin(angle), math.cos(angle))
+
+
+def _privates(root: Element) -> list[Element]:
+    board = next((each for each in root.children if each.tag == "Storyboard"), None)
+    init = (
+        None
+        if board is None
+        else next((each for each in board.children if each.tag == "Init"), None)
+    )
+    return [] if init is None else [node for node in init.walk() if node.tag == "Private"]
+
+
+def _teleports(private: Element) -> list[Element]:
+    return [
+        position
+        for action in private.walk()
+        if action.tag == "TeleportAction"
+        for position in action.children
+        if position.tag == "Position"
+    ][-1:]

@@ -1,0 +1,156 @@
+"""The text of a scenario, as statements."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import field
+from textwrap import wrap
+from typing import Literal, TypeAlias
+
+from osc2tx_shared.classes import dataclass
+
+Kind: TypeAlias = Literal["serial", "parallel", "one_of"]
+WIDTH = 92
+INDENT = "    "
+
+
+@dataclass
+class Statement:
+    """A member of `do`: an invocation, a directive, or a composition.
+
+    Attributes:
+        text: The statement; the word of a composition.
+        label: Its name; `""`: it has none.
+        modifiers: What stands below `with:`.
+        members: Members of a composition; `None` for others.
+        comments: Lines above it.
+        length: Seconds that it takes, if that is known; `inf`: it ends with what is around it.
+    """
+
+    text: str
+    label: str = ""
+    modifiers: list[str] = field(default_factory=list)
+    members: list[Statement] | None = None
+    comments: list[str] = field(default_factory=list)
+    length: float | None = None
+
+    def lines(self, indent: int) -> Iterator[str]:
+        """Yield its lines."""
+        margin = INDENT * indent
+        yield from (f"{margin}{line}" for line in comment_lines(self.comments))
+        head = f"{self.label}: {self.text}" if self.label else self.text
+        if self.members is not None:
+            yield f"{margin}{head}:"
+            for member in self.members:
+                yield from member.lines(indent + 1)
+            if self.modifiers:
+                yield f"{margin}with:"
+        else:
+            yield f"{margin}{head} with:" if self.modifiers else f"{margin}{head}"
+        yield from (f"{margin}{INDENT}{modifier}" for modifier in self.modifiers)
+
+
+def composed(kind: Kind, members: Sequence[Statement]) -> Statement:
+    """Return members one after the other or side by side; a single one stands for itself."""
+    flat: list[Statement] = []
+    members = settled(members) if kind == "serial" else members
+    for member in members:
+        is_same = member.text == kind and member.members is not None
+        if is_same and not member.label and not member.modifiers and not member.comments:
+            flat += member.members or ()
+        else:
+            flat.append(member)
+    if len(flat) == 1:
+        return flat[0]
+    return Statement(kind, members=flat, length=_length(kind, flat))
+
+
+def settled(members: Sequence[Statement]) -> list[Statement]:
+    """Return members of a `serial` in which what never ends by itself lasts up to the next wait.
+
+    What comes behind something that never ends, and waits for nothing, never begins.
+    """
+    found: list[Statement] = []
+    for member in members:
+        last = found[-1] if found else None
+        if last is None or last.length != math.inf:
+            found.append(member)
+        elif member.text.startswith("wait ") and member.members is None:
+            last.modifiers.append(f"until {member.text.removeprefix('wait ')}")
+            last.length = None
+        else:
+            break
+    return found
+
+
+def _length(kind: Kind, members: Sequence[Statement]) -> float | None:
+    lengths = [member.length for member in members]
+    known = [length for length in lengths if length is not None]
+    if len(known) < len(lengths):
+        return None
+    return sum(known) if kind == "serial" else max(known, default=0.0)
+
+
+def wait(text: str) -> Statement:
+    """Return a wait."""
+    return Statement(f"wait {text}")
+
+
+def comment_lines(comments: Iterable[str]) -> Iterator[str]:
+    """Yield comments as lines of a text."""
+    for comment in comments:
+        for line in comment.splitlines():
+            words = " ".join(line.split())
+            yield from (f"# {part}" for part in wrap(words, WIDTH, break_on_hyphens=False))
+
+
+@dataclass
+class Program:
+    """A file with a scenario.
+
+    Attributes:
+        name: The scenario.
+        header: Comment at its beginning.
+        imports: Libraries beside it.
+        declarations: Lines of its members, before `do`.
+        body: What happens.
+    """
+
+    name: str
+    header: list[str] = field(default_factory=list)
+    imports: list[str] = field(default_factory=list)
+    declarations: list[str] = field(default_factory=list)
+    body: Statement | None = None
+
+    @property
+    def text(self) -> str:
+        """The text of the file."""
+        imported = sorted(self.imports)
+        lines = [
+            *comment_lines(self.header),
+            "import osc.standard.all",
+            *(f"import {name}" for name in imported),
+            "",
+            f"namespace null use {', '.join(('std', 'stdtypes', *imported))}",
+            "",
+            f"scenario {self.name}:",
+            *(f"{INDENT}{line}" if line else "" for line in self.declarations),
+        ]
+        if self.body is not None:
+            first, *others = self.body.lines(1)
+            while first.strip().startswith("#"):
+                lines.append(first)
+                first, *others = others
+            lines += ["", f"{INDENT}do {first.strip()}", *others]
+        return "\n".join(lines) + "\n"
+
+
+def declaration(
+    name: str, type_name: str, constraints: Sequence[str], value: str = ""
+) -> list[str]:
+    """Return the lines of a member with constraints."""
+    head = f"{name}: {type_name}" + (f" = {value}" if value else "")
+    if not constraints:
+        return [head]
+    return [f"{head} with:", *(f"{INDENT}keep({each})" for each in constraints)]

@@ -1,0 +1,117 @@
+"""How exactly a scenario says what its document says."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import field
+from typing import Literal, TypeAlias
+
+from osc2tx.xosc.element import Place
+from osc2tx_shared.classes import dataclass
+
+Grade: TypeAlias = Literal["exact", "approximated", "left out"]
+GRADES: tuple[Grade, ...] = ("left out", "approximated", "exact")
+FORMAT = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """A construct of a document that the scenario says nearly, or not at all.
+
+    Attributes:
+        grade: How well the scenario says it.
+        construct: Its element.
+        reason: What the difference is, a sentence without full stop.
+        place: Where the element begins.
+        file: Its file, if it is a catalog.
+        bound: Metres by which an actor may be off; `None`: not known.
+    """
+
+    grade: Grade
+    construct: str
+    reason: str
+    place: Place | None
+    file: str = ""
+    bound: float | None = None
+
+    @property
+    def where(self) -> str:
+        """File and place, as far as they are known."""
+        return ":".join(str(part) for part in (self.file, self.place) if part)
+
+
+@dataclass
+class ImportReport:
+    """What the import of a document found.
+
+    Attributes:
+        source: The document.
+        scenario: The name of the scenario.
+        findings: Constructs that are not exact.
+        idle: Attributes that change nothing: path, text, reason, place.
+        problems: What the version of the document does not allow, with places.
+        names: Names of the document, and those of the scenario.
+        under_test: Actors that a controller drives: systems under test.
+    """
+
+    source: str
+    scenario: str = ""
+    findings: list[Finding] = field(default_factory=list)
+    idle: list[tuple[str, str, str, str]] = field(default_factory=list)
+    problems: list[tuple[str, str]] = field(default_factory=list)
+    names: dict[str, str] = field(default_factory=dict)
+    under_test: list[str] = field(default_factory=list)
+
+    def add(
+        self, grade: Grade, construct: str, reason: str, place: Place | None, *, file: str = ""
+    ) -> None:
+        """Take a finding, unless it is known."""
+        finding = Finding(grade, construct, reason, place, file)
+        if finding not in self.findings:
+            self.findings.append(finding)
+
+    @property
+    def grade(self) -> Grade:
+        """The worst grade of all."""
+        return min((each.grade for each in self.findings), key=GRADES.index, default="exact")
+
+    @property
+    def ordered(self) -> list[Finding]:
+        """The findings, the worst first, then by place."""
+        nowhere = Place(0, 0)
+        return sorted(
+            self.findings,
+            key=lambda each: (GRADES.index(each.grade), each.file, each.place or nowhere),
+        )
+
+    def to_json(self) -> str:
+        """Return the text of `NAME.import.json`."""
+        document = {
+            "format": FORMAT,
+            "source": self.source,
+            "scenario": self.scenario,
+            "grade": self.grade,
+            "under_test": self.under_test,
+            "findings": [
+                {
+                    "grade": each.grade,
+                    "construct": each.construct,
+                    "reason": each.reason,
+                    **({"file": each.file} if each.file else {}),
+                    **(
+                        {}
+                        if each.place is None
+                        else {"line": each.place.line, "column": each.place.column}
+                    ),
+                    **({} if each.bound is None else {"bound": each.bound}),
+                }
+                for each in self.ordered
+            ],
+            "problems": [{"reason": reason, "at": at} for reason, at in self.problems],
+            "names": dict(sorted(self.names.items())),
+            "without_effect": [
+                {"attribute": path, "text": text, "reason": reason, "at": at}
+                for path, text, reason, at in self.idle
+            ],
+        }
+        return json.dumps(document, indent=1, ensure_ascii=False) + "\n"

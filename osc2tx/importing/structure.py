@@ -1,0 +1,428 @@
+"""The order of events as compositions.
+
+An event that starts at the end of another one comes after it. Events that start at times come one
+after the other where they move the same; what is then still going on ends. Only where the order
+of two events is not known before the run, one overrides the other.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import field
+
+from osc2tx.importing.conditions import Condition, Trigger
+from osc2tx.importing.program import Statement, composed, wait
+from osc2tx.importing.steps import ENDS, Board, Step
+from osc2tx.importing.values import PRODUCT, TIME, Quantity, literal
+from osc2tx_shared.classes import dataclass
+
+STARTS = ("startTransition", "runningState")
+
+
+@dataclass(eq=False)
+class Branch:
+    """What happens one after the other, from the start of the scenario on.
+
+    Attributes:
+        steps: The events in it.
+        members: Its statements.
+    """
+
+    steps: list[Step] = field(default_factory=list)
+    members: list[Statement] = field(default_factory=list)
+
+    @property
+    def actors(self) -> set[str]:
+        """The actors that it moves."""
+        return {actor for step in self.steps for actor in step.actors}
+
+
+class Structure:
+    """Finds the order of the events of a storyboard.
+
+    Attributes:
+        lines: Declarations that the order needs: events, overrides.
+    """
+
+    def __init__(
+        self, board: Board, name_event: Callable[[str], str], going_on: Mapping[str, str]
+    ) -> None:
+        """Take the storyboard.
+
+        Args:
+            board: The storyboard.
+            name_event: Gives a name for an event of the scenario.
+            going_on: The action that goes on, by actor.
+        """
+        self._board, self._name_event, self._going_on = board, name_event, going_on
+        self.lines: list[str] = []
+        self._declared: dict[str, str] = {}
+        self._referred: set[Step] = set()
+        self._predecessor: dict[Step, Step] = {}
+        for step in board.steps:
+            self._order(step)
+
+    # --- who follows whom -------------------------------------------------------------------------
+
+    def _order(self, step: Step) -> None:
+        """Put a step behind the one whose end starts it."""
+        found = [each for each in self._ends_in(step.trigger) if each is not step]
+        chains = [each for each in found if not self._leads_to(step, each)]
+        if len(found) == 1 and chains:
+            self._predecessor[step] = found[0]
+            found[0].successors.append(step)
+
+    def _leads_to(self, first: Step, last: Step) -> bool:
+        at: Step | None = last
+        while at is not None:
+            if at is first:
+                return True
+            at = self._predecessor.get(at)
+        return False
+
+    def _ends_in(self, trigger: Trigger) -> list[Step]:
+        """Return the steps whose ends a trigger waits for."""
+        if len(trigger.groups) != 1:
+            return []
+        return [
+            step
+            for condition in trigger.groups[0]
+            if condition.kind == "state" and condition.state in ENDS
+            for step in self._steps_of(condition)
+        ]
+
+    def _steps_of(self, condition: Condition) -> list[Step]:
+        """Return the last steps of what a condition is about."""
+        found = self._board.elements.get(condition.element, [])
+        return [
+            step for step in found if not any(self._predecessor.get(each) is step for each in found)
+        ]
+
+    # --- waiting ----------------------------------------------------------------------------------
+
+    def waits(self, trigger: Trigger, behind: Step | None = None) -> list[Statement]:
+        """Return what waits for a trigger; `behind`: it comes after this step."""
+        if trigger.is_immediate:
+            return []
+        groups = [self._of_group(group, behind) for group in trigger.groups]
+        if len(groups) == 1:
+            return groups[0]
+        if any(not group for group in groups):
+            return []
+        return [composed("one_of", [composed("serial", group) for group in groups])]
+
+    def _of_group(self, group: Sequence[Condition], behind: Step | None) -> list[Statement]:
+        found: list[Statement] = []
+        late = 0.0
+        times = [each for each in group if each.kind == "time"]
+        states = [each for each in group if each.kind == "state"]
+        events = [each for each in group if each.kind == "event"]
+        levels = [each for each in group if each.kind == "expression" and each.edge == "none"]
+        edges = [each for each in group if each.kind == "expression" and each.edge != "none"]
+        if times and behind is not None:
+            times[0].node.approximate(
+                "the time counts from the start of the scenario; it is taken to have come"
+            )
+        elif times:
+            latest = max(times, key=_nominal)
+            found.append(wait(f"elapsed({_time_of(latest)})"))
+        marks = [text for each in (*states, *events) for text in self._ends(each, behind)]
+        if len(marks) == 1:
+            found.append(wait(marks[0]))
+        elif marks:
+            found.append(composed("parallel", [wait(mark) for mark in marks]))
+        for each in (*states, *events):
+            found += _delayed(each)
+        if len(edges) == 1 and not levels:
+            found.append(wait(_edge(edges[0])))
+        elif len(edges) == 1:
+            name = self._event(_edge(edges[0]), edges[0])
+            conjunction = " and ".join(_operand(each.text) for each in levels)
+            found.append(wait(f"@{name} if {conjunction}"))
+        elif edges:
+            edges[0].node.approximate(
+                "edges of several conditions are the edge of their conjunction"
+            )
+            conjunction = " and ".join(_operand(each.text) for each in (*edges, *levels))
+            found.append(wait(f"rise({conjunction})"))
+        elif levels:
+            found.append(
+                wait(
+                    " and ".join(
+                        _operand(each.text) if len(levels) > 1 else each.text for each in levels
+                    )
+                )
+            )
+        for each in (*levels, *edges):
+            late = max(late, each.delay.value if each.delay is not None else 0.0, each.lasting)
+        delayed = [
+            each for each in (*levels, *edges) if each.delay is not None or each.lasting > 0.0
+        ]
+        if late > 0.0:
+            if len(group) > 1:
+                group[0].node.approximate("delays of several conditions follow each other")
+            only = delayed[0].delay
+            text = only.text if len(delayed) == 1 and only is not None else literal(late, TIME)
+            found.append(wait(f"elapsed({text})"))
+        return found
+
+    def _ends(self, condition: Condition, behind: Step | None) -> Iterator[str]:
+        """Yield the events of the language that a condition waits for."""
+        if condition.kind == "event":
+            yield f"@{condition.text}"
+            return
+        steps = self._steps_of(condition)
+        if not steps:
+            kind, name = condition.element
+            condition.node.approximate(
+                f"the {kind} {name} does nothing here, so it is not waited for"
+            )
+        if condition.state in STARTS:
+            steps = self._board.elements.get(condition.element, [])[:1]
+        elif condition.state not in ENDS:
+            condition.node.approximate(f"{condition.state} is taken to be met always")
+            return
+        for step in steps:
+            if step is behind:
+                continue
+            self._referred.add(step)
+            if not step.effects:
+                yield f"@{step.label}"
+            else:
+                yield f"@{step.label}.{'start' if condition.state in STARTS else 'end'}"
+
+    def _event(self, text: str, condition: Condition) -> str:
+        if text not in self._declared:
+            name = self._name_event("condition")
+            self.lines.append(f"event {name} is {text}")
+            self._declared[text] = name
+        return self._declared[text]
+
+    # --- compositions -----------------------------------------------------------------------------
+
+    def branches(self) -> list[Branch]:
+        """Return what runs side by side from the start on."""
+        roots = [step for step in self._board.steps if step not in self._predecessor]
+        found: list[Branch] = []
+        for group in self._groups(roots):
+            timed = [_start(step) for step in group]
+            if len(group) > 1 and all(time is not None for time in timed):
+                found.append(self._timeline(group))
+                continue
+            made = [Branch(list(_below(step)), self._chain(step)) for step in group]
+            self._override(made)
+            found += made
+        for branch in found:
+            self._stop(branch)
+        return found
+
+    def _groups(self, roots: Sequence[Step]) -> list[list[Step]]:
+        """Return the roots in groups of those that move the same."""
+        groups: list[list[Step]] = []
+        for root in roots:
+            touching = [group for group in groups if any(_conflict(root, other) for other in group)]
+            merged = [step for group in touching for step in group] + [root]
+            groups = [group for group in groups if group not in touching] + [merged]
+        order = {step: index for index, step in enumerate(self._board.steps)}
+        for group in groups:
+            group.sort(key=order.__getitem__)
+        return sorted(groups, key=lambda group: order[group[0]])
+
+    def _chain(self, step: Step) -> list[Statement]:
+        """Return a step with what waits for it, and what follows."""
+        act, event = step.triggers
+        behind = self._predecessor.get(step)
+        is_of_act = event.is_immediate
+        found = (
+            self.waits(act, behind if is_of_act else None) if behind is None or is_of_act else []
+        )
+        found += self.waits(event, behind)
+        content = self._content(step)
+        return [*found, *content] if content else []
+
+    def _content(self, step: Step) -> list[Statement]:
+        found = (
+            [self._statement(step)] if step.effects or step.label in self._referred_labels else []
+        )
+        followers = [chain for each in step.successors if (chain := self._chain(each))]
+        if len(followers) == 1:
+            return found + followers[0]
+        if followers:
+            found.append(composed("parallel", [composed("serial", each) for each in followers]))
+        return found
+
+    @property
+    def _referred_labels(self) -> set[str]:
+        return {step.label for step in self._referred} | self._empty_labels
+
+    @property
+    def _empty_labels(self) -> set[str]:
+        """Labels of steps without effects whose ends are waited for elsewhere."""
+        named: set[str] = set()
+        for each in self._board.steps:
+            for trigger in each.triggers:
+                for group in trigger.groups:
+                    for condition in group:
+                        if condition.kind == "state":
+                            named |= {step.label for step in self._steps_of(condition)}
+        for group in self._board.end.groups:
+            for condition in group:
+                if condition.kind == "state":
+                    named |= {step.label for step in self._steps_of(condition)}
+        return named
+
+    def _statement(self, step: Step) -> Statement:
+        if step.effects:
+            return step.statement
+        if f"event {step.label}" not in self.lines:
+            self.lines.append(f"event {step.label}")
+        return Statement(f"emit {step.label}", comments=step.comments, length=0.0)
+
+    def _timeline(self, group: Sequence[Step]) -> Branch:
+        """Return steps at times, one after the other; what is still going on ends."""
+        ordered = sorted(group, key=lambda step: _nominal_start(step).value)
+        branch = Branch([each for step in ordered for each in _below(step)])
+        before = Quantity("0s", 0.0)
+        for index, step in enumerate(ordered):
+            start = _nominal_start(step)
+            if index == 0 and start.value > 0.0:
+                branch.members.append(wait(f"elapsed({start.text})"))
+            content = self._content(step)
+            if index + 1 == len(ordered):
+                branch.members += content
+                break
+            gap = _minus(_nominal_start(ordered[index + 1]), start)
+            if gap.value <= 0.0:
+                at_once = [each for each in content if each.length == 0.0]
+                branch.members += at_once if len(at_once) == len(content) else []
+                if len(at_once) < len(content):
+                    step.node.leave_out("an event of the same time replaces it at once")
+                continue
+            branch.members += self._for_a_time(content, gap, step)
+        del before
+        return branch
+
+    def _for_a_time(
+        self, content: Sequence[Statement], gap: Quantity, step: Step
+    ) -> list[Statement]:
+        """Return statements that are over after a time, and last until then."""
+        if not content:
+            return [wait(f"elapsed({gap.text})")]
+        lengths = [each.length for each in content]
+        total = sum(each for each in lengths if each is not None)
+        if None not in lengths and total <= gap.value + 1e-9:
+            if abs(total - gap.value) < 1e-9:
+                return list(content)
+            left = gap.text if total == 0.0 else literal(round(gap.value - total, 6), TIME)
+            if total > 0.0 and gap.is_open:
+                left = f"{gap.text} - {literal(total, TIME)}"
+            return [*content, wait(f"elapsed({left})")]
+        actors = {actor for each in _below(step) for actor in each.actors}
+        last = composed("serial", [*content, *self.go_on(sorted(actors))])
+        last.modifiers.append(f"until elapsed({gap.text})")
+        last.length = gap.value
+        return [last]
+
+    def go_on(self, actors: Sequence[str]) -> list[Statement]:
+        """Return what lets actors go on as they do."""
+        each = [Statement(self._going_on[actor], length=math.inf) for actor in actors]
+        return [composed("parallel", each)] if each else []
+
+    def _override(self, branches: Sequence[Branch]) -> None:
+        """Let steps of different branches end each other, the later ones the earlier."""
+        for index, one in enumerate(branches):
+            for other in branches[index + 1 :]:
+                for a in one.steps:
+                    for b in other.steps:
+                        if a.effects and b.effects and _conflict_of(a, b):
+                            self.lines += [f"override({a.label}, {b.label})"]
+                            self.lines += [f"override({b.label}, {a.label})"]
+
+    def _stop(self, branch: Branch) -> None:
+        """End the branch of an act when that is stopped."""
+        for number in dict.fromkeys(step.act for step in branch.steps):
+            trigger = self._board.stops.get(number)
+            if trigger is None:
+                continue
+            if trigger.node is not None:
+                trigger.node.leave_out("an act that is stopped goes on here")
+            del self._board.stops[number]
+
+
+def _below(step: Step) -> Iterator[Step]:
+    yield step
+    for each in step.successors:
+        yield from _below(each)
+
+
+def _conflict(one: Step, other: Step) -> bool:
+    return any(_conflict_of(a, b) for a in _below(one) for b in _below(other))
+
+
+def _conflict_of(a: Step, b: Step) -> bool:
+    if a.slots & b.slots:
+        return True
+    is_beside = a.maneuver == b.maneuver and (a.overrides or b.overrides)
+    return is_beside and bool(a.actors & b.actors)
+
+
+def _start(step: Step) -> Quantity | None:
+    """Return the time at which a step starts, if its triggers say nothing else."""
+    found = Quantity("0s", 0.0)
+    for trigger in step.triggers:
+        if trigger.is_immediate:
+            continue
+        if len(trigger.groups) != 1 or len(trigger.groups[0]) != 1:
+            return None
+        condition = trigger.groups[0][0]
+        if condition.kind != "time" or condition.quantity is None:
+            return None
+        time = Quantity(_time_of(condition), _nominal(condition), condition.quantity.is_open, 1)
+        found = max(found, time, key=lambda each: each.value)
+    return found
+
+
+def _nominal_start(step: Step) -> Quantity:
+    found = _start(step)
+    assert found is not None
+    return found
+
+
+def _nominal(condition: Condition) -> float:
+    assert condition.quantity is not None
+    return condition.quantity.value + (
+        condition.delay.value if condition.delay is not None else 0.0
+    )
+
+
+def _time_of(condition: Condition) -> str:
+    assert condition.quantity is not None
+    if condition.delay is None:
+        return condition.quantity.text
+    if not condition.quantity.is_open and not condition.delay.is_open:
+        return literal(_nominal(condition), TIME)
+    return f"{condition.quantity.text} + {condition.delay.text}"
+
+
+def _minus(later: Quantity, earlier: Quantity) -> Quantity:
+    value = later.value - earlier.value
+    if later.is_open or earlier.is_open:
+        return Quantity(f"{later.text} - {earlier.within(PRODUCT)}", value, True, 1)
+    return Quantity(literal(round(value, 9), TIME), value)
+
+
+def _edge(condition: Condition) -> str:
+    if condition.edge == "falling":
+        return f"fall({condition.text})"
+    if condition.edge == "risingOrFalling":
+        condition.node.approximate("of both edges the rising one counts")
+    return f"rise({condition.text})"
+
+
+def _operand(text: str) -> str:
+    return f"({text})" if " or " in text or " and " in text else text
+
+
+def _delayed(condition: Condition) -> list[Statement]:
+    return [] if condition.delay is None else [wait(f"elapsed({condition.delay.text})")]

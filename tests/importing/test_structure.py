@@ -1,0 +1,117 @@
+"""Storyboards become compositions, and run as the document plays."""
+
+import json
+import math
+from pathlib import Path
+
+import pytest
+
+from osc2tx.compilation.driver import Compilation
+from osc2tx.importing.importer import Imported
+from osc2tx.module_loading import scenarios_of_module
+from osc2tx.options import CompileOptions
+from osc2tx.xosc.player import Evaluator
+from osc2tx_runtime import RunSettings, run_scenario
+from osc2tx_runtime.opendrive import read_map
+from tests.importing.documents import (
+    after,
+    at_time,
+    document,
+    event,
+    faults,
+    imported,
+    lane_change,
+    speed_change,
+)
+
+DT = 0.02
+
+
+def apart(found: Imported) -> float:
+    """Return how far (m) actors are from where the player has them, beyond two steps."""
+    compilation = Compilation(
+        Path("two_cars.osc"), "two_cars.osc", CompileOptions(), text=found.text
+    )
+    module = compilation.module
+    assert module is not None
+    with scenarios_of_module(module) as scenarios:
+        result = run_scenario(scenarios["two_cars"], RunSettings(dt=DT))
+    assert result.status == "success", result.reason
+    assert found.document.map_file is not None
+    player = Evaluator(found.document.resolved, read_map(found.document.map_file), DT)
+    assert player.play(100.0) == pytest.approx(result.time, abs=3 * DT)
+    worst = 0.0
+    states = [line for line in map(json.loads, result.trace_lines) if line["kind"] == "state"]
+    for line in states:
+        rows = player.track[line["actor"]]
+        index = min(round(line["t"] / DT), len(rows) - 1)
+        _, x, y, v = rows[index]
+        worst = max(worst, math.dist((x, y), (line["x"], line["y"])) - 2 * DT * v)
+    return worst
+
+
+def test_an_event_behind_another_one_follows_it() -> None:
+    first = event("FasterEvent", speed_change("20"), at_time("1"))
+    second = event("ChangeLane", lane_change(-1), after("FasterEvent"))
+    found = imported(document(first + second))
+    assert found.report.grade == "exact"
+    assert not faults(found)
+    lines = [line.strip() for line in found.text.splitlines()]
+    start = lines.index(
+        "faster: other.change_speed(target: 20mps, rate_profile: constant, duration: 4s)"
+    )
+    assert lines[start + 1] == "change_lane: other.change_lane(side: right, duration: 3s)"
+    assert "override" not in found.text
+    assert apart(found) < 0.1
+
+
+def test_times_are_an_order() -> None:
+    """What the later event would break off ends when that begins."""
+    first = event("One", speed_change("25", "10"), at_time("1"))
+    second = event("Two", speed_change("10", "2"), at_time("4"))
+    found = imported(document(second + first))
+    assert not faults(found)
+    assert "override" not in found.text
+    assert "until elapsed(3s)" in found.text
+    assert apart(found) < 0.1
+
+
+def test_a_known_rest_of_the_time_is_waited_for() -> None:
+    first = event("One", speed_change("20", "2"), at_time("1"))
+    second = event("Two", speed_change("10", "2"), at_time("6"))
+    found = imported(document(first + second))
+    assert "wait elapsed(3s)" in found.text
+    assert apart(found) < 0.1
+
+
+def test_several_followers_run_side_by_side() -> None:
+    first = event("One", speed_change("20", "2"), at_time("1"))
+    second = event("Two", speed_change("10", "2"), after("One"), "parallel")
+    third = event("Three", lane_change(-1), after("One", "1"), "parallel")
+    found = imported(document(first + second + third))
+    assert not faults(found)
+    assert "wait elapsed(1s)" in found.text
+    assert apart(found) < 0.1
+
+
+def test_speeds_in_kilometres_per_hour_stay_so() -> None:
+    parameter = '<ParameterDeclaration name="Ego_Speed_kph" parameterType="double" value="72"/>'
+    found = imported(document("", parameters=parameter, ego_speed="${$Ego_Speed_kph / 3.6}"))
+    assert "ego_speed: speed = 72kph" in found.text
+    assert "ego.assign_speed(ego_speed)" in found.text
+    assert apart(found) < 0.1
+
+
+def test_an_unknown_order_is_an_override() -> None:
+    near = """<Condition name="near" delay="0" conditionEdge="rising"><ByEntityCondition>
+      <TriggeringEntities triggeringEntitiesRule="any"><EntityRef entityRef="ego"/>
+      </TriggeringEntities>
+      <EntityCondition><RelativeDistanceCondition entityRef="other" value="18" freespace="true"
+      relativeDistanceType="longitudinal" rule="lessThan"/></EntityCondition>
+      </ByEntityCondition></Condition>"""
+    first = event("One", speed_change("25", "10"), near)
+    second = event("Two", speed_change("10", "2"), at_time("4"))
+    found = imported(document(first + second))
+    assert not faults(found)
+    assert "override(one, two)" in found.text
+    assert apart(found) < 0.1
