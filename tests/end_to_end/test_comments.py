@@ -30,7 +30,7 @@ OURS = [
     for path in sorted(SCENARIOS.rglob("*.osc"))
 ]
 CASES = [path for stage in ("ir", "py_trees") for path in sorted((GOLDEN / stage).rglob("*.osc"))]
-RULES = ("keep", "remove_default", "extend")
+RULES = ("keep", "remove_default", "extend", "override")
 WITHOUT_CODE = ("type", "extend", "action")
 SORTED = ("def declare(", "# keep(", "# Units that")
 NUMBER = re.compile(r"<(\d+)>")
@@ -121,7 +121,7 @@ class Source:
         return below if any(each <= below.column for each in columns if each is not None) else None
 
     def is_rule(self, number: int) -> bool:
-        """Whether a comment is of a constraint or extension: with what that is about."""
+        """Whether a comment is of a constraint, extension or override: with what that is about."""
         comment = self.comments[number]
         above = [line for line in self.lines if line.first <= comment.line]
         near = (self.statement(comment), above[-1] if above else None)

@@ -2,6 +2,7 @@
 
 import json
 import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,21 @@ def faults(report: object) -> list[str]:
 
 def test_the_schema_is_one() -> None:
     Draft202012Validator.check_schema(SCHEMA)
+
+
+def unexplained(schema: dict[str, Any], path: str = "") -> Iterator[str]:
+    """Yield the keys below a schema that have no description."""
+    for key, value in schema.get("properties", {}).items():
+        if "description" not in value and "$ref" not in value:
+            yield f"{path}.{key}"
+        yield from unexplained(value, f"{path}.{key}")
+    inside = [schema["items"]] if "items" in schema else []
+    for inner in (*inside, *schema.get("$defs", {}).values()):
+        yield from unexplained(inner, f"{path}[]")
+
+
+def test_each_key_is_explained() -> None:
+    assert list(unexplained(SCHEMA)) == []
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
