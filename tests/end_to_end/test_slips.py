@@ -46,7 +46,7 @@ SLIPS: list[tuple[str, str]] = [
     ("drive(duration: 5s) with:", "drive(duration: 5s):"),
     ("drive(duration: 5s) with:", "drive(duration: 5s) with {"),
     ("drive(duration: 5s)", "driv(duration: 5s)"),
-    ("speed(limit)", "speed(lmit)"),
+    ("speed(limit)", "speed(limits)"),
     ("speed(limit)", "speed(limit);"),
     ("speed(limit)", "velocity(limit)"),
     ("speed(limit)", "speed(40kph..60kph)"),
