@@ -31,7 +31,7 @@ from osc2tx_runtime import Map, RunSettings, Scenario, Vehicle, rise, run_scenar
 from osc2tx_runtime.language.tree import Behaviour, OneOf, Parallel, Wait, elapsed
 from osc2tx_runtime.modifiers import lane, position, speed
 from osc2tx_runtime.opendrive import LanePosition, RoadMap, read_map, read_map_text
-from osc2tx_runtime.running import runner
+from osc2tx_runtime.running import preparation
 from osc2tx_runtime.world import ActorSpec, EmbeddedWorld
 from osc2tx_runtime.world.actor_dimensions import limits_of, shape_of
 from osc2tx_runtime.world.commands import LaneChange, SpeedChange
@@ -188,7 +188,7 @@ def print_scenarios(largest: int) -> None:
             assert done.status == "success", done.reason
 
         cost = min(spent(run, 1) for _ in range(3))
-        with patch.object(runner, "make_monitors", Unwatched):
+        with patch.object(preparation, "make_monitors", Unwatched):
             unwatched = min(spent(run, 1) for _ in range(3))
         length = budget.scenario.length
         factor = length / cost

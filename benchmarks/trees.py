@@ -23,7 +23,7 @@ from osc2tx_runtime.language.tree import (
 )
 from osc2tx_runtime.opendrive import read_map
 from osc2tx_runtime.running.loop import settle
-from osc2tx_runtime.running.runner import setup_tree
+from osc2tx_runtime.running.preparation import setup_tree
 from osc2tx_runtime.world import EmbeddedWorld
 from osc2tx_shared.map_files import SHIPPED
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from osc2tx.compilation.inputs import Input, find_inputs, is_unicode
 from osc2tx.compilation.roots import Roots, innermost
@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from osc2tx.config import Config, ConfigFiles, GivenOptions
     from osc2tx.options import CompileOptions
 
+RunTexts: TypeAlias = tuple[tuple[str, tuple[str, ...]], ...]
+"""Options of runs as the settings file states them, by name."""
+
 
 @dataclass(frozen=True, slots=True)
 class Job:
@@ -31,6 +34,7 @@ class Job:
         roots: Folders whose files it may import, and to which names are relative.
         is_asked: Whether this very file was named, and not a folder that holds it.
         given: Options that precede those of settings files.
+        run: The options of runs that the settings file states for it, as they are written.
     """
 
     path: Path
@@ -39,6 +43,7 @@ class Job:
     roots: Roots
     is_asked: bool
     given: GivenOptions
+    run: RunTexts = ()
 
     def compilation(self, memory: Memory | None = None, text: str | None = None) -> Compilation:
         """Return its compilation; no stage has run yet.
@@ -143,7 +148,8 @@ def job_for(item: Input, given: GivenOptions, config: Config) -> Job:
         roots = Roots((asked, *roots.sources), config.folder)
     name = roots.name_of(item.place, libraries) or item.path.name
     name = name if is_unicode(name) else visible(name)
-    return Job(item.path, name, options, roots, item.is_asked, given)
+    run = tuple(config.run_settings(item.path).items())
+    return Job(item.path, name, options, roots, item.is_asked, given, run)
 
 
 def compile_all(paths: Sequence[str | Path], given: GivenOptions) -> list[Compilation]:

@@ -43,7 +43,7 @@ from osc2tx_shared.classes import replace
 if TYPE_CHECKING:
     from osc2tx.options import CompileOptions
 
-FORMAT = 5
+FORMAT = 6
 MOST_RECORDS = 4  # of one text: with imports as several branches have them
 MOST_FILES = 128  # in each of the 256 folders of a kind
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
@@ -51,7 +51,7 @@ Kind = Literal["build", "check"]
 
 
 class ResultCache:
-    """Results of builds and checks; a check reuses those of a build."""
+    """Results of builds and checks; a check reuses those of a build that has nothing to run."""
 
     def __init__(
         self, kind: Kind, configs: ConfigFiles | None = None, folder: Path | None = None
@@ -98,9 +98,14 @@ class ResultCache:
                     ValueError,
                 ):  # damaged: treated as missing
                     continue
-                if result is not None:
+                if result is not None and not self._lacks_starts(kind, result):
                     return result if self._kinds == ("build",) else without_grading(result)
         return None
+
+    def _lacks_starts(self, kind: Kind, result: FileResult) -> bool:
+        """Whether a check has to prepare runs, which the build did not that made a result."""
+        is_asked = kind not in self._kinds[:1] and result.is_complete
+        return is_asked and any(entry.is_runnable for entry in result.scenarios)
 
     def with_texts(self, result: FileResult) -> FileResult | None:
         """Return a result with the texts of its outputs; `None` if those are not stored."""
@@ -167,7 +172,8 @@ class ResultCache:
 
     def _key(self, kind: Kind, job: Job, places: Places, text: bytes) -> str:
         is_link = not job.is_asked and job.path.is_symlink()
-        parts = [kind, self._stamp, job.name, places.roots, places.options(job.options), is_link]
+        options = [places.options(job.options), job.run if kind == "check" else ()]
+        parts = [kind, self._stamp, job.name, places.roots, *options, is_link]
         return digest(json.dumps([*parts, digest(text)]).encode())
 
     # --- Records ----------------------------------------------------------------------------------

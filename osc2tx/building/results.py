@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from enum import StrEnum
+from functools import partial
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING
 
 from osc2tx.building.fingerprint import digest
-from osc2tx.building.jobs import Job, find_bug
+from osc2tx.building.jobs import Job, RunTexts, find_bug
 from osc2tx.compilation.file_reports import LossEntry
 from osc2tx.diagnostics import Diagnostic, Severity, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
@@ -149,7 +150,20 @@ def compile_job(job: Job, memory: Memory | None = None) -> FileResult:
 def check_job(job: Job, memory: Memory | None = None) -> FileResult:
     """Run all stages on a file that can report something; it makes no outputs."""
     compilation = job.compilation(memory)
-    return _result(job, compilation, find_bug(compilation, lambda item: item.check()))
+    return _result(job, compilation, find_bug(compilation, partial(check, run=job.run)))
+
+
+def check(compilation: Compilation, run: RunTexts = ()) -> None:
+    """Run all stages that can report something, and prepare runs of what has no errors.
+
+    Args:
+        compilation: The file.
+        run: The options of runs that are stated for it.
+    """
+    from osc2tx.building.refused_starts import report_refused_starts
+
+    if compilation.check():
+        report_refused_starts(compilation, run)
 
 
 def failed_job(job: Job, bug: str) -> FileResult:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from osc2tx.building.fingerprint import digest
-from osc2tx.diagnostics import CODES, Diagnostic, Label, SourceFile, Span
+from osc2tx.diagnostics import Diagnostic, Label, Severity, SourceFile, Span
 from osc2tx.diagnostics.fixes import Edit, Fix
 from osc2tx.diagnostics.report import ScenarioEntry
 
@@ -34,6 +34,7 @@ class ReportWriter:
         """Return a diagnostic as a list."""
         return [
             report.code,
+            report.severity.value,
             report.message,
             self._place(report.primary) if report.primary else None,
             [[self._place(label.span), label.message] for label in report.labels],
@@ -106,10 +107,10 @@ class ReportReader:
 
     def report(self, entry: Sequence[Any]) -> Diagnostic:
         """Return a diagnostic."""
-        code, message, primary, labels, notes, help, fixes = entry
+        code, severity, message, primary, labels, notes, help, fixes = entry
         return Diagnostic(
             code,
-            CODES[code].severity,
+            Severity(severity),
             message,
             self._span(primary) if primary else None,
             tuple(Label(self._span(place), remark) for place, remark in labels),

@@ -12,6 +12,7 @@ import click
 from osc2tx.building.baseline import Baselines
 from osc2tx.building.jobs import Job, find_jobs, run_all
 from osc2tx.building.result_cache import check_jobs
+from osc2tx.building.results import check as check_compilation
 from osc2tx.cli.fixing import fix_files, fix_input, fixes_to_apply
 from osc2tx.cli.options import (
     affected_option,
@@ -37,7 +38,6 @@ from osc2tx_shared.text import StreamName, recorded
 if TYPE_CHECKING:
     from osc2tx.building.answers import Answer
     from osc2tx.building.results import FileResult
-    from osc2tx.compilation.driver import Compilation
 
 
 @click.command()
@@ -76,6 +76,8 @@ def check(
 ) -> Exit:
     """Report errors and warnings in scenario files; folders are searched for .osc files.
 
+    Where the map of a scenario is found, a run is prepared up to its first step.
+
     Without PATH, `sources` of the settings file count; `-` is standard input, whose fixed text
     goes to standard output.
     """
@@ -86,7 +88,7 @@ def check(
         job, text = job_of_standard_input(stdin_filename, given)
         if fixes is not None:
             return fix_input(job, text, fixes, reporter)
-        return _check_input(job.compilation(text=text), reporter)
+        return _check_input(job, text, reporter)
     asked = sources_or_stated(paths, "check")
     paths = affected_sources(asked, affected, given)
     configs = ConfigFiles()
@@ -182,8 +184,9 @@ def _keep_answer(
     answer.keep(code, printed, files)
 
 
-def _check_input(compilation: Compilation, reporter: Reporter) -> Exit:
-    bugs = run_all([compilation], lambda item: item.check())
+def _check_input(job: Job, text: str, reporter: Reporter) -> Exit:
+    compilation = job.compilation(text=text)
+    bugs = run_all([compilation], partial(check_compilation, run=job.run))
     code, report = reporter.report([compilation], bugs)
     for entry in compilation.scenarios:
         reporter.say(f"{compilation.name}: {entry.summary}")

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from osc2tx.diagnostics import DiagnosticSink, Span
 
 
-class _NamedMap(NamedTuple):
+class NamedMap(NamedTuple):
     """A map that a scenario names, and where."""
 
     name: str
@@ -36,7 +36,7 @@ def report_missing_maps(
     """
     looked_for: list[Path] = []
     reported: set[str] = set()
-    for named in _named_maps(module):
+    for named in (each for scenario in module.scenarios for each in named_maps(scenario)):
         if named.name in reported:
             continue
         reported.add(named.name)
@@ -60,24 +60,23 @@ def report_missing_maps(
     return looked_for
 
 
-def _named_maps(module: ir.Module) -> Iterator[_NamedMap]:
-    """Yield the maps that scenarios name by `map_file` or `set_map_file`."""
+def named_maps(scenario: ir.Scenario) -> Iterator[NamedMap]:
+    """Yield the maps that a scenario names by `map_file` or `set_map_file`."""
     from osc2tx import ir
 
-    for scenario in module.scenarios:
-        for declaration in scenario.declarations:
-            if isinstance(declaration, ir.Actor) and "map" in declaration.lineage:
-                for value in declaration.values:
-                    if value.path == ("map_file",):
-                        yield from _text(value.value)
-        for placement in scenario.placements:
-            for call in placement.modifiers:
-                if call.name == "set_map_file":
-                    yield from _text(call.arguments[0].value)
+    for declaration in scenario.declarations:
+        if isinstance(declaration, ir.Actor) and "map" in declaration.lineage:
+            for value in declaration.values:
+                if value.path == ("map_file",):
+                    yield from _text(value.value)
+    for placement in scenario.placements:
+        for call in placement.modifiers:
+            if call.name == "set_map_file":
+                yield from _text(call.arguments[0].value)
 
 
-def _text(value: ir.Expression) -> Iterator[_NamedMap]:
+def _text(value: ir.Expression) -> Iterator[NamedMap]:
     from osc2tx import ir
 
     if isinstance(value, ir.Literal) and isinstance(value.value, str):
-        yield _NamedMap(value.value, value.span)
+        yield NamedMap(value.value, value.span)

@@ -74,6 +74,7 @@ class Code:
         severity: Its effect on the run.
         summary: One sentence for the reference.
         section: Section of OpenSCENARIO DSL 2.2 that states the rule, where there is one.
+        warns_in_check: An error of a run that `check` only warns of: options of a run mend it.
     """
 
     code: str
@@ -81,6 +82,7 @@ class Code:
     severity: Severity
     summary: str
     section: str = ""
+    warns_in_check: bool = False
 
     @property
     def explanation(self) -> Explanation | None:
@@ -90,7 +92,8 @@ class Code:
     @property
     def can_be_suppressed(self) -> bool:
         """Whether a comment `#! allow` can keep it back."""
-        return self.severity is WARNING and not self.code.startswith("OSC7")
+        is_warning = self.severity is WARNING or self.warns_in_check
+        return is_warning and not self.code.startswith("OSC7")
 
 
 def _table(*rows: Code) -> dict[str, Code]:
@@ -265,7 +268,7 @@ CODES = _table(
     Code("OSC803", "two-masters", ERROR, "Two actions control the same slot of an actor."),
     Code("OSC804", "not-in-the-runtime", ERROR, "The runtime does not do this."),
     Code("OSC805", "not-in-this-world", ERROR, "The chosen world cannot do this."),
-    Code("OSC806", "run-option", ERROR, "An option of a run is wrong."),
+    Code("OSC806", "run-option", ERROR, "An option of a run is wrong.", warns_in_check=True),
     Code("OSC807", "run-file", ERROR, "A file of a run cannot be found, read or written."),
     Code("OSC808", "simulator", ERROR, "The simulator is not available, or refuses."),
     Code("OSC809", "run-failed", ERROR, "A run ended with a failure, or not in time."),

@@ -69,7 +69,7 @@ def settle(
     shown, suppressed = [], []
     for diagnostic in found:
         span = diagnostic.primary
-        if span is None or CODES[diagnostic.code].severity is Severity.ERROR:
+        if span is None or not CODES[diagnostic.code].can_be_suppressed:
             shown.append(diagnostic)
         elif entries_of(span.source).use(diagnostic.code, span.line):
             suppressed.append(diagnostic)
@@ -126,7 +126,7 @@ class _Entries:
             meant = meant_code(name.text)
             help = write(name, meant, f"did you mean `{meant}`?", is_safe=False) if meant else None
             sink.report("OSC702", name, f"there is no code `{name.text}`", help=help)
-        elif code.severity is Severity.ERROR:
+        elif code.severity is Severity.ERROR and not code.can_be_suppressed:
             message = f"`{code.code}` is an error; only warnings can be suppressed"
             sink.report("OSC703", name, message, help="fix the reported error")
         elif not code.can_be_suppressed:

@@ -10,6 +10,7 @@ from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx.backends.xosc import XmlScenario
 from osc2tx.backends.xosc.report import Grade
 from osc2tx.backends.xosc.report_json import report_json
+from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import DiagnosticSink, InternalCompilerError, Span
 from osc2tx.grading.comparison import first_unlike
 from osc2tx.grading.measuring import Finding, Measuring
@@ -21,6 +22,7 @@ from osc2tx_runtime import Scenario, ScenarioError
 from osc2tx_shared.classes import dataclass, replace
 
 UNLIKE = "played, the document does something else than the scenario"
+PACKAGES = "actions come from packages of users"
 BEYOND = "played, the document is farther off than its approximations state"
 
 
@@ -53,12 +55,23 @@ def graded(
     """
     if all(each.xml is None for each in documents):
         return tuple(documents)
+    if any(map(_is_of_a_package, source.module.scenarios)):  # installed here, not elsewhere
+        return tuple(_unmeasured(each, source, PACKAGES) for each in documents)
     try:
         with scenarios_of_module(source.generate()) as scenarios:
             return tuple(_graded(each, scenarios[each.name], source, sink) for each in documents)
     except (ScenarioError, ImportError, InternalCompilerError) as error:
         reason = f"there is no module to run: {error}"
         return tuple(_unmeasured(each, source, reason) for each in documents)
+
+
+def _is_of_a_package(scenario: ir.Scenario) -> bool:
+    """Whether a scenario invokes an action that a package has to bring."""
+    known = catalogue().actions
+    return any(
+        isinstance(node, ir.Invoke) and node.qualified_name not in known
+        for node in ir.walk_behaviors(scenario.body)
+    )
 
 
 def _graded(

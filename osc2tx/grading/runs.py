@@ -22,8 +22,18 @@ MAPS_KEPT = 8
 OVER = 1.0  # s: a player gets so much more time than the run in the world took, and twice of it
 
 
+_LINES = re.compile(r"\S+\.osc:\d+: | \(\S+\.osc:\d+\)")
+
+
 class NoEvidence(Exception):
-    """A run that shows nothing about a document: it fails, or nothing here can carry it out."""
+    """A run that shows nothing about a document: it fails, or nothing here can carry it out.
+
+    Reports are reviewed with the documents, so reasons name no lines of the source.
+    """
+
+    def __init__(self, reason: str) -> None:
+        """Take the reason."""
+        super().__init__(_LINES.sub("", reason))
 
 
 @dataclass(frozen=True)

@@ -62,6 +62,8 @@ class Context:
         map_file: What the scenario calls its map.
         states: What is known about the actors at the present place of the tree.
         at_start: The states after the initial placement.
+        present: Actors that are placed, or have acted before the present place of the tree; a run
+            plans how the others enter if their first action says where it begins.
         start_poses: Where actors start and how they look, as far as that is known, by name.
         init_gaps: Metres by which an actor starts behind another one.
         automatic_lights: What shines of vehicles whose lights follow the weather, by name.
@@ -120,6 +122,7 @@ class Context:
         self.map_places = places_in_project(self.map_file, folders)
         self.states: dict[str, ActorState] = {}
         self.at_start: dict[str, ActorState] = {}
+        self.present: set[str] = set()
         self.start_poses: dict[str, Pose] = {}
         self.demands: dict[str, Demand] = {}
         self.outlook = outlook

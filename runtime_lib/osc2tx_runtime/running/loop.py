@@ -64,10 +64,18 @@ def run_tree(
     context: ExecutionContext,
     on_progress: OnProgress | None = None,
     observer: Observer | None = None,
+    last_step: int | None = None,
 ) -> Outcome:
     """Run a tree that is set up until it ends or the time is over.
 
     However it ends, no node is RUNNING and no slot is owned afterwards, and the trace is closed.
+
+    Args:
+        root: The tree.
+        context: Of the run.
+        on_progress: Called about once per simulated second.
+        observer: Observes the run.
+        last_step: The step at which the time is over; by default that of `max_time`.
 
     Raises:
         ScenarioError: If the scenario cannot continue.
@@ -75,7 +83,10 @@ def run_tree(
     outcome = Outcome("error", "", 0)
     try:
         criteria = Criteria(context)
-        outcome = judged(loop(root, context, criteria, on_progress, observer), criteria)
+        if last_step is None:
+            last_step = context.steps(context.settings.max_time)
+        found = loop(root, context, criteria, on_progress, observer, last_step)
+        outcome = judged(found, criteria)
     except BaseException as error:
         if isinstance(error, ScenarioError) and not isinstance(error, SettingsError):
             error.happened(context.time)
@@ -136,13 +147,13 @@ def loop(
     criteria: Criteria,
     on_progress: OnProgress | None,
     observer: Observer | None,
+    last_step: int,
 ) -> Outcome:
     """Settle one instant after the other until the tree ends or the time is over."""
     pulse = pulse_of(root)
     if observer is not None:
         observer.begin(context)
     world, settings, monitors = context.world, context.settings, context.monitors
-    last_step = context.steps(settings.max_time)
     progress_steps = max(1, context.steps(1.0))
     signals = signals_by_step(context)
     step = 0

@@ -220,17 +220,12 @@ def verdict(
         file: The scenario file, as the module knows it.
         given: The same file, as the user has written it.
     """
-    head = f"{name}: {result.status} after {result.time:.2f} s"
-    if result.collisions and result.status == "success":
-        count = len(result.collisions)
-        head += f", with {count} collision{'s' if count > 1 else ''}"
     if result.status == "success":
-        yield head
+        count = len(result.collisions)
+        collisions = f", with {count} collision{'s' if count > 1 else ''}" if count else ""
+        yield f"{_head(name, result)}{collisions}"
     else:
-        place = result.place
-        reason = result.reason.replace(f" ({place})", "", 1) if place else result.reason
-        code = NOT_MET if any(each.fails(place) for each in result.violations) else RUN_FAILED
-        yield coded(code, f"{head}: {reason}", place or file, file, given)
+        yield coded(*failure(name, result), result.place or file, file, given)
     for violation in result.violations:
         if violation.severity == "warning":
             yield "  " + coded(violation.code, str(violation), violation.source, file, given)
@@ -238,6 +233,18 @@ def verdict(
         yield f"  warning: {warning}"
     for time, one, other in result.collisions:
         yield f"  collision at {time:.2f} s: {one}, {other}"
+
+
+def failure(name: str, result: RunResult) -> tuple[str, str]:
+    """Return the code and the message that tell why a run is no success."""
+    place = result.place
+    reason = result.reason.replace(f" ({place})", "", 1) if place else result.reason
+    code = NOT_MET if any(each.fails(place) for each in result.violations) else RUN_FAILED
+    return code, f"{_head(name, result)}: {reason}"
+
+
+def _head(name: str, result: RunResult) -> str:
+    return f"{name}: {result.status} after {result.time:.2f} s"
 
 
 def show_progress(time: float, most: float) -> None:

@@ -2,37 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from contextlib import suppress
+from collections.abc import Callable
 from dataclasses import asdict, field
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
-from osc2tx_runtime.domain.placing.entries import Entries, entering_actors
-from osc2tx_runtime.domain.placing.rehearsal import AllEnteredError, Rehearsal, ways_in
-from osc2tx_runtime.errors import BeyondMapError, ScenarioError
-from osc2tx_runtime.language.actions.base_action import BaseAction
+from osc2tx_runtime.errors import BeyondMapError
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.trace import TraceWriter
 from osc2tx_runtime.opendrive import RoadMap, read_map
-from osc2tx_runtime.running.checked_world import checked_world
-from osc2tx_runtime.running.loop import Observer, OnProgress, overloads, run_tree
+from osc2tx_runtime.running.loop import Observer, OnProgress, Outcome, overloads, run_tree
 from osc2tx_runtime.running.output_files import check_outputs
-from osc2tx_runtime.running.requirements import check_requirements
+from osc2tx_runtime.running.preparation import prepared
 from osc2tx_runtime.running.run_outputs import RunOutputs
-from osc2tx_runtime.running.world_choice import make_world
-from osc2tx_runtime.world.embedded import EmbeddedWorld
 from osc2tx_shared.classes import dataclass, replace
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.monitoring.phase import Violation
     from osc2tx_runtime.domain.monitoring.run import Monitors
-    from osc2tx_runtime.domain.placing.entries import WayIn
     from osc2tx_runtime.domain.scenario import Scenario
-    from osc2tx_runtime.language.tree.base import Behaviour
     from osc2tx_runtime.world.protocol import World
+
+ResultT = TypeVar("ResultT", covariant=True)
 
 REDRAWS = 100  # draws of one seed, where the map has no room for the drawn values
 
@@ -95,142 +87,96 @@ def run_scenario(
     """
     settings = settings or RunSettings()
     check_outputs(settings)
-    outputs = partial(RunOutputs, keep_lines=keep_trace, digest=digest)
-    run = partial(_run, scenario_class, on_progress, observer, read, outputs)
-    may_redraw = world is None and settings.world == "embedded" and settings.draws is None
-    for draw in range(REDRAWS if may_redraw else 0):
+
+    def run(scenario: Scenario, *, is_last: bool) -> RunResult:
+        root = scenario.create_tree()
+        outputs = RunOutputs(scenario.settings, keep_lines=keep_trace, digest=digest)
+        on_sample = None if observer is None else observer.sampled
+        trace = TraceWriter(*outputs.takers, on_sample=on_sample)
+        made = prepared(scenario_class, scenario, root, world, read, trace, is_last=is_last)
+        with made as (context, monitors):
+            try:
+                write_header(scenario, context)
+                context.world.begin()
+                outcome = run_tree(root, context, on_progress, observer)
+            finally:
+                outputs.close(context.world.map)
+        return replace(
+            _result(outcome, context, monitors),
+            trace_lines=tuple(outputs.lines),
+            digest=None if outputs.digest is None else str(outputs.digest),
+        )
+
+    may_redraw = world is None and settings.world == "embedded"
+    return _with_draws(scenario_class, settings, run, may_redraw=may_redraw)
+
+
+def check_start(
+    scenario_class: Callable[[RunSettings], Scenario],
+    settings: RunSettings,
+    read: Callable[[Path], RoadMap] = read_map,
+) -> RunResult:
+    """Do what a run does before its first step, in the embedded world and without outputs.
+
+    Args:
+        scenario_class: A generated class.
+        settings: Of the run.
+        read: Reads the map.
+
+    Returns:
+        How it ended; `timeout` if the run would go on.
+
+    Raises:
+        ScenarioError: What the run would refuse.
+    """
+    quiet = replace(settings, trace=None, report=None)
+
+    def start(scenario: Scenario, *, is_last: bool) -> RunResult:
+        root = scenario.create_tree()
+        made = prepared(scenario_class, scenario, root, None, read, is_last=is_last)
+        with made as (context, monitors):
+            outcome = run_tree(root, context, last_step=0)
+        return _result(outcome, context, monitors)
+
+    return _with_draws(scenario_class, quiet, start, may_redraw=True)
+
+
+class _Play(Protocol[ResultT]):
+    """Plays a scenario with the values that are drawn; `BeyondMapError` ends all but the last."""
+
+    def __call__(self, scenario: Scenario, *, is_last: bool) -> ResultT: ...
+
+
+def _with_draws(
+    scenario_class: Callable[[RunSettings], Scenario],
+    settings: RunSettings,
+    play: _Play[ResultT],
+    *,
+    may_redraw: bool,
+) -> ResultT:
+    """Play a scenario with the first values that the map surely has room for, else the first."""
+    for draw in range(REDRAWS if may_redraw and settings.draws is None else 0):
         scenario = scenario_class(replace(settings, draw=settings.draw + draw))
         try:
-            return run(scenario, None, is_last=False)
+            return play(scenario, is_last=False)
         except BeyondMapError:
             if not scenario.has_drawn_values:
                 break
-    scenario = scenario_class(settings)
-    return run(scenario, world, is_last=True)
+    return play(scenario_class(settings), is_last=True)
 
 
-def _run(
-    scenario_class: Callable[[RunSettings], Scenario],
-    on_progress: OnProgress | None,
-    observer: Observer | None,
-    read: Callable[[Path], RoadMap],
-    outputs_of: Callable[[RunSettings], RunOutputs],
-    scenario: Scenario,
-    world: World | None,
-    *,
-    is_last: bool,
-) -> RunResult:
-    """Run a scenario with the values that are drawn.
-
-    Raises:
-        BeyondMapError: The map surely has no room for the request, unless it `is_last`.
-    """
-    root, settings = scenario.create_tree(), scenario.settings
-    outputs = outputs_of(settings)
-    on_sample = None if observer is None else observer.sampled
-    world = checked_world(world or make_world(scenario, read))
-    try:
-        context = make_context(scenario, world, TraceWriter(*outputs.takers, on_sample=on_sample))
-        entering = [actor for actor in entering_actors(root) if actor not in settings.spawn]
-        if entering:
-            context.entries = Entries(rehearsed(scenario_class, settings, entering, world.map))
-        place_actors(scenario, context)
-        setup_tree(root, context)
-        check_requirements(root, context)
-        context.monitors = monitors = make_monitors(context)
-        if not is_last:
-            look_ahead(root)
-        try:
-            write_header(scenario, context)
-            world.begin()
-            outcome = run_tree(root, context, on_progress, observer)
-        finally:
-            outputs.close(world.map)
-    finally:
-        world.close()
+def _result(outcome: Outcome, context: ExecutionContext, monitors: Monitors) -> RunResult:
+    world = context.world
     return RunResult(
         outcome.status,
         outcome.reason,
         outcome.steps,
         outcome.steps * context.dt,
-        tuple(outputs.lines),
-        tuple(context.collisions),
-        (*map_warnings(world.map), *world.warnings(), *overloads(context)),
-        outcome.place,
-        tuple(monitors.violations),
-        None if outputs.digest is None else str(outputs.digest),
+        collisions=tuple(context.collisions),
+        warnings=(*map_warnings(world.map), *world.warnings(), *overloads(context)),
+        place=outcome.place,
+        violations=tuple(monitors.violations),
     )
-
-
-def rehearsed(
-    scenario_class: Callable[[RunSettings], Scenario],
-    settings: RunSettings,
-    actors: Sequence[str],
-    road_map: RoadMap,
-) -> dict[str, WayIn]:
-    """Return how actors enter that come later, from rehearsals without any output."""
-    quiet = replace(settings, trace=None, report=None)
-
-    def play(rehearsal: Rehearsal) -> None:
-        scenario = scenario_class(quiet)
-        root = scenario.create_tree()
-        context = make_context(scenario, EmbeddedWorld(road_map, quiet.dt))
-        context.entries = rehearsal
-        place_actors(scenario, context)
-        setup_tree(root, context)
-        with suppress(AllEnteredError, ScenarioError):  # what is wrong, the run itself tells
-            run_tree(root, context, observer=rehearsal)
-
-    return ways_in(play, actors, road_map, quiet.dt)
-
-
-def make_monitors(context: ExecutionContext) -> Monitors:
-    """Return the monitors of a run."""
-    from osc2tx_runtime.domain.monitoring.run import Monitors
-
-    return Monitors(context)
-
-
-def look_ahead(root: Behaviour) -> None:
-    """Let every action check that the map has the elements it requires."""
-    for node in root.iterate():
-        if isinstance(node, BaseAction):
-            node.look_ahead()
-
-
-def make_context(
-    scenario: Scenario, world: World, trace: TraceWriter | None = None
-) -> ExecutionContext:
-    """Return the context of a run."""
-    settings = scenario.settings
-    return ExecutionContext(
-        world,
-        settings,
-        scenario.actors,
-        events=scenario.events,
-        objects=scenario.map_objects,
-        trace=trace,
-        label_events=scenario.label_events,
-        one_of=scenario.one_of,
-        first_come=scenario.first_come,
-    )
-
-
-def place_actors(scenario: Scenario, context: ExecutionContext) -> None:
-    """Put the actors where the scenario wants them."""
-    from osc2tx_runtime.domain.map.geodetic_points import check_globe
-    from osc2tx_runtime.domain.placing.initializer import ScenarioInitializer
-    from osc2tx_runtime.domain.scenario import bind_all
-
-    bind_all(scenario, context)
-    check_globe(scenario, context.world.map)
-    ScenarioInitializer(context, scenario.map_objects).run(scenario.placements)
-
-
-def setup_tree(root: Behaviour, context: ExecutionContext) -> None:
-    """Give every node the context, members before their compositions."""
-    for node in root.iterate():
-        node.setup(context=context)
 
 
 def write_header(scenario: Scenario, context: ExecutionContext) -> None:

@@ -13,7 +13,7 @@ from osc2tx_runtime.language.actions.action import Action
 from osc2tx_runtime.language.outline import outline
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.opendrive import MapError, read_map
-from osc2tx_runtime.running.runner import make_context, place_actors, setup_tree
+from osc2tx_runtime.running.preparation import make_context, place_actors, setup_tree
 from osc2tx_runtime.world.recorded import RecordedWorld
 from osc2tx_shared.classes import dataclass
 

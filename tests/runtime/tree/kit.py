@@ -13,7 +13,7 @@ from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.trace import TraceWriter
 from osc2tx_runtime.language.tree import Behaviour, Event, Status
 from osc2tx_runtime.running.loop import Outcome, run_tree
-from osc2tx_runtime.running.runner import setup_tree
+from osc2tx_runtime.running.preparation import setup_tree
 from osc2tx_runtime.world.actor_dimensions import Shape
 from osc2tx_runtime.world.commands import SpeedChange
 from osc2tx_runtime.world.state import ActorState

@@ -16,7 +16,7 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.tree import Behaviour, Event, OneOf, Serial, Status, Wait, elapsed
 from osc2tx_runtime.language.tree.base import Leaf
 from osc2tx_runtime.opendrive import read_map
-from osc2tx_runtime.running import runner
+from osc2tx_runtime.running import preparation, runner
 from osc2tx_runtime.running.main import main
 from tests.runtime.tree.kit import FakeWorld
 
@@ -50,8 +50,8 @@ def fake(monkeypatch: pytest.MonkeyPatch) -> None:
         made.contacts[3] = [("hero", "npc")]
         return made
 
-    monkeypatch.setattr(runner, "make_world", world)
-    monkeypatch.setattr(runner, "place_actors", lambda scenario, context: None)
+    monkeypatch.setattr(preparation, "make_world", world)
+    monkeypatch.setattr(preparation, "place_actors", lambda scenario, context: None)
 
 
 def test_success(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

@@ -37,7 +37,7 @@ from osc2tx_runtime import (
 )
 from osc2tx_runtime.domain.points_and_poses import Point
 from osc2tx_runtime.modifiers import roads_follow_in_junction, routes_are_in_sequence
-from osc2tx_runtime.running.runner import make_context, place_actors
+from osc2tx_runtime.running.preparation import make_context, place_actors
 from osc2tx_runtime.running.world_choice import make_world
 
 MAPS = Path(osc2tx_runtime.__file__).parent / "maps"

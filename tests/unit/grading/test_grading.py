@@ -39,6 +39,8 @@ scenario top:
                 speed(15mps)
             slower: other.change_speed(target: 5mps, rate_profile: constant, rate_peak: 5mpss)
 """
+GOLDEN = Path(__file__).parents[2] / "golden" / "xosc"
+
 Change = Callable[[str], str]
 
 
@@ -143,3 +145,18 @@ def test_a_map_that_is_gone_leaves_no_evidence(tmp_path: Path) -> None:
 def test_grades_are_the_same_in_every_run(tmp_path: Path) -> None:
     reports = {grade(tmp_path, brakes_harder, allow_approx=True)[0].report_json for _ in range(2)}
     assert len(reports) == 1
+
+
+@pytest.mark.parametrize(
+    ("case", "reason"),
+    [
+        ("own_actions", "actions come from packages of users"),
+        ("endless", "the run in the world fails: ego.drive(speed(20 * mps)) failed at 97.750 s"),
+    ],
+)
+def test_what_a_run_cannot_show_is_said_without_lines(case: str, reason: str) -> None:
+    path = GOLDEN / case / "input.osc"
+    compilation = Compilation(path, path.name, CompileOptions(xml=XmlOptions(allow_approx=True)))
+    (found,) = compilation.graded_xml
+    assert found.xml is not None
+    assert found.report.unmeasured.startswith(reason)

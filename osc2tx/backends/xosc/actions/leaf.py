@@ -158,6 +158,7 @@ class Leaf:
         duration: Its length (s), if its own duration or one around it says so.
         event: Name of the event that will carry it out.
         is_start: It begins with the run.
+        enters: It is the first action of an actor that nothing places at the start of the run.
         course: Of the speed, where the changes say it.
         distance: Metres after which it is over; `None` if no distance ends it.
         reached: Conditions that hold when it is over.
@@ -185,6 +186,7 @@ class Leaf:
         self.duration = time_left if own is None else own
         self.event = event
         self.is_start = is_start
+        self.enters = not is_start and member.name not in ctx.present
         self.course: Course | None = None
         self.distance: float | None = None
         self.reached: tuple[xml.ByEntityCondition, ...] = ()

@@ -100,6 +100,7 @@ def starts_of(ctx: Context) -> list[Start]:
         for member in ctx.entities
     ]
     given = dict(map(read_spawn, ctx.options.spawns))
+    ctx.present |= {*found, *given}
     return [replace(start, is_given=start.id in given) for start in starts]
 
 

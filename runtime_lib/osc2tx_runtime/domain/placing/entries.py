@@ -11,7 +11,16 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.actors import MovableObject
-from osc2tx_runtime.domain.modifiers import Modifier, MovementModifier, PhysicalMovement, Position
+from osc2tx_runtime.domain.modifiers import (
+    Along,
+    AlongTrajectory,
+    Modifier,
+    MovementModifier,
+    PhysicalMovement,
+    Position,
+)
+from osc2tx_runtime.domain.modifiers.groups import PLACES
+from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.language.actions.action import Action
 from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Behaviour, Leaf, Status
@@ -190,17 +199,32 @@ def start_demands(action: BaseAction) -> tuple[Modifier, ...]:
     """Return what an action states of its start; empty if it may begin from anywhere.
 
     What holds throughout holds at the start as well. By itself it lets an actor approach it, so
-    only `at: start`, and a position that is kept, are reasons to be somewhere.
+    only `at: start`, a position that is kept, and a path are reasons to be somewhere.
     """
-    modifiers = action.modifiers if isinstance(action, Action) else ()
-    physical = one_of_kind(modifiers, PhysicalMovement)
+    if not isinstance(action, Action):
+        return ()
+    physical = one_of_kind(action.modifiers, PhysicalMovement)
     if physical is not None and physical.option == "prefer_non_physical":
         return ()  # it jumps
-    found = [m for m in modifiers if m.facts.placement and _holds_at_start(m)]
-    stated = {type(m) for m in found if m.is_start}
-    if not any(m.is_start or isinstance(m, Position) for m in found):
+    found = [m for m in action.modifiers if m.facts.placement and _holds_at_start(m)]
+    if not any(isinstance(m, PLACES) for m in found):
+        found += action.states_itself()
+    if not any(map(_is_reason, found)):
         return ()
+    stated = {type(m) for m in found if m.is_start}
     return tuple(m for m in found if m.is_start or type(m) not in stated)
+
+
+def _is_reason(modifier: Modifier) -> bool:
+    """Return whether an actor has to be somewhere by then, and not only to approach it.
+
+    A path that is known only by then may depend on where the actor is.
+    """
+    if isinstance(modifier, Along):
+        return isinstance(modifier.route, Path)
+    if isinstance(modifier, AlongTrajectory):
+        return isinstance(modifier.trajectory, Trajectory)
+    return modifier.is_start or isinstance(modifier, Position)
 
 
 def _holds_at_start(modifier: Modifier) -> bool:

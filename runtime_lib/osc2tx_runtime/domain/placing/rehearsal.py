@@ -18,6 +18,7 @@ from osc2tx_runtime.domain.placing.placer import Placer
 from osc2tx_runtime.domain.placing.start_room import overlap_with
 from osc2tx_runtime.domain.placing.ways_in import Arrival, way_in
 from osc2tx_runtime.errors import PlacementError
+from osc2tx_runtime.language.actions.action import Action
 from osc2tx_runtime.opendrive import LanePosition, MapError, Pose, RoadMap
 from osc2tx_runtime.world.measuring.collision import Box, box_of
 
@@ -90,7 +91,7 @@ class Rehearsal(Entries):
             demands = start_demands(action)
             if demands:
                 try:
-                    self._arrive(actor, demands, action.source)
+                    self._arrive(actor, demands, action)
                 except MapError as error:
                     text = f"{actor.id}: {error.message}"
                     self.errors[actor.id] = PlacementError(text, action.source)
@@ -99,7 +100,10 @@ class Rehearsal(Entries):
                     self.errors[actor.id] = error
         super().begins(action)
 
-    def _arrive(self, actor: MovableObject, demands: Sequence[Modifier], source: str) -> None:
+    def _arrive(
+        self, actor: MovableObject, demands: Sequence[Modifier], action: BaseAction
+    ) -> None:
+        can_jump = isinstance(action, Action) and action.jumps_if_it_must
         world = self._context.world
         here = world.state(actor.id)
         fixed = any(isinstance(m, Position | Along | AlongTrajectory | OnPath) for m in demands)
@@ -107,9 +111,11 @@ class Rehearsal(Entries):
         speed = self._kept_speed(demands) if initial.speed is None else initial.speed
         self.arrivals[actor.id] = Arrival(
             *(actor.id, self._context.step, initial.at, speed, initial.heading, initial.tilt),
-            *(fixed, actor.shape, world.limits(actor.id), actor.lane_bound, source),
+            *(fixed, actor.shape, world.limits(actor.id), actor.lane_bound),
+            *(action.source, can_jump),
         )
-        self.missed[actor.id] = _missed(world.map, here, initial.at) if fixed else 0.0
+        may_miss = not fixed or (can_jump and actor.id not in self.ways)
+        self.missed[actor.id] = 0.0 if may_miss else _missed(world.map, here, initial.at)
         world.assign(actor.id, at=initial.at, speed=speed, heading=initial.heading)
 
     def _placed(
@@ -179,10 +185,11 @@ def ways_in(
         for actor, arrival in found.items():
             for boxes in rehearsal.boxes[: arrival.step + 1]:
                 boxes.pop(actor, None)  # until then its way in decides where it is
-        ways = {
+        searched = {
             actor: way_in(arrival, road_map, rehearsal.boxes, dt, short.get(actor, 0.0))
             for actor, arrival in found.items()
         }
+        ways = {actor: way for actor, way in searched.items() if way is not None}
         before = found
     names = ", ".join(before)
     raise PlacementError(f"where {names} has to be at first depends on the way to there")

@@ -43,6 +43,7 @@ class Arrival(NamedTuple):
         limits: What it can do.
         follows_lanes: Whether it drives along lanes; others go straight.
         source: Place of its first action in the scenario.
+        can_jump: Whether it jumps to the place if there is no way in.
     """
 
     actor: str
@@ -56,6 +57,7 @@ class Arrival(NamedTuple):
     limits: Limits
     follows_lanes: bool
     source: str
+    can_jump: bool
 
     def is_like(self, other: Arrival, road_map: RoadMap) -> bool:
         """Return whether it is the same, if it is one in a place that is stated."""
@@ -71,8 +73,8 @@ class Arrival(NamedTuple):
 
 def way_in(
     arrival: Arrival, road_map: RoadMap, others: Boxes, dt: float, missed: float = 0.0
-) -> WayIn:
-    """Return the first free way in that the map has.
+) -> WayIn | None:
+    """Return the first free way in that the map has; None if there is none and the actor can jump.
 
     Args:
         arrival: The state to arrive in.
@@ -82,7 +84,8 @@ def way_in(
         missed: Distance (m) by which the same way in was too short at an earlier attempt.
 
     Raises:
-        PlacementError: There is none; the message has the reason of the most natural one.
+        PlacementError: There is none, and it cannot jump; the message has the reason of the most
+            natural one.
     """
     reasons: list[str] = []
     for speed, changes, changed in _speeds(arrival, dt):
@@ -107,6 +110,8 @@ def way_in(
                 boxes[arrival.actor] = room
             return way
         reasons.append(blocked)
+    if arrival.can_jump:
+        return None
     raise PlacementError(
         f"{arrival.actor} has no way in to where its first action begins at"
         f" {arrival.step * dt:.2f} s: {reasons[0]}",

@@ -74,9 +74,18 @@ class Action(BaseAction):
             self.slots = method.slots
         super().become(method)
 
+    @property
+    def jumps_if_it_must(self) -> bool:
+        """Whether it can begin although its actor is elsewhere: the actor jumps to its start."""
+        return False
+
     def state_at_start(self, modifiers: Sequence[Modifier]) -> None:
         """Let the action also have modifiers that hold at its start; before setup."""
         self.modifiers = (*modifiers, *self.modifiers)
+
+    def states_itself(self) -> tuple[Modifier, ...]:
+        """Return what the action states of its start besides its modifiers."""
+        return ()
 
     def takes(self, modifier: Modifier) -> bool:
         """Return whether the action carries out a modifier."""

@@ -203,7 +203,8 @@ def _state_at_start(invocation: Invocation, placement: Placement, race: bool) ->
     for action, at_once in started_at_once(invocation, race):
         if not at_once or not isinstance(action, Action) or action.actor is not placement.actor:
             continue
-        stated = [m for m in placement.modifiers if m not in action.modifiers]
+        own = (*action.modifiers, *action.states_itself())
+        stated = [m for m in placement.modifiers if m not in own]
         starts = [m.at_start() for m in stated if m.facts.rules.starts]
         if len(starts) == len(stated) and all(map(action.takes, starts)):
             action.state_at_start(starts)

@@ -94,6 +94,9 @@ def along_line(
     leaf: Leaf, line: Line, offsets: tuple[float, float], *, is_exact: bool
 ) -> tuple[Change, ...]:
     """Return the changes that a path or a trajectory makes."""
+    if leaf.enters and line.frame is None:
+        reason = "a run plans how the actor gets to the path by then"
+        raise Inexpressible(reason, leaf.node.span)
     points = line.points
     if line.is_timed and points and points[0].time > 0.0:
         if line.frame is not None or any(offsets):

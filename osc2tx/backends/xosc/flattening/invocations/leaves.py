@@ -47,6 +47,7 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     name = ctx.names.new(event_name(ctx.scope.deeds, node, member.name))
     is_start = start == RUN_START or is_first(ctx.scenario.body, node)
     leaf = Leaf(ctx, node, member, name, is_start=is_start, time_left=time_left(ctx, node))
+    ctx.present.add(member.name)
     performance = Performance((), "instant")
     with ctx.report_as(leaf.construct, node.span):
         try:

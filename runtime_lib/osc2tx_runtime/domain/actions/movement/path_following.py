@@ -9,7 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar, Unpack
 
-from osc2tx_runtime.domain.modifiers import Modifier, PhysicalMovement, Value, value_of
+from osc2tx_runtime.domain.modifiers import (
+    Along,
+    AlongTrajectory,
+    Modifier,
+    PhysicalMovement,
+    Value,
+    value_of,
+)
 from osc2tx_runtime.domain.modifiers.base import now
 from osc2tx_runtime.domain.modifiers.groups import SPEED_FREE
 from osc2tx_runtime.domain.paths.path_values import (
@@ -63,6 +70,11 @@ class _OnCourse(CourseAction, Generic[CourseT, RelativeT]):
     rules = (at_most_one("absolute", "relative"), at_least_one("absolute", "relative"))
     replays: ClassVar[bool]
 
+    @property
+    def jumps_if_it_must(self) -> bool:
+        """Whether it is a replay."""
+        return self.option() == "prefer_non_physical"
+
     def option(self) -> str:
         """What `physical_movement` says; without it, a replay need not be physical."""
         physical = one_of_kind(self.modifiers, PhysicalMovement)
@@ -111,6 +123,12 @@ class _OnCourse(CourseAction, Generic[CourseT, RelativeT]):
 class _OnPath(_OnCourse[Path, RelativePath]):
     accepts: ClassVar[tuple[type, ...]] = SPEED_FREE
 
+    def states_itself(self) -> tuple[Modifier, ...]:
+        """The actor starts at the beginning of an absolute path."""
+        if self.absolute is None:
+            return ()
+        return (Along(self.absolute, start_offset=self._offsets[0]),)
+
     def commands(self) -> dict[str, Command]:
         """The path, from here."""
         return {
@@ -126,6 +144,12 @@ class _OnPath(_OnCourse[Path, RelativePath]):
 
 class _OnTrajectory(_OnCourse[Trajectory, RelativeTrajectory]):
     accepts: ClassVar[tuple[type, ...]] = (PhysicalMovement,)
+
+    def states_itself(self) -> tuple[Modifier, ...]:
+        """The actor starts at the beginning of an absolute trajectory, with its speed there."""
+        if self.absolute is None:
+            return ()
+        return (AlongTrajectory(self.absolute, start_offset=self._offsets[0]),)
 
     def commands(self) -> dict[str, Command]:
         """The trajectory, from now."""

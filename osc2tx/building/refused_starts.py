@@ -1,0 +1,148 @@
+"""What a run refuses before its first step: `check` prepares runs as `run` does.
+
+Only scenarios that name a map that is found are prepared, and none that would call code of the
+user's own: a check reads files, it does not execute them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
+
+from osc2tx.building.fingerprint import digest
+from osc2tx.compilation.imports import look_up
+from osc2tx.compilation.map_files import named_maps
+from osc2tx.compilation.needed_modules import sibling_modules, siblings_of
+from osc2tx.diagnostics import CODES, Diagnostic, Severity, Span
+from osc2tx.support.paths import real_path
+from osc2tx_shared.classes import replace
+from osc2tx_shared.map_files import SHIPPED, map_places
+
+if TYPE_CHECKING:
+    from osc2tx import ir
+    from osc2tx.building.jobs import RunTexts
+    from osc2tx.compilation.driver import Compilation
+    from osc2tx_runtime import RunSettings, Scenario
+    from osc2tx_runtime.opendrive import RoadMap
+
+
+def report_refused_starts(compilation: Compilation, texts: RunTexts) -> None:
+    """Report why runs of the scenarios of a file would not begin, with the message of `run`.
+
+    Args:
+        compilation: A file without errors.
+        texts: The options of runs that are stated for it.
+    """
+    module = compilation.ir
+    if module is None or not compilation.has_module:
+        return
+    folders = [
+        *(Path(folder) for name, given in texts if name == "map-path" for folder in given),
+        *map(Path, compilation.options.xml.map_path),
+        real_path(compilation.path).parent,
+    ]
+    names = [each.name for each in module.scenarios if _can_start(compilation, each, folders)]
+    if names and not any(map(_calls_own_code, (compilation, *siblings_of(compilation)))):
+        _report(compilation, names, dict(texts), folders)
+
+
+def _calls_own_code(compilation: Compilation) -> bool:
+    module = compilation.ir
+    if module is None:
+        return False
+    scenarios = (*module.bases, *module.scenarios)
+    methods = [method for scenario in scenarios for method in scenario.methods]
+    methods += [method for each in module.types for method in each.methods]
+    return bool(module.actions) or any(method.external is not None for method in methods)
+
+
+def _can_start(compilation: Compilation, scenario: ir.Scenario, folders: Sequence[Path]) -> bool:
+    """Whether a scenario is one to run, whose maps are found; notes where they are looked for."""
+    if scenario.is_invoked or scenario.is_imported or scenario.is_action:
+        return False
+    names = {each.name for each in named_maps(scenario)}
+    is_found = bool(names)
+    for name in names:
+        places = tuple(map_places(name, folders))
+        for place in places:
+            if not place.is_relative_to(SHIPPED):
+                compilation.lookups[place] = look_up(place)
+        is_found = is_found and any(place.is_file() for place in places)
+    return is_found
+
+
+def _report(
+    compilation: Compilation,
+    names: Sequence[str],
+    texts: Mapping[str, Sequence[str]],
+    folders: Sequence[Path],
+) -> None:
+    from osc2tx.module_loading import scenarios_of_module
+    from osc2tx_runtime import ScenarioError
+    from osc2tx_runtime.running.options import read_options
+
+    module = compilation.module
+    assert module is not None, "it has a module"
+    found: list[Refusal | None] = []
+    try:
+        settings = replace(read_options(texts, is_trusted=False), map_path=tuple(folders))
+        if settings.world != "embedded" or settings.control:
+            return  # what that world can do, only it knows
+        with scenarios_of_module(module, sibling_modules(compilation)) as classes:
+            found += [_refusal(classes[name], settings) for name in names if name in classes]
+    except ScenarioError as error:
+        found.append((error.code, error.message, error.source))
+    compilation.sink.add(_diagnostic(compilation, *each) for each in found if each is not None)
+
+
+Refusal: TypeAlias = tuple[str, str, str | None]
+"""Code, message and place."""
+
+
+def _refusal(scenario: type[Scenario], settings: RunSettings) -> Refusal | None:
+    """Return why a run would not get to its first step; None if it would."""
+    from osc2tx_runtime import ScenarioError
+    from osc2tx_runtime.running.main import failure
+    from osc2tx_runtime.running.runner import check_start
+
+    try:
+        result = check_start(scenario, settings, _read)
+    except ScenarioError as error:
+        return error.code, error.message, error.source
+    return (*failure(scenario.name, result), result.place) if result.status == "failure" else None
+
+
+def _read(path: Path) -> RoadMap:
+    """Read a map; one of the same contents is read once by this process."""
+    return _read_contents(path, digest(path.read_bytes()))
+
+
+@lru_cache(maxsize=8)
+def _read_contents(path: Path, contents: str) -> RoadMap:
+    from osc2tx_runtime.opendrive import read_map
+
+    return read_map(path)
+
+
+def _diagnostic(compilation: Compilation, code: str, message: str, place: str | None) -> Diagnostic:
+    """Return an error of a run as a diagnostic at its place."""
+    severity = Severity.WARNING if CODES[code].warns_in_check else Severity.ERROR
+    return Diagnostic(code, severity, message, _span(compilation, place))
+
+
+def _span(compilation: Compilation, place: str | None) -> Span:
+    """Return the span of a place of a run: a column where it knows one, else the line."""
+    from osc2tx_runtime.errors import SourcePlace
+
+    name, _, line = (place or "").rpartition(":")
+    model = compilation.model
+    sources = () if model is None else (file.span.source for file in model.files)
+    source = next((each for each in sources if each.name == name), None)
+    if source is None or not line.isdigit():
+        return compilation.start
+    column = place.column if isinstance(place, SourcePlace) else 1
+    begin = source.line_starts[int(line) - 1] + column - 1
+    text = source.line_text(int(line))[column - 1 :].partition(" #")[0].rstrip()
+    return Span(source, begin, begin + max(1, len(text)))
