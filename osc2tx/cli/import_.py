@@ -105,21 +105,41 @@ def import_(
     The exit code is 0 if all is exact, 3 if not (0 with --allow-approx), 4 if a document cannot be
     read.
     """
-    folders = Folders(maps, catalogs)
-    libraries: Libraries = {}
-    results: list[Result] = []
-    refused = 0
     sources = list(_sources(paths))
     if scenario_name is not None and len(sources) != 1:
         raise click.UsageError("--scenario-name is for one document")
+    results, refused = import_all(sources, out, Folders(maps, catalogs), scenario_name)
+    _sum_up(results, form)
+    if refused:
+        return Exit.UNREADABLE
+    inexact = any(each.imported.report.grade != "exact" for each in results)
+    if any(each.faults for each in results) or (inexact and not allow_approx):
+        return Exit.ERRORS
+    return Exit.OK
+
+
+def import_all(
+    sources: Sequence[Path | None], out: Path, folders: Folders, name: str | None = None
+) -> tuple[list[Result], int]:
+    """Write the scenarios of documents; return them, and how many documents were refused.
+
+    Args:
+        sources: The documents; `None` for standard input.
+        out: Folder of the scenarios.
+        folders: Where maps and catalogs are.
+        name: The name of the only scenario.
+    """
+    libraries: Libraries = {}
+    results: list[Result] = []
+    refused = 0
     names: set[str] = set()
     for source in sources:
-        name = scenario_name or ("scenario" if source is None else source.stem)
-        while snake(name) in names:
-            name += "_2"
-        names.add(snake(name))
+        said = name or ("scenario" if source is None else source.stem)
+        while snake(said) in names:
+            said += "_2"
+        names.add(snake(said))
         try:
-            found = _import(source, name, libraries, folders)
+            found = _import(source, said, libraries, folders)
         except Refused as error:
             where = f"{source or 'standard input'}:{error.place or ''}".rstrip(":")
             complain(f"{where}: {error.reason}")
@@ -135,13 +155,14 @@ def import_(
         _write(out / f"{each.imported.name}.osc", each.text)
         _write(out / f"{each.imported.name}.import.json", each.imported.report.to_json())
     _write_settings(checked, out)
-    _sum_up(checked, form)
-    if refused:
-        return Exit.UNREADABLE
-    inexact = any(each.imported.report.grade != "exact" for each in checked)
-    if any(each.faults for each in checked) or (inexact and not allow_approx):
-        return Exit.ERRORS
-    return Exit.OK
+    return checked, refused
+
+
+def import_folder(folder: Path, out: Path) -> Exit:
+    """Import the documents of a folder into a new project; inexact ones are reported only."""
+    results, refused = import_all(list(_sources((str(folder),))), out, Folders())
+    _sum_up(results, "text")
+    return Exit.UNREADABLE if refused else Exit.OK
 
 
 def _sources(paths: Sequence[str]) -> Iterator[Path | None]:

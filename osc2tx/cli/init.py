@@ -40,11 +40,23 @@ Commit generated/ with the scenarios: reviewers read both."""
     show_default=True,
     help="Version of the standard.",
 )
-def init(folder: Path, std: str) -> Exit:
+@click.option(
+    "--from-xml",
+    "library",
+    metavar="FOLDER",
+    type=click.Path(path_type=Path, file_okay=False, exists=True),
+    help="Import the OpenSCENARIO XML documents of a folder into scenarios/.",
+)
+def init(folder: Path, std: str, library: Path | None) -> Exit:
     """Start a project: a scenario, settings, a test, a pre-commit hook and a CI workflow.
 
     Files that exist already are left as they are.
     """
+    imported = None
+    if library is not None:
+        from osc2tx.cli.import_ import import_folder  # with the reader of maps
+
+        imported = import_folder(library, folder / "scenarios")
     templates = resource_dir("templates") / "project"
     for name, template in FILES.items():
         place = folder / name
@@ -64,4 +76,4 @@ def init(folder: Path, std: str) -> Exit:
     if folder != Path():
         say(f"  cd {folder}")
     put(NEXT_STEPS)
-    return Exit.OK
+    return Exit.OK if imported is None else imported

@@ -93,10 +93,12 @@ def check(
     if reporter.form == "json":
         put_document(json.dumps([_row(each) for each in results], indent=2) + "\n")
     else:
+        before = ""
         for each in results:
             say(f"{each.number:2} {MARKS[each.status]:8} {each.name}: {each.found}")
-            if each.meaning:
+            if each.meaning and each.meaning != before:
                 say(f"            {each.meaning}")
+            before = each.meaning
     return Exit.FAILED if any(each.blocks for each in results) else Exit.OK
 
 

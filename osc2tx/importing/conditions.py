@@ -307,9 +307,13 @@ class Conditions:
             from_, to = b, a  # the one behind asks, so the distance is positive
         measure = f"{from_}.{method}(reference: {to}, direction: {kind}{mode})"
         compared = f"{measure} {COMPARISONS[rule]} {value.within(SUM)}"
-        if not rule.startswith("less") or (kind == "longitudinal" and sign is not None):
-            return compared
-        return f"{compared} and {measure} {COMPARISONS[rule].replace('<', '>')} -{value.within(2)}"
+        if rule.startswith("less"):
+            if kind == "longitudinal" and sign is not None:
+                return compared
+            word, other = "and", COMPARISONS[rule].replace("<", ">")
+        else:
+            word, other = "or", COMPARISONS[rule].replace(">", "<")
+        return f"{compared} {word} {measure} {other} -{value.within(2)}"
 
     def _side(self, said: str, other: str, kind: str) -> int | None:
         """Return 1 if the other one is ahead at the start, -1 if behind; `None`: not known."""

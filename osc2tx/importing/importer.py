@@ -93,7 +93,10 @@ def import_document(
         raise Refused("it has no storyboard", root.place)
     document = Document(root, path, comments, folders)
     said = name or (path.stem if path else "scenario")
-    return _Import(document, source, libraries, said, distribution).run()
+    try:
+        return _Import(document, source, libraries, said, distribution).run()
+    except RecursionError:
+        raise Refused("its events are nested too deep", root.place) from None
 
 
 class _Import:

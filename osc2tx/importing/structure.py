@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field
+from functools import cached_property
 
 from osc2tx.importing.conditions import Condition, Trigger
 from osc2tx.importing.program import Statement, composed, wait
@@ -58,7 +59,6 @@ class Structure:
         self._board, self._name_event, self._going_on = board, name_event, going_on
         self.lines: list[str] = []
         self._declared: dict[str, str] = {}
-        self._referred: set[Step] = set()
         self._predecessor: dict[Step, Step] = {}
         for step in board.steps:
             self._order(step)
@@ -186,7 +186,6 @@ class Structure:
         for step in steps:
             if step is behind:
                 continue
-            self._referred.add(step)
             if not step.effects:
                 yield f"@{step.label}"
             else:
@@ -229,48 +228,44 @@ class Structure:
             group.sort(key=order.__getitem__)
         return sorted(groups, key=lambda group: order[group[0]])
 
-    def _chain(self, step: Step) -> list[Statement]:
-        """Return a step with what waits for it, and what follows."""
-        act, event = step.triggers
-        behind = self._predecessor.get(step)
-        is_of_act = event.is_immediate
-        found = (
-            self.waits(act, behind if is_of_act else None) if behind is None or is_of_act else []
-        )
-        found += self.waits(event, behind)
-        content = self._content(step)
-        return [*found, *content] if content else []
-
-    def _content(self, step: Step) -> list[Statement]:
-        found = (
-            [self._statement(step)] if step.effects or step.label in self._referred_labels else []
-        )
-        followers = [chain for each in step.successors if (chain := self._chain(each))]
-        if len(followers) == 1:
-            return found + followers[0]
+    def _chain(self, step: Step, *, waits: bool = True) -> list[Statement]:
+        """Return a step with what follows it, and with what waits for it unless told otherwise."""
+        found: list[Statement] = []
+        pending = self._waits_of(step) if waits else []
+        at = step
+        while True:
+            if at.effects or at.label in self._referred_labels:
+                found += [*pending, self._statement(at)]
+                pending = []
+            if len(at.successors) != 1:
+                break
+            at = at.successors[0]
+            pending += self._waits_of(at)
+        followers = [chain for each in at.successors if (chain := self._chain(each))]
         if followers:
-            found.append(composed("parallel", [composed("serial", each) for each in followers]))
+            beside = [composed("serial", each) for each in followers]
+            found += [*pending, composed("parallel", beside)]
         return found
 
-    @property
-    def _referred_labels(self) -> set[str]:
-        return {step.label for step in self._referred} | self._empty_labels
+    def _waits_of(self, step: Step) -> list[Statement]:
+        act, event = step.triggers
+        behind = self._predecessor.get(step)
+        if behind is not None and not event.is_immediate:
+            return self.waits(event, behind)
+        return self.waits(act, behind) + self.waits(event, behind)
 
-    @property
-    def _empty_labels(self) -> set[str]:
-        """Labels of steps without effects whose ends are waited for elsewhere."""
-        named: set[str] = set()
-        for each in self._board.steps:
-            for trigger in each.triggers:
-                for group in trigger.groups:
-                    for condition in group:
-                        if condition.kind == "state":
-                            named |= {step.label for step in self._steps_of(condition)}
-        for group in self._board.end.groups:
-            for condition in group:
-                if condition.kind == "state":
-                    named |= {step.label for step in self._steps_of(condition)}
-        return named
+    @cached_property
+    def _referred_labels(self) -> set[str]:
+        """Labels of steps whose starts or ends are waited for."""
+        triggers = [trigger for step in self._board.steps for trigger in step.triggers]
+        return {
+            step.label
+            for trigger in (*triggers, self._board.end)
+            for group in trigger.groups
+            for condition in group
+            if condition.kind == "state"
+            for step in self._steps_of(condition)
+        }
 
     def _statement(self, step: Step) -> Statement:
         if step.effects:
@@ -288,7 +283,7 @@ class Structure:
             start = _nominal_start(step)
             if index == 0 and start.value > 0.0:
                 branch.members.append(wait(f"elapsed({start.text})"))
-            content = self._content(step)
+            content = self._chain(step, waits=False)
             if index + 1 == len(ordered):
                 branch.members += content
                 break
@@ -351,9 +346,12 @@ class Structure:
 
 
 def _below(step: Step) -> Iterator[Step]:
-    yield step
-    for each in step.successors:
-        yield from _below(each)
+    """Yield a step and those that follow it."""
+    left = [step]
+    while left:
+        at = left.pop()
+        yield at
+        left += reversed(at.successors)
 
 
 def _conflict(one: Step, other: Step) -> bool:

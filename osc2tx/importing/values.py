@@ -68,7 +68,7 @@ OF_SCHEMA = {
     "rad": ANGLE,
 }
 SUM, PRODUCT, ATOM = 1, 2, 3
-DIGITS = 10
+DIGITS = 8
 
 _TOKEN = re.compile(r"\s*(\$?[A-Za-z_]\w*|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+*/(),%])")
 
@@ -413,8 +413,9 @@ class Values:
         unit, _ = parameter.unit
         if parameter.kind != "double":
             return str(round(number))
-        text = _short(number)
-        return f"{text}{unit}" if unit else text if "." in text else f"{text}.0"
+        if not parameter.is_hourly:
+            return literal(number, parameter.dimension)
+        return f"{_short(number)}{unit}"
 
     def _typed(self, node: Expression, wanted: Dimension, value: float) -> Quantity:
         if isinstance(node, Number):

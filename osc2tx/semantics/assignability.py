@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from osc2tx.diagnostics.fixes import Help, write
 from osc2tx.semantics.builtins import TIME
 from osc2tx.semantics.conversions import NUMBERS, converts, dimension_of
@@ -21,6 +23,8 @@ from osc2tx.semantics.types import (
 )
 from osc2tx.syntax import ast
 
+Advise = Callable[[Type], Help]
+
 
 def check_value(
     r: Resolution,
@@ -30,12 +34,23 @@ def check_value(
     what: str,
     *,
     allow_range: bool = False,
+    advise: Advise | None = None,
 ) -> Type:
-    """Type an expression, and report it if it does not fit the target type."""
+    """Type an expression, and report it if it does not fit the target type.
+
+    Args:
+        r: The state of the pass.
+        expression: The value.
+        target: The type it is for.
+        env: Where it stands.
+        what: What the value is for, at the beginning of a message.
+        allow_range: Whether it may be a range of the target type.
+        advise: Returns the help for a value of a type that does not fit.
+    """
     source = r.type_of(expression, env, target)
     if reads_as_quantity(r, expression, target, env):
         r.types[expression] = source = target
-    check_fits(r, expression, source, target, what, allow_range=allow_range)
+    check_fits(r, expression, source, target, what, allow_range=allow_range, advise=advise)
     return source
 
 
@@ -57,8 +72,9 @@ def check_fits(
     what: str,
     *,
     allow_range: bool = False,
+    advise: Advise | None = None,
 ) -> None:
-    """Report an expression whose type does not fit the target type."""
+    """Report an expression whose type does not fit the target type; see `check_value`."""
     if source == ERROR or target == ERROR:
         return
     if allow_range and isinstance(source, RangeType) and not isinstance(target, RangeType):
@@ -78,12 +94,12 @@ def check_fits(
             "OSC301",
             expression.span,
             f"{what} must be `{target}`, not `{source}`",
-            help=_mismatch_help(expression, source, target),
+            help=(advise and advise(source)) or _mismatch_help(expression, source, target),
         )
     elif source in NUMBERS:
         _report_missing_unit(r, expression, target, what)
     else:
-        _report_dimension(r, expression, source, target, what)
+        _report_dimension(r, expression, source, target, what, advise and advise(source))
 
 
 def _mismatch_help(expression: ast.Expression, source: Type, target: Type) -> Help:
@@ -151,7 +167,7 @@ def example_unit(r: Resolution, type_: Type) -> str | None:
 
 
 def _report_dimension(
-    r: Resolution, expression: ast.Expression, source: Type, target: Type, what: str
+    r: Resolution, expression: ast.Expression, source: Type, target: Type, what: str, help: Help
 ) -> None:
     product = isinstance(expression, ast.Binary) and expression.operator in (
         ast.BinaryOperator.MULTIPLY,
@@ -171,6 +187,7 @@ def _report_dimension(
         expression.span,
         f"{what} must be `{target}`, not `{source}`",
         notes=[*notes, f"the value has dimension `{_dimension_inside(source)}`"],
+        help=help,
     )
 
 

@@ -26,8 +26,11 @@ from osc2tx.diagnostics import DiagnosticSink, SourceFile, Span
 from osc2tx.support.recursion import room_for_trees
 from osc2tx.syntax import ast
 from osc2tx.syntax.dump import dump_ast
+from osc2tx.syntax.merge_conflicts import merge_conflicts
 
 __all__ = ["dump_ast", "parse", "read_source"]
+
+_RESOLVE = "keep one of the two versions, or both, and remove the three lines with markers"
 
 
 def parse(
@@ -51,6 +54,11 @@ def parse(
     Returns:
         The AST of all that could be understood.
     """
+    conflicts = list(merge_conflicts(source))
+    for span in conflicts:
+        sink.report("OSC116", span, "a merge is not resolved here", help=_RESOLVE)
+    if conflicts:
+        return ast.File(span=Span(source, 0, 0), imports=(), statements=())
     # Loaded late: the generated parser is only needed when there is something to parse.
     from osc2tx.syntax.ast_transformer import ASTTransformer
     from osc2tx.syntax.parser import parse_tokens

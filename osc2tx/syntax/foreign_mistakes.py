@@ -98,8 +98,7 @@ def _into_the_call(place: Place) -> Help:
     has_block = table.types[end + 2 : end + 3] == [t.INDENT] or table.text(end) == ":"
     if word == "until" and end > place.at and not has_block:
         indentation = " " * (table.indentation(table.starts[place.line]) + 4)
-        below = write(place.between(-1), f" with:\n{indentation}", BEHIND_A_CALL[word])
-        return below
+        return rewrite([Edit(place.between(-1), f" with:\n{indentation}")], BEHIND_A_CALL[word])
     if word == "for" and place.kind(1) == t.PHYSICAL and end == place.at + 1:
         comma = "" if place.kind(-2) == _LPAREN else ", "
         argument = Edit(place.span(-1), f"{comma}duration: {place.text(1)})")
@@ -116,7 +115,8 @@ def wait_until(place: Place) -> Advice | None:
     if place.at not in (line + 1, line + 2):
         return None
     between = Span(place.table.source, place.table.ends[line], place.table.starts[line + 2])
-    help_ = write(between, " ", "a condition follows `wait` at once: `wait …`")
+    edits = [Edit(between, " ")]
+    help_ = rewrite(edits, "a condition follows `wait` at once: `wait …`")
     return Advice("unexpected `until` after `wait`", help_, line + 1)
 
 

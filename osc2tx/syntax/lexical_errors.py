@@ -50,6 +50,8 @@ class LexicalErrors:
         if found in _OPERATORS:
             operator = _OPERATORS[found]
             help_ = write(span, operator, f"the operator is written `{operator}`")
+        elif found in "{}":
+            help_ = self._without_brace(start, found)
         elif found == ";" and not self._rest_of_line(start + 1).strip():
             help_ = leave_out(span, _REPLACEMENTS[found])
         if found == "\\":
@@ -59,6 +61,21 @@ class LexicalErrors:
         self._report("OSC102", start, end, f"unexpected character {shown}", help_)
         self._table.damaged.append(start)
         return end
+
+    def _without_brace(self, start: int, brace: str) -> Help:
+        """Return how a brace becomes the colon of a block, or goes with its line."""
+        line = self._table.line_start(start)
+        rest = self._rest_of_line(start + 1)
+        help_ = _REPLACEMENTS[brace]
+        if rest.strip():
+            return help_
+        if brace == "{":
+            first = len(self._text[:start].rstrip(" \t"))
+            return write(Span(self._table.source, first, start + 1), ":", help_, is_safe=False)
+        if self._text[line:start].strip():
+            return help_
+        end = min(start + 1 + len(rest) + 1, len(self._text))
+        return leave_out(Span(self._table.source, line, end), help_, is_safe=False)
 
     def _rest_of_line(self, start: int) -> str:
         match = patterns.LINE_REST.match(self._text, start)
@@ -93,7 +110,9 @@ class LexicalErrors:
             end = start + len(self._rest_of_line(start))
             message = "a comment starts with `#`, not with `//`"
             before = self._text[self._text.rfind("\n", 0, start) + 1 : start].rstrip()
+            after = self._text[start + 2 : end].lstrip()[:1]
             is_operator = before[-1:].isalnum() or before.endswith((")", "]", "_"))
+            is_operator &= after.isdigit() or after == "("
             help_ = write(Span(self._table.source, start, start + 2), "#")
             if is_operator:
                 divide = "to divide write `/`: of whole numbers it is whole"

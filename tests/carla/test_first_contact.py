@@ -309,11 +309,15 @@ def test_actors_that_a_large_level_does_not_stream() -> None:
 # --- speeds at the start ---------------------------------------------------------------------
 
 
-def test_driven_actors_start_at_their_speed() -> None:
-    """A speed that is given once sags; given for half a second it stays."""
+@pytest.mark.parametrize("control", ["driven", "external"])
+def test_actors_start_at_their_speed(control: str) -> None:
+    """A speed that is given once sags; given for half a second it stays.
+
+    An external actor is given it before the run, and is where it starts all the same.
+    """
     with StandInProcess([OWN_MAPS], "highway", "--fault", "sagging") as server:
-        result = run(in_carla(RunSettings(max_time=2.0), server.port, control={"": "driven"}))
-    lines = [json.loads(each) for each in result.trace_lines]
-    speeds = [each["v"] for each in lines if each["kind"] == "state" and each["actor"] == "ego"]
-    settled = speeds[6:]  # 0.3 s
-    assert settled == pytest.approx([speeds[0]] * len(settled), abs=0.5)
+        settings = RunSettings(expect=True, max_time=1.0)
+        found = states(run(in_carla(settings, server.port, control={"ego": control})), "ego")
+    assert (found[0]["x"], found[0]["y"]) == pytest.approx((200.0, -8.75), abs=0.01)
+    settled = [each["v"] for each in found[6:]]  # 0.3 s
+    assert settled == pytest.approx([found[0]["v"]] * len(settled), abs=0.5)

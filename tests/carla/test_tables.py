@@ -16,6 +16,7 @@ from osc2tx_runtime.simulators.carla.cast import CastMember, member_of
 from osc2tx_runtime.simulators.carla.frames import measurement_from, pose_from, transform_of
 from osc2tx_runtime.simulators.carla.gains import CAR
 from osc2tx_runtime.simulators.carla.level import with_spawn_points
+from osc2tx_runtime.simulators.carla.motion_lights import MotionLights
 from osc2tx_runtime.simulators.carla.surroundings import FLAGS, lamps_for, state_for, weather_of
 from osc2tx_runtime.simulators.carla.tracking import SpeedControl
 from osc2tx_runtime.world.actor_dimensions import limits_of, shape_of
@@ -246,3 +247,42 @@ def test_each_row_says_how_it_does_in_carla() -> None:
     assert list(IN_CARLA) == [f"C{number:02}" for number in range(1, 39)]
     run = {path.stem[:3] for path in modules()}
     assert set(IN_CARLA) - run <= {"C35"}  # its scenarios have mistakes, so they have no module
+
+
+# --- lights by the motion --------------------------------------------------------------------
+
+
+def shown(states: list[tuple[float, float, float, bool]]) -> list[int]:
+    """Return the flags after each speed, acceleration, speed across, and whether lanes differ."""
+    lights = MotionLights()
+    return [
+        lights.after(
+            SimpleNamespace(  # type: ignore[arg-type]
+                state=SimpleNamespace(v=v, a=a, lateral_speed=aside), changes_lane=changes
+            )
+        )
+        for v, a, aside, changes in states
+    ]
+
+
+def test_brake_lights() -> None:
+    """On above 1.3 m/s^2, off up to 0.7 m/s^2, and on while it stands after braking."""
+    decelerations = [0.0, 1.0, 1.4, 1.0, 0.7, 1.0]
+    assert shown([(10.0, -a, 0.0, False) for a in decelerations]) == [0, 0, 8, 8, 0, 0]
+    stop = [(1.0, -3.0, 0.0, False), (0.0, -3.0, 0.0, False), (0.0, 0.0, 0.0, False)]
+    assert shown([*stop, (0.1, 1.0, 0.0, False)]) == [8, 8, 8, 0]
+    assert shown([(0.0, 0.0, 0.0, False)]) == [0]  # parked
+
+
+def test_reversing_lights() -> None:
+    """Backwards an acceleration forwards is a deceleration."""
+    assert shown([(-1.0, 0.0, 0.0, False), (-1.0, 2.0, 0.0, False)]) == [64, 64 | 8]
+    assert shown([(-1.0, -2.0, 0.0, False)]) == [64]
+
+
+def test_turn_lights() -> None:
+    """From the command to the middle of the new lane; not for another place within the lane."""
+    change = [(9.0, 0.0, 0.05, True), (9.0, 0.0, 1.0, True), (9.0, 0.0, 1.0, False)]
+    assert shown([*change, (9.0, 0.0, 0.05, False)]) == [0, 32, 32, 0]
+    assert shown([(9.0, 0.0, -1.0, True), (9.0, 0.0, -1.0, False)]) == [16, 16]
+    assert shown([(9.0, 0.0, 1.0, False)]) == [0]

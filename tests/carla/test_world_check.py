@@ -187,6 +187,11 @@ def test_20_lights_without_ids() -> None:
         assert "signals without a light" in broken(server.port, 20)
 
 
+def test_20_lights_that_a_client_has_stopped() -> None:
+    with StandInProcess([OWN_MAPS], "urban_crossing", "--fault", "frozen-lights") as server:
+        assert "lights are frozen" in broken(server.port, 20)
+
+
 def test_21_a_port_that_is_taken(server: StandInProcess) -> None:
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = str(other.getsockname()[1])
@@ -215,6 +220,7 @@ def test_22_topics_that_nobody_publishes(server: StandInProcess, tmp_path: Path)
         (8, "slow", "times real time"),
         (10, "sunk-mesh", "0.50 m at most"),
         (14, "no-boxes", "0.00 m long"),
+        (14, "no-wheels", "are at one place"),
         (15, "loose", "20.0 mm"),
         (16, "sagging", "of 20 m/s"),
         (17, "weak", "speed within"),

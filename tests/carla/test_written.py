@@ -7,6 +7,8 @@ from typing import Any
 
 import pytest
 
+from osc2tx_runtime.simulators.carla.motion_lights import BRAKE, LEFT, RIGHT
+
 from .runs import GENERATED, in_carla, run_all, settings_for
 from .stand_in.process import StandInProcess
 
@@ -94,6 +96,33 @@ def test_lights_of_vehicles(stand_in: StandInProcess) -> None:
     """Automatic lights: low beam (position 1 + low beam 2) at dusk, and off again."""
     flags = [light for _, light in commands(calls_of(stand_in, "C16_automatic_lights"), 18)]
     assert 3 in [each[0] if isinstance(each, list) else each for each in flags]
+
+
+@pytest.mark.parametrize("name", ["cut_in", "cut_in_and_evade"])
+def test_turn_lights_are_on_the_side_to_which_it_moves(stand_in: StandInProcess, name: str) -> None:
+    """The side is told by the places alone: along the x axis y grows to the right."""
+    at: dict[int, float] = {}
+    sides, lit = set[tuple[int, bool]](), dict[int, int]()
+    for batch, _ in named(calls_of(stand_in, name), "apply_batch"):
+        given = [(kind, fields) for ((kind, fields),) in batch]
+        lit |= {f[0]: flags_of(f[1]) & (RIGHT | LEFT) for kind, f in given if kind == 18}
+        for actor, ((_, y, _), (_, yaw, _)) in [fields for kind, fields in given if kind == 6]:
+            assert abs(yaw) < 45.0
+            if lit.get(actor) and abs(y - at[actor]) > 0.004:  # 0.08 m/s
+                sides.add((lit[actor], y > at[actor]))
+            at[actor] = y
+    assert sides and sides <= {(RIGHT, True), (LEFT, False)}
+    assert not any(lit.values())  # off in the end
+
+
+def flags_of(lights: Any) -> int:
+    return int(lights[0] if isinstance(lights, list) else lights)
+
+
+def test_brake_lights_while_it_brakes(stand_in: StandInProcess) -> None:
+    for control in ("exact", "driven"):
+        calls = calls_of(stand_in, "C08_stationary", control)
+        assert any(flags_of(lights) & BRAKE for _, lights in commands(calls, 18)), control
 
 
 def test_weather(stand_in: StandInProcess) -> None:

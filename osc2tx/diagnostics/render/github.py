@@ -11,7 +11,7 @@ from osc2tx.diagnostics.model import Diagnostic
 from osc2tx.diagnostics.report import Report, display_name
 from osc2tx_shared.text import visible, without_commands
 
-MOST_COMMANDS = 200  # the runner shows fewer, and a log is read
+MOST_COMMANDS = 200  # nobody reads more beside a pull request
 
 
 def render_github(report: Report) -> str:
@@ -27,7 +27,9 @@ def render_github(report: Report) -> str:
         for fault in report.faults
     ]
     if len(commands) > MOST_COMMANDS:
-        more = f"{len(commands) - MOST_COMMANDS} more annotations not shown: see the log"
+        commands.sort(key=lambda command: not command.startswith("::error "))
+        more = f"{len(commands) - MOST_COMMANDS} more annotations not shown, errors come first;"
+        more += " `--output-format json` has all"
         commands[MOST_COMMANDS:] = [f"::notice {_properties({'title': 'osc2tx'})}::{_data(more)}"]
     if report.failure is not None:
         commands.append(f"::error {_properties({'title': 'osc2tx'})}::{_data(report.failure)}")

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from itertools import dropwhile
 
 from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import Span
+from osc2tx.diagnostics.fixes import Edit, Help, rewrite, write
 from osc2tx.semantics.assignability import check_value
 from osc2tx.semantics.builtins import DURATION
+from osc2tx.semantics.conversions import converts
 from osc2tx.semantics.declarations.resolve_types import choose
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.names.aliases import parameter_alias
@@ -26,7 +29,7 @@ from osc2tx.semantics.symbols import (
     ScenarioSymbol,
     Symbol,
 )
-from osc2tx.semantics.types import RangeType
+from osc2tx.semantics.types import EnumType, RangeType, Type
 from osc2tx.syntax import ast
 from osc2tx_shared.classes import replace
 from osc2tx_shared.rules import Rule, violations
@@ -84,10 +87,55 @@ def bind_behavior(
     if isinstance(callee, ScenarioSymbol | ActionSymbol):
         parameters.append(DURATION)
     pairs = _match(r, node.arguments, parameters, callee, env)
+    named = {argument.value for argument in node.arguments if argument.name is not None}
     for parameter, value in pairs:
-        check_value(r, value, parameter.type, env, f"`{parameter.name}`", allow_range=True)
+        check_value(
+            r,
+            value,
+            parameter.type,
+            env,
+            f"`{parameter.name}`",
+            allow_range=True,
+            advise=None if value in named else partial(_meant, node, callee, value),
+        )
     check_exclusive(r, callee, pairs)
     r.bindings[node] = Binding(callee, node.actor, pairs)
+
+
+def _meant(
+    node: ast.Invocation | ast.ModifierApplication,
+    callee: BehaviorSymbol,
+    value: ast.Expression,
+    given: Type,
+) -> Help:
+    """Say what is meant by a positional argument that does not fit the first parameter.
+
+    That is the one other parameter that it fits, or the modifier of the action that states such a
+    value: `drive(50kph)`.
+    """
+    written = {argument.name.text for argument in node.arguments if argument.name is not None}
+    parameters = (each for each in parameters_of(callee) if each.name not in written)
+    fitting = [each for each in parameters if _takes(each.type, value, given)]
+    if len(fitting) == 1:
+        return write(value.span, f"{fitting[0].name}: {value.span.text}", is_safe=False)
+    name = str(given)
+    action = catalogue().actions.get(callee.qualified_name)
+    if action is None or name not in action.modifiers or not isinstance(node, ast.Invocation):
+        return None
+    text = value.span.text
+    help_ = f"`{name}` is a modifier: end the line with `with:`, and write `{name}({text})` below"
+    if node.with_members or len(node.arguments) != 1:
+        return help_
+    column = node.span.source.position((node.label or node).span.start)[1]
+    block = f" with:\n{' ' * (column + 3)}{name}({text})"
+    behind = Span(node.span.source, node.span.end, node.span.end)
+    return rewrite([Edit(value.span, ""), Edit(behind, block)], help_, is_safe=False)
+
+
+def _takes(parameter: Type, value: ast.Expression, given: Type) -> bool:
+    if isinstance(parameter, EnumType):
+        return value.span.text in parameter.symbol.members
+    return converts(given, parameter)
 
 
 def bind_call(

@@ -71,7 +71,7 @@ class ImportWalk:
             return
         library = "the standard library is `osc.standard.all`"
         if statement.module[:1] == ("osc",):
-            advice: str | None = library
+            advice: Help = write(statement.span, "import osc.standard", library, is_safe=False)
         else:
             imported = self.load(statement, statement.span.source)
             if imported is not None:

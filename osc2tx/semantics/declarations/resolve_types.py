@@ -15,7 +15,7 @@ from osc2tx.semantics.names.aliases import (
     type_alias,
     write_instead,
 )
-from osc2tx.semantics.names.everyday_words import BEHAVIORS, TYPES, plain_word
+from osc2tx.semantics.names.everyday_words import BEHAVIORS, NO_BEHAVIORS, TYPES, plain_word
 from osc2tx.semantics.names.other_dialects import advise
 from osc2tx.semantics.names.unknown_names import report_unimported
 from osc2tx.semantics.resolution import Resolution, declared_here
@@ -309,6 +309,7 @@ def report_unknown_behavior(r: Resolution, actor: ActorSymbol, name: ast.Name) -
             f"`{actor.name}` has no behavior `{name}`",
             help=write_instead(name.span, standard_behavior(actor, name))
             or (plain_word(name.span, BEHAVIORS) if BEHAVIORS.get(name.text) in known else None)
+            or NO_BEHAVIORS.get(name.text)
             or name_meant(name.span, known)
             or f"declare it, `scenario {actor.name}.{name}:`, or import the file that does",
         )

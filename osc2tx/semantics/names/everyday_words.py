@@ -60,6 +60,10 @@ MODIFIERS: Mapping[str, str] = {
 }
 # For a word several, of which a behavior or modifier has one.
 # Names that are no modifiers, and what to write instead.
+NO_BEHAVIORS: Mapping[str, str] = dict.fromkeys(
+    ("turn", "turn_left", "turn_right"),
+    "a turn is a matter of the route: `drive` with the modifier `along`, on a route that turns",
+)
 NO_MODIFIERS: Mapping[str, str] = {
     "duration": "how long is an argument of what is invoked: `(duration: …)`",
     "repeat": "there are no loops: write the invocation as often as it shall happen",

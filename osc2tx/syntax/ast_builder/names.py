@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from osc2tx.diagnostics import Span
-from osc2tx.diagnostics.fixes import Help, write
+from osc2tx.diagnostics.fixes import Help, leave_out, write
 from osc2tx.syntax import ast
 from osc2tx.syntax import tokens as t
 from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
@@ -71,7 +71,7 @@ def _labelled(
 def _report_place(b: Builder, head: Head, tree: Tree, place: Place, what: str) -> None:
     if place is Place.NOWHERE:
         return
-    help_ = None
+    help_: Help = None
     if place is Place.FILE:
         help_ = "put it into a scenario; a global parameter begins with `global`"
     elif place is Place.ON:
@@ -79,6 +79,8 @@ def _report_place(b: Builder, head: Head, tree: Tree, place: Place, what: str) -
     elif place is Place.WITH:
         word = b.text_of(tree.start)
         help_ = _WITH_WORDS.get(word, f"a modifier is applied with parentheses: `{word}(…)`")
+        if word == "until" and b.types[tree.start + 1] == _COLON:
+            help_ = leave_out(b.span(tree.start + 1, tree.start + 1), _WITH_WORDS[word])
     span = b.span(tree.start, tree.start)
     b.report("OSC108", span, f"{what} does not belong {place.value}", help_)
 

@@ -106,7 +106,8 @@ def run(scenarios: Sequence[type[Scenario]], argv: Sequence[str]) -> int:
         result = run_scenario(scenario, settings, progress, keep_trace=False)
     except ScenarioError as error:
         clear_progress(progress)
-        if isinstance(error.__cause__, Exception):
+        has_line = (error.source or "").rpartition(":")[2].isdecimal()
+        if isinstance(error.__cause__, Exception) and not has_line:
             error.source = place_in_own_code(error.__cause__, (scenario,)) or error.source
         complain(error.report(scenario.source))
         return error.exit_code

@@ -63,6 +63,23 @@ def no_boxes(simulation: Simulation, calls: Calls) -> None:
     simulation.box = lambda actor: [[0.0] * 3, [0.0] * 3, [0.0] * 3, actor.id]  # type: ignore[method-assign]
 
 
+def no_wheels(simulation: Simulation, calls: Calls) -> None:
+    """All wheels are at the origin (carla issue 8746)."""
+    ask = calls["get_physics_control"]
+
+    def at_the_origin(actor: int) -> list[Any]:
+        *others, wheels, sweep = ask(actor)
+        return [*others, [[*tyre, [0.0] * 3] for *tyre, _ in wheels], sweep]
+
+    calls["get_physics_control"] = at_the_origin
+
+
+def frozen_lights(simulation: Simulation, calls: Calls) -> None:
+    """A client has stopped the cycles of all lights and is gone."""
+    for _, light in simulation.lights():
+        light.frozen = True
+
+
 def loose(simulation: Simulation, calls: Calls) -> None:
     """Poses are not quite those that were sent."""
     batch = calls["apply_batch"]
@@ -193,6 +210,8 @@ FAULTS: Mapping[str, Callable[[Simulation, Calls], None]] = {
         sunk_mesh,
         few_blueprints,
         no_boxes,
+        no_wheels,
+        frozen_lights,
         loose,
         sagging,
         weak,

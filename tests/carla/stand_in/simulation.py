@@ -17,7 +17,10 @@ from .snapshot import COLLISION, EPISODE_STREAM, WORLD_OBSERVER, collision, head
 from .streams import StreamServer
 from .traffic_lights import cycle
 
-DEFAULT_STEP = 0.05  # s, where none is fixed
+DEFAULT_STEP = 0.05  # s on the average, where none is fixed
+UNEVEN = (0.6, 1.7, 0.7, 1.0)
+"""Shares of it: frames take the time that they take (`docs/adv_synchrony_timestep.md`)."""
+
 SETTINGS = [False, False, [False], True, 0.01, 10, 0.0, True, 3000.0, 2000.0, True]
 WEATHER = [5.0, 0.0, 0.0, 10.0, -1.0, 45.0, 2.0, 0.75, 0.1, 0.0, 1.0, 0.03, 0.0331, 0.0]
 TRIGGER = "static.trigger.friction"
@@ -134,7 +137,9 @@ class Simulation:
     def dt(self) -> float:
         """Length of a step (s)."""
         fixed = self.settings[2]
-        return float(fixed[1]) if fixed[0] and fixed[1] else DEFAULT_STEP
+        if fixed[0] and fixed[1]:
+            return float(fixed[1])
+        return DEFAULT_STEP * UNEVEN[self.frame % len(UNEVEN)]
 
     def step(self) -> None:
         """Go on by a step and tell everybody."""

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from osc2tx.diagnostics import CODES, Diagnostic, Label, SourceFile, Span
 from osc2tx.diagnostics.render import render_github, render_json, render_sarif
+from osc2tx.diagnostics.render.github import MOST_COMMANDS
 from osc2tx.diagnostics.report import Report, make_report
 
 REPOSITORY = Path(__file__).parents[3]
@@ -182,6 +183,22 @@ def test_github_has_no_columns_for_several_lines_and_no_file_without_place(tmp_p
 def test_github_says_what_is_not_shown(tmp_path: Path) -> None:
     report = make_report(with_all(tmp_path).diagnostics * 3, files=1, most_shown=1)
     assert render_github(report).endswith("\n::notice file=x.osc::2 more not shown\n")
+
+
+def test_github_shows_errors_first_where_there_are_too_many() -> None:
+    source = SourceFile("a.osc", "text\n" * 400)
+    codes = ["OSC433"] * 300 + ["OSC202"] * 5
+    found = [
+        Diagnostic(code, CODES[code].severity, f"number {n}", Span(source, 5 * n, 5 * n + 4))
+        for n, code in enumerate(codes)
+    ]
+    *commands, last = render_github(make_report(found, files=1)).splitlines()
+    assert len(commands) == MOST_COMMANDS
+    assert [command.split()[0] for command in commands[:6]] == ["::error"] * 5 + ["::warning"]
+    assert last == (
+        "::notice title=osc2tx::105 more annotations not shown, errors come first;"
+        " `--output-format json` has all"
+    )
 
 
 def test_every_code_can_be_rendered() -> None:

@@ -7,9 +7,9 @@ never waits for ever. That side lets go of the simulator however this one ends.
 `world` makes the world: `connection` names what keeps a run from beginning, `level` requires or
 loads the map. `attendance` is for those outside the run: a stack that attaches, a camera. `plant`
 is the seam: `cast` knows what belongs to each actor, `blueprints` chooses its model, `tracking`
-drives it by the `gains` of its kind. `frames` and `surroundings` put values into CARLA's words;
-`sensors` reads sensor stacks. `checks` compares a server with what all of this relies on.
-`capabilities` says what of the capability table holds in CARLA, and how.
+drives it by the `gains` of its kind. `frames`, `surroundings` and `motion_lights` put values into
+CARLA's words; `sensors` reads sensor stacks. `checks` compares a server with what all of this
+relies on. `capabilities` says what of the capability table holds in CARLA, and how.
 """
 
 from __future__ import annotations

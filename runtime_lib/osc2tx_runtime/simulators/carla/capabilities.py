@@ -12,7 +12,10 @@ WEATHER = (
     " pressure, humidity and direction of the wind not possible (no field), their effects and"
     " conditions hold"
 )
-VEHICLE_LIGHTS = "position, low and high beam exact, daytime as position"
+VEHICLE_LIGHTS = (
+    "position, low and high beam exact, daytime as position; brake, turn and reversing lights"
+    " by the motion"
+)
 TRAILERS = "exact only (CARLA has no couplings)"
 UNMOVED = "exact only (CARLA has no blueprints that move)"
 WALKERS = "walker control"

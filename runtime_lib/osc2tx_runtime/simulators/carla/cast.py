@@ -31,7 +31,7 @@ DISPLACED = 0.05
 SIZE_NOTED = 0.1  # m between the sizes of scenario and simulator that are worth a line
 STILL = 0.05  # m/s
 KICKING = 0.5
-"""Seconds for which a body that was given a speed gets it in each step: gear and wheels, which no
+"""Seconds for which a body that is given a speed gets it in each step: gear and wheels, which no
 call reaches, come up to it meanwhile (carla issues 3710 and 4839)."""
 
 NO_WAY = 1e-3  # m: less than that does not have a walker set a foot before the other
@@ -125,6 +125,24 @@ class CastMember:
         if self.control == "driven" and self.is_vehicle:
             commands.append(("control", self.actor, 0.0, 0.0, 1.0, True, False))
         return commands
+
+    def run_up(self, setpoint: Setpoint, settled: Sequence[float], dt: float) -> list[Command]:
+        """Return what has it reach its start at its speed in one step, with wheels that turn.
+
+        Repeated for a while before the run, gear and wheels come up to the speed: in the run, none
+        but its own client controls it.
+
+        Args:
+            setpoint: Its start.
+            settled: Where it stands on its wheels there.
+            dt: Length of a step (s).
+        """
+        state = setpoint.state
+        if self.control != "external" or self.foreign or not self.is_vehicle or not state.v:
+            return []
+        vx, vy, _ = vector_of(state.v, state.h)
+        x, y, *rest = settled[:6]
+        return [("place", self.actor, x - vx * dt, y - vy * dt, *rest), self._velocity(state)]
 
     def kick(self, setpoint: Setpoint) -> list[Command]:
         """Return what gives it its speed at once."""

@@ -14,7 +14,7 @@ from osc2tx_runtime.world.protocol import EXTERNAL, FEATURES, ActorSpec, Control
 from osc2tx_shared.text import say
 
 from .attendance import Attendance
-from .cast import DISPLACED, CastMember, Command
+from .cast import DISPLACED, KICKING, CastMember, Command
 from .client_process import ClientProcess
 from .sensors import SensorStacks
 from .spawning import Spawning
@@ -128,6 +128,7 @@ class CarlaPlant:
             [each.actor for each in self._members.values() if each.control == "external"],
             ticks=self._ticks,
         )
+        looked = self._run_up(looked, setpoints)
         self._attendance.start()
         self._begin_autopilot()
         for member in self._members.values():
@@ -162,6 +163,21 @@ class CarlaPlant:
             if still == STILL_STEPS or not falling:
                 break
             looked = self._client.ask("step", [])
+        return looked
+
+    def _run_up(
+        self, looked: Mapping[str, Any], setpoints: Mapping[str, Setpoint]
+    ) -> Mapping[str, Any]:
+        """Bring those who are controlled by others to their speed, at the place of their start."""
+        states, members = dict(looked["actors"]), self._members.items()
+        batch = [
+            each
+            for actor, member in members
+            if states.get(member.actor)
+            for each in member.run_up(setpoints[actor], states[member.actor], self._dt)
+        ]
+        for _ in range(math.ceil(KICKING / self._dt) if batch and self._ticks else 0):
+            looked = self._client.ask("step", batch)
         return looked
 
     def _begin_autopilot(self) -> None:

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from osc2tx_runtime.enums import BulbState
 from osc2tx_runtime.world.plant.scene import Scene
-from osc2tx_runtime.world.protocol import LightMode
+from osc2tx_runtime.world.protocol import EXTERNAL, LightMode
 from osc2tx_runtime.world.surroundings.traffic_light_lamps import Lamp
 
 from .cast import CastMember, Command
 from .client_process import ClientProcess
+from .motion_lights import MotionLights
 
 STATES = (("Red", "red"), ("Yellow", "yellow"), ("Green", "green"))
 """State and color, from the one that stops to the one that lets go."""
@@ -124,6 +126,7 @@ class CarlaSurroundings:
     def __init__(self, client: ClientProcess) -> None:
         self._client = client
         self._lit: dict[str, int] = {}
+        self._moving: defaultdict[str, MotionLights] = defaultdict(MotionLights)
         self._environment: Mapping[str, float] = {}
         self._adhesion = 1.0
         self._signals: frozenset[str] = frozenset()
@@ -157,10 +160,14 @@ class CarlaSurroundings:
             self._client.ask("set_friction", friction)
 
     def _vehicle_lights(self, scene: Scene, members: Mapping[str, CastMember]) -> Iterator[Command]:
-        for actor, lights in scene.lights.items():
-            member = members[actor]
-            flags = FLAGS[lights.lit]
-            if member.is_vehicle and flags != self._lit.get(actor, 0):
+        for actor, member in members.items():
+            if not member.is_vehicle or member.removed:
+                continue
+            lights = scene.lights.get(actor)
+            flags = 0 if lights is None else FLAGS[lights.lit]
+            if member.control not in EXTERNAL:  # whoever drives those knows when they brake
+                flags |= self._moving[actor].after(scene.setpoints[actor])
+            if flags != self._lit.get(actor, 0):
                 self._lit[actor] = flags
                 yield ("lights", member.actor, flags)
 

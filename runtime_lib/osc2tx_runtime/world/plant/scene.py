@@ -94,6 +94,14 @@ class Setpoint:
         """Its limits on the present road."""
         return self._member.limits
 
+    @property
+    def changes_lane(self) -> bool:
+        """Whether it follows another lane than the one below it."""
+        bound, below = self._member.bound, self.state.lane_position
+        if bound is None or below is None:
+            return False
+        return (bound.road, bound.lane) != (below.road, below.lane)
+
     def ahead(self, way: float) -> Pose:
         """Position on its path at a distance (m) from `state`; negative: behind it."""
         return pose_ahead(self._member, self.state, way, self._map)

@@ -87,7 +87,7 @@ def _restore_camera(session: Session, values: Sequence[Any]) -> None:
 
 @undoes("traffic lights")
 def _thaw(session: Session, values: Sequence[Any]) -> None:
-    """Set each light as it was; freezing one freezes all (`ATrafficLightManager`)."""
+    """Set each light as it was; cycles go on unless they were stopped before."""
     before = {actor: (state, frozen) for actor, state, frozen in values[0]}
     for light in session.world.get_actors(list(before)):
         light.set_state(carla.TrafficLightState.names[before[light.id][0]])

@@ -1,0 +1,93 @@
+"""`osc2tx import`: files, exit codes, distributions."""
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from osc2tx.cli import cli
+from osc2tx.cli.reporting import Session
+from tests.importing.documents import after, at_time, document, event, speed_change
+
+PARAMETER = '<ParameterDeclaration name="Speed_kph" parameterType="double" value="72"/>'
+VALUES = """<OpenSCENARIO><FileHeader revMajor="1" revMinor="1" date="2024-01-01T00:00:00"
+  description="Speeds" author="us"/><ParameterValueDistribution>
+  <ScenarioFile filepath="speeds.xosc"/><Deterministic>
+  <DeterministicSingleParameterDistribution parameterName="Speed_kph">
+  <DistributionRange stepWidth="10"><Range lowerLimit="50" upperLimit="70"/></DistributionRange>
+  </DeterministicSingleParameterDistribution></Deterministic></ParameterValueDistribution>
+  </OpenSCENARIO>"""
+
+
+def command(*words: str | Path, given: bytes | None = None) -> Result:
+    arguments = list(map(str, words))
+    return CliRunner().invoke(cli, arguments, given, standalone_mode=False, obj=Session())
+
+
+def written(folder: Path, name: str, text: str) -> Path:
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_an_exact_document_is_a_scenario_with_a_report(tmp_path: Path) -> None:
+    source = written(tmp_path, "two-cars.xosc", document(""))
+    assert command("import", source, "-o", tmp_path / "out").return_value == 0
+    report = json.loads((tmp_path / "out" / "two_cars.import.json").read_text(encoding="utf-8"))
+    assert report["grade"] == "exact"
+    assert command("check", tmp_path / "out" / "two_cars.osc").return_value == 0
+
+
+def test_what_is_not_exact_has_to_be_allowed(tmp_path: Path) -> None:
+    text = document("").replace("<Init>", "<Init><Strange/>")
+    source = written(tmp_path, "strange.xosc", text)
+    result = command("import", source, "-o", tmp_path / "out")
+    assert result.return_value == 3
+    assert "left out: <Strange>" in result.output
+    assert command("import", source, "-o", tmp_path / "out", "--allow-approx").return_value == 0
+
+
+@pytest.mark.parametrize("text", ["<OpenSCENARIO>", "", "<a/>", "no XML"])
+def test_what_is_no_document_is_unreadable(tmp_path: Path, text: str) -> None:
+    source = written(tmp_path, "bad.xosc", text)
+    result = command("import", source, "-o", tmp_path / "out")
+    assert result.return_value == 4
+    assert "bad.xosc:" in result.output
+
+
+def test_standard_input(tmp_path: Path) -> None:
+    given = document("").encode()
+    words = ("import", "-", "-o", tmp_path / "out", "--scenario-name", "Given")
+    assert command(*words, given=given).return_value == 0
+    assert "scenario given:" in (tmp_path / "out" / "given.osc").read_text(encoding="utf-8")
+
+
+def test_a_distribution_is_a_campaign(tmp_path: Path) -> None:
+    text = document("", parameters=PARAMETER, ego_speed="${$Speed_kph / 3.6}")
+    written(tmp_path, "speeds.xosc", text)
+    source = written(tmp_path, "values.xosc", VALUES)
+    out = tmp_path / "out"
+    assert command("import", source, "-o", out).return_value == 0
+    scenario = (out / "values.osc").read_text(encoding="utf-8")
+    assert "keep(it in [50kph..70kph])" in scenario
+    rows = (out / "values.csv").read_text(encoding="utf-8")
+    assert rows.split() == ["speed", "50kph", "60kph", "70kph"]
+    assert 'sampler = "table:values.csv"' in (out / "osc2tx.toml").read_text(encoding="utf-8")
+
+
+def test_a_long_chain_of_events(tmp_path: Path) -> None:
+    events = "".join(
+        event(f"E{i}", speed_change("20", "0.5"), after(f"E{i - 1}") if i else at_time("1"))
+        for i in range(600)
+    )
+    source = written(tmp_path, "chain.xosc", document(events))
+    assert command("import", source, "-o", tmp_path / "out").return_value == 0
+
+
+def test_a_project_of_documents(tmp_path: Path) -> None:
+    (tmp_path / "xml").mkdir()
+    written(tmp_path / "xml", "two-cars.xosc", document(""))
+    result = command("init", tmp_path / "project", "--from-xml", tmp_path / "xml")
+    assert result.return_value == 0
+    assert (tmp_path / "project" / "scenarios" / "two_cars.osc").is_file()
