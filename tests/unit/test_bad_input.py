@@ -410,3 +410,16 @@ def test_objects_of_what_is_not_invoked_have_no_values(tmp_path: Path, members: 
         f"scenario top:\n    hop: middle\n    shown: int = hop.size\n    again: top\n{wait}"
     )
     assert_built(build(tmp_path, text), tmp_path)
+
+
+@pytest.mark.parametrize(
+    "members",
+    [
+        "        go: go.drive(duration: 1s)\n",
+        "        go: go.inner.drive(duration: 1s)\n",
+        "        one: two.drive(duration: 1s)\n        two: one.drive(duration: 1s)\n",
+    ],
+)
+def test_an_actor_that_depends_on_its_own_invocation(tmp_path: Path, members: str) -> None:
+    text = f"{HEAD}scenario top:\n    do serial:\n{members}"
+    assert_refused(build(tmp_path, text), "OSC301")

@@ -23,6 +23,7 @@ from osc2tx.semantics.declarations.resolve_types import (
 from osc2tx.semantics.expressions.methods import resolve_call, type_itself
 from osc2tx.semantics.names.actions_on_structs import actions_on
 from osc2tx.semantics.names.everyday_words import OUTPUT
+from osc2tx.semantics.names.member_lookup import lookup_value
 from osc2tx.semantics.names.unknown_names import report_unimported
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.scope import CallableBehavior
@@ -230,10 +231,11 @@ def _note_prelude(r: Resolution, behavior: CallableBehavior, name: ast.Name) -> 
 def _find_of_actor(
     r: Resolution, node: ast.Invocation, type_: Type, env: Environment
 ) -> CallableBehavior | None:
+    assert node.actor is not None
     if type_ == ERROR:
+        _report_circle(r, node.actor, env)
         return None
     if not isinstance(type_, ActorType):
-        assert node.actor is not None
         r.report(
             "OSC301",
             node.actor.span,
@@ -245,6 +247,24 @@ def _find_of_actor(
     if found is None:
         report_unknown_behavior(r, type_.symbol, node.behavior)
     return found
+
+
+def _report_circle(r: Resolution, actor: ast.Expression, env: Environment) -> None:
+    """Report an actor that is looked for in the invocation that it is the actor of."""
+    root = actor
+    while isinstance(root, ast.MemberAccess):
+        root = root.base
+    if not isinstance(root, ast.NameExpression):
+        return
+    label = lookup_value(r, root.name, env, quiet=True)
+    named = label.node if isinstance(label, LabelSymbol) else None
+    if isinstance(named, ast.Invocation) and named.behavior not in r.invoked:
+        r.report(
+            "OSC301",
+            actor.span,
+            f"the actor depends on itself by the label `{root.span.text}`",
+            help="name an actor before the dot",
+        )
 
 
 def _find_without_actor(r: Resolution, name: ast.Name, env: Environment) -> CallableBehavior | None:
