@@ -257,14 +257,20 @@ class OneOf(Composition, ParallelComposite):
 
     def _fitting(self) -> list[Member]:
         """Return the members that may take as long as is asked for."""
-        if self._asked:  # by a sibling whose length depends on this one's
-            return list(self._members)
-        self._asked = True
-        frame = self.frame(self.context)
-        self._asked = False
+        return [member for member, _ in self._fitting_lengths()]
+
+    def _fitting_lengths(self) -> list[tuple[Member, int | None]]:
+        """Return them with their lengths, each asked once: the members may nest deeply."""
+        frame = None
+        if not self._asked:  # by a sibling whose length depends on this one's
+            self._asked = True
+            frame = self.frame(self.context)
+            self._asked = False
         lengths = [(m, None if is_open(m[0]) else length_of(m[0])) for m in self._members]
-        fitting = [m for m, n in lengths if n is None or frame.low <= n <= frame.high]
-        return fitting if fitting or self._limits is not None else list(self._members)
+        if frame is None:
+            return lengths
+        fitting = [(m, n) for m, n in lengths if n is None or frame.low <= n <= frame.high]
+        return fitting if fitting or self._limits is not None else lengths
 
     def _goes_on(self) -> bool:
         return any(is_open(child) for child, _ in self._active)
@@ -286,7 +292,7 @@ class OneOf(Composition, ParallelComposite):
         self.context.trace.choice(self.name, policy, chosen.name, self.source)
 
     def _content_length(self) -> int | None:
-        lengths = [length_of(child) for child, _ in self._fitting() if not is_open(child)]
+        lengths = [length for (child, _), length in self._fitting_lengths() if not is_open(child)]
         known = [length for length in lengths if length is not None]
         return min(known, default=None) if len(known) == len(lengths) else None
 
