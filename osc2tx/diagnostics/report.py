@@ -109,7 +109,9 @@ def make_report(
         if diagnostic.primary is None:
             return ""
         source = diagnostic.primary.source
-        return names.setdefault(source, display_name(source, folder))
+        if source not in names:
+            names[source] = display_name(source, folder)
+        return names[source]
 
     def place(diagnostic: Diagnostic) -> tuple[str, int, bool, str]:
         start = diagnostic.primary.start if diagnostic.primary else 0
@@ -148,9 +150,10 @@ def _with_one_cause(
     groups: dict[tuple[str, str], list[Diagnostic]] = {}
     for diagnostic in ordered:
         groups.setdefault((diagnostic.code, diagnostic.message), []).append(diagnostic)
+    files_of = {key: frozenset(map(file_of, group)) for key, group in groups.items()}
     for diagnostic in ordered:
         group = groups[diagnostic.code, diagnostic.message]
-        files = dict.fromkeys(map(file_of, group))
+        files = files_of[diagnostic.code, diagnostic.message]
         if len(files) <= MOST_FILES_APART:
             yield diagnostic
         elif diagnostic is group[0]:

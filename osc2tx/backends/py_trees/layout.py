@@ -66,8 +66,8 @@ def _lines(call: CallView, on_one_line: str | None, column: int) -> list[str]:
 def _commented(view: ArgumentView | StatementView, indent: str, text: str) -> list[str]:
     """Write a text with its comments: the trailing one behind it, or above where it is too long."""
     above = [f"{indent}{comment}" for comment in view.comments]
-    if isinstance(view, StatementView) and above and not view.comments[-1].text:
-        above[-1] = ""
+    if isinstance(view, StatementView) and above[1:] and not view.comments[-1].text:
+        above[-1] = ""  # a blank line parts the comment from the statement
     below = [f"{indent}{comment}" for comment in view.below]
     if view.trailing is None:
         return [*above, text, *below]

@@ -77,7 +77,10 @@ def by_black(start: str, view: ArgumentView) -> str:
 
 @given(statements)
 def test_statements(view: StatementView) -> None:
-    above = "".join(f"{comment}\n{' ' * COLUMN}" for comment in view.comments)
+    comments = list(map(str, view.comments))
+    if len(comments) > 1 and not view.comments[-1].text:
+        comments[-1] = ""
+    above = "".join(f"{comment}\n{' ' * COLUMN}" for comment in comments)
     start = "" if view.target is None else f"{view.target} = "
     laid_out = format_module(f"{HEAD}{statement(view, COLUMN)}\n")
     assert laid_out == by_black(above + start, view.value)
