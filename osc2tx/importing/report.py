@@ -91,6 +91,7 @@ class ImportReport:
             "source": self.source,
             "scenario": self.scenario,
             "grade": self.grade,
+            "basis": "constructs",  # no run compares scenario and document yet
             "under_test": self.under_test,
             "findings": [
                 {
