@@ -8,7 +8,7 @@ import json
 import os
 import sys
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import click
@@ -78,6 +78,7 @@ class Result:
     help="Folder that catalogs are looked for in, besides those of the documents.",
 )
 @click.option("--scenario-name", metavar="NAME", help="Name of the scenario, of a single document.")
+@click.option("--force", is_flag=True, help="Replace scenarios and libraries that were changed.")
 @click.option("--allow-approx", is_flag=True, help="Accept what is said nearly, or left out.")
 @click.option(
     "--output-format",
@@ -93,14 +94,15 @@ def import_(
     maps: tuple[Path, ...],
     catalogs: tuple[Path, ...],
     scenario_name: str | None,
+    force: bool,
     allow_approx: bool,
     form: str,
 ) -> Exit:
     """Make scenarios of OpenSCENARIO XML documents; folders are searched for .xosc files.
 
     Each document becomes NAME.osc, with NAME.import.json on how exactly it says the same; each
-    catalog that is used becomes a library file. `-` is standard input. Files that exist are
-    replaced.
+    catalog that is used becomes a library file. `-` is standard input. A scenario or library that
+    exists with another text, perhaps an edited one, is only replaced with --force.
 
     The exit code is 0 if all is exact, 3 if not (0 with --allow-approx), 4 if a document cannot be
     read.
@@ -108,7 +110,8 @@ def import_(
     sources = list(_sources(paths))
     if scenario_name is not None and len(sources) != 1:
         raise click.UsageError("--scenario-name is for one document")
-    results, refused = import_all(sources, out, Folders(maps, catalogs), scenario_name)
+    found = Folders(maps, catalogs)
+    results, refused = import_all(sources, out, found, scenario_name, force=force)
     _sum_up(results, form)
     if refused:
         return Exit.UNREADABLE
@@ -119,7 +122,12 @@ def import_(
 
 
 def import_all(
-    sources: Sequence[Path | None], out: Path, folders: Folders, name: str | None = None
+    sources: Sequence[Path | None],
+    out: Path,
+    folders: Folders,
+    name: str | None = None,
+    *,
+    force: bool = False,
 ) -> tuple[list[Result], int]:
     """Write the scenarios of documents; return them, and how many documents were refused.
 
@@ -128,6 +136,7 @@ def import_all(
         out: Folder of the scenarios.
         folders: Where maps and catalogs are.
         name: The name of the only scenario.
+        force: Whether to replace scenarios and libraries that have another text.
     """
     libraries: Libraries = {}
     results: list[Result] = []
@@ -148,14 +157,23 @@ def import_all(
         if found is not None:
             results.append(found)
     out.mkdir(parents=True, exist_ok=True)
-    for library in libraries.values():
-        _write(out / f"{library.name}.osc", library.text)
+    written = {out / f"{library.name}.osc": library.text for library in libraries.values()}
+    kept = {} if force else _texts_of_others(written)
+    for path in written.keys() - kept.keys():
+        _write(path, written[path])
     checked = [_checked(each, out) for each in results]
+    scenarios = {out / f"{each.imported.name}.osc": each.text for each in checked}
+    kept |= {} if force else _texts_of_others(scenarios)
+    for path in kept:
+        complain(f"{path}: exists with another text and is kept; --force replaces it")
     for each in checked:
-        _write(out / f"{each.imported.name}.osc", each.text)
+        path = out / f"{each.imported.name}.osc"
+        if path in kept:
+            continue
+        _write(path, each.text)
         _write(out / f"{each.imported.name}.import.json", each.imported.report.to_json())
     _write_settings(checked, out)
-    return checked, refused
+    return checked, refused + len(kept)
 
 
 def import_folder(folder: Path, out: Path) -> Exit:
@@ -236,6 +254,12 @@ def _checked(result: Result, out: Path) -> Result:
         if each.severity is Severity.ERROR
     )
     return Result(result.imported, text, faults, result.distribution)
+
+
+def _texts_of_others(files: Mapping[Path, str]) -> dict[Path, str]:
+    """Return the files that exist with another text than the one to write."""
+    found = {path: text for path, text in files.items() if path.exists()}
+    return {path: text for path, text in found.items() if path.read_bytes() != text.encode()}
 
 
 def _write(path: Path, text: str) -> None:

@@ -91,3 +91,18 @@ def test_a_project_of_documents(tmp_path: Path) -> None:
     result = command("init", tmp_path / "project", "--from-xml", tmp_path / "xml")
     assert result.return_value == 0
     assert (tmp_path / "project" / "scenarios" / "two_cars.osc").is_file()
+
+
+def test_an_edited_scenario_is_kept(tmp_path: Path) -> None:
+    source = written(tmp_path, "two-cars.xosc", document(""))
+    words: list[str | Path] = ["import", source, "-o", tmp_path / "out"]
+    assert command(*words).return_value == 0
+    assert command(*words).return_value == 0
+    scenario = tmp_path / "out" / "two_cars.osc"
+    text = scenario.read_text(encoding="utf-8") + "# Mine.\n"
+    scenario.write_text(text, encoding="utf-8")
+    result = command(*words)
+    assert (result.return_value, scenario.read_text(encoding="utf-8")) == (4, text)
+    assert "exists with another text" in result.output
+    assert command(*words, "--force").return_value == 0
+    assert "# Mine." not in scenario.read_text(encoding="utf-8")
