@@ -107,7 +107,7 @@ class CallWriter:
         function = PyExpr(f"*{self._functions.name(modifier)}", Level.ATOM)
         written = tuple(code(self.expressions.write(value), str(name)) for name, value in arguments)
         above = first.comments[: len(first.comments) - len(modifier.calls[0].comments)]
-        return ArgumentView(call=CallView(function, written), comments=comments(above))
+        return ArgumentView(call=CallView(function, written), **around(above))
 
     def modifier(self, call: ir.ModifierCall) -> ArgumentView:
         """Write a modifier; its first argument stays positional if the source has it so."""
@@ -118,7 +118,7 @@ class CallWriter:
         if call.at != "all":
             arguments += (code(literal(call.at), "at"),)
         function = name_expression(self._use_modifier(identifier(call.name)))
-        return ArgumentView(call=CallView(function, arguments), comments=comments(call.comments))
+        return ArgumentView(call=CallView(function, arguments), **around(call.comments))
 
     def _modifier_argument(self, argument: ir.Argument, *, is_first: bool) -> ArgumentView:
         value = self.expressions.value(argument.value)

@@ -76,16 +76,16 @@ class Top(Scenario):
         return Parallel(
             self.name,
             self.ego.drive(
-                # speed(99kph)
                 speed(self.v)
+                # speed(99kph)
             ),
             self.other.drive(
                 # Above a modifier.
                 # beside a bracket
                 # within brackets
                 # behind an argument
-                # lane(2)
                 speed(self.v)
+                # lane(2)
             ),
             # touches the drive above only
             self._wait_serial(),

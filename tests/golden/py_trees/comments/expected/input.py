@@ -69,8 +69,7 @@ class Comments(Scenario):
             Until(
                 self.ego.drive(
                     # above a modifier
-                    # beside a modifier
-                    speed(self.v),
+                    speed(self.v),  # beside a modifier
                     duration=(1 * s, 2 * s),
                 ),
                 # above until
