@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
-from itertools import chain, pairwise
+from itertools import chain, islice, pairwise
 
 from osc2tx.diagnostics.fixes import Remedy, write
 from osc2tx.diagnostics.source import Span
@@ -12,6 +12,7 @@ from osc2tx.diagnostics.source import Span
 LIKENESS = 0.6
 _LISTED = 8
 _COMPARED = 32  # names that are each compared with the written one
+_COUNTED = 1000  # names with a pair of letters in common
 
 
 def nearest(written: str, known: Iterable[str], likeness: float = LIKENESS) -> str | None:
@@ -29,25 +30,28 @@ def nearest(written: str, known: Iterable[str], likeness: float = LIKENESS) -> s
         return None  # every short name is near
     from difflib import get_close_matches  # only needed where something is wrong
 
-    names = sorted(set(known))
-    if len(names) > _COMPARED:
-        names = _promising(written, tuple(names))
+    every = frozenset(known)
+    names = _promising(written, every) if len(every) > _COMPARED else sorted(every)
     return next(iter(get_close_matches(written, names, 1, likeness)), None)
 
 
-def _promising(written: str, names: tuple[str, ...]) -> list[str]:
-    """Return the names with the most pairs of letters in common, in the order of the alphabet."""
+def _promising(written: str, names: frozenset[str]) -> list[str]:
+    """Return the names with the most pairs of letters in common, in the order of the alphabet.
+
+    Pairs that many names have say little: they count as long as there are few names to count.
+    """
     from collections import Counter
 
     index = _names_by_pair(names)
-    shared = Counter(chain.from_iterable(index.get(pair, ()) for pair in _pairs(written)))
+    found = sorted((index.get(pair, ()) for pair in sorted(_pairs(written))), key=len)
+    shared = Counter(islice(chain.from_iterable(found), _COUNTED))
     return sorted(name for name, _ in shared.most_common(_COMPARED))
 
 
 @lru_cache(maxsize=8)
-def _names_by_pair(names: tuple[str, ...]) -> Mapping[str, list[str]]:
+def _names_by_pair(names: frozenset[str]) -> Mapping[str, list[str]]:
     index: dict[str, list[str]] = {}
-    for name in names:
+    for name in sorted(names):
         for pair in _pairs(name):
             index.setdefault(pair, []).append(name)
     return index

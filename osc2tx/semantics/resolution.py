@@ -88,6 +88,7 @@ class Resolution:
         quantities: What texts of ScenarioRunner such as `"npc_speed"` read.
         adopted: Fields that stand for actors of the caller, which a dialect finds by their names.
         invoked: What the name in an invocation was found to be; `None` if it was reported.
+        visible: The names that are seen in a type, and outside of all: for suggestions.
     """
 
     scope: Scope
@@ -106,6 +107,7 @@ class Resolution:
     quantities: dict[ast.StringLiteral, ast.MemberAccess] = field(default_factory=dict)
     adopted: set[FieldSymbol] = field(default_factory=set)
     invoked: dict[ast.Name, ScenarioSymbol | ActionSymbol | None] = field(default_factory=dict)
+    visible: dict[TypeSymbol | None, frozenset[str]] = field(default_factory=dict)
 
     def type_of(
         self, expression: ast.Expression, env: Environment, expected: Type | None = None

@@ -100,14 +100,14 @@ def lookup_value(
     return choose(r, candidates, name, env.context) if candidates else None
 
 
-def visible_names(r: Resolution, env: Environment) -> set[str]:
+def visible_names(r: Resolution, env: Environment) -> frozenset[str]:
     """Return the names that could have been meant in an environment."""
-    names = set(env.locals)
-    if env.owner is not None:
-        names |= member_names(env.owner)
-    for layer in r.scope.layers():
-        names |= layer.globals.keys()
-    return names
+    names = r.visible.get(env.owner)
+    if names is None:
+        members = set() if env.owner is None else member_names(env.owner)
+        names = frozenset(members.union(*(layer.globals for layer in r.scope.layers())))
+        r.visible[env.owner] = names
+    return names.union(env.locals) if env.locals else names
 
 
 def member_names(owner: TypeSymbol) -> set[str]:

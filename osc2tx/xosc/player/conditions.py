@@ -10,6 +10,7 @@ from typing import Protocol
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.elements import class_of
+from osc2tx.xosc.player.agenda import Awaited
 from osc2tx.xosc.player.bodies import Body
 from osc2tx.xosc.player.courses import RULES, number
 from osc2tx.xosc.player.distances import Ruler, asked
@@ -45,6 +46,7 @@ class Reading:
 
 
 BY_THE_STANDARD = Reading()
+LATER = ("greaterThan", "greaterOrEqual")
 
 
 class World(Protocol):
@@ -95,6 +97,8 @@ class Conditions:
         self.latched: set[int] = set()
         self.last: dict[int, bool] = {}  # at the look before
         self.edged: dict[int, Past] = {}
+        self.can_wait: dict[int, bool] = {}
+        self.last_false: dict[int, int] = {}  # of each group
         self.named = {
             (kind, node.said("name")): node
             for kind, tag in KINDS.items()
@@ -103,8 +107,74 @@ class Conditions:
 
     def fires(self, trigger: Element | None) -> bool:
         """Whether a trigger fires; all its conditions are looked at in each step."""
-        groups = () if trigger is None else trigger.all(xml.ConditionGroup)
+        groups = [] if trigger is None else list(trigger.all(xml.ConditionGroup))
+        if trigger is not None and self._may_wait(trigger, groups):
+            return any([self._false_one(group) is None for group in groups])
         return any([self._all_hold(group.children) for group in groups])
+
+    def awaited(self, trigger: Element) -> Awaited | None:
+        """Return what a trigger that does not fire waits for; None if it is looked at each time.
+
+        That is one false condition of each group: until it holds, the others do not matter.
+        """
+        groups = list(trigger.all(xml.ConditionGroup))
+        if not self._may_wait(trigger, groups):
+            return None
+        times: list[float] = []
+        changes: list[int | str] = []
+        for group in groups:
+            condition = self._false_one(group)
+            assert condition is not None, "asked of triggers that do not fire"
+            node = condition.inner.inner
+            if node.tag == "SimulationTimeCondition":
+                times.append(number(node, "value"))
+            elif node.tag == "StoryboardElementStateCondition":
+                changes.append(id(self._element(node)))
+            else:
+                changes.append(_variable(node))
+        return Awaited(tuple(times), tuple(changes))
+
+    def _false_one(self, group: Element) -> Element | None:
+        """Return a condition of a group that does not hold, if there is one.
+
+        The one of the last look comes first, and those before it last: what a group waits for
+        mostly comes in the order in which it stands there.
+        """
+        conditions, start = group.children, self.last_false.get(id(group), 0)
+        for index in (*range(start, len(conditions)), *range(start)):
+            if not self.test(conditions[index].inner):
+                self.last_false[id(group)] = index
+                return conditions[index]
+        return None
+
+    def _may_wait(self, trigger: Element, groups: Sequence[Element]) -> bool:
+        """Whether a trigger that does not fire needs no look before something changes."""
+        known = self.can_wait.get(id(trigger))
+        if known is None:
+            known = all(self._can_wait(each) for group in groups for each in group.children)
+            self.can_wait[id(trigger)] = known
+        return known
+
+    def _can_wait(self, condition: Element) -> bool:
+        """Whether a condition has no past, and turns true with a time, an element or a variable."""
+        reading = self.reading
+        if condition.said("conditionEdge") != "none" or number(condition, "delay") != 0.0:
+            return False
+        if reading.latches or reading.counts_from_looking:
+            return False
+        if condition.inner.tag != "ByValueCondition":
+            return False
+        node = condition.inner.inner
+        if node.tag == "SimulationTimeCondition":
+            return node.said("rule") in LATER
+        if node.tag in ("VariableCondition", "ParameterCondition"):
+            return True
+        is_state = node.tag == "StoryboardElementStateCondition"
+        return is_state and isinstance(self._element(node), xml.Event | xml.Act)
+
+    def _element(self, node: Element) -> Element:
+        """Return the element of the storyboard that a condition is about."""
+        return self.named[node.said("storyboardElementType"), node.said("storyboardElementRef")]
 
     def _all_hold(self, conditions: Sequence[Element]) -> bool:
         result = True
@@ -151,14 +221,12 @@ class Conditions:
                 counts = self.reading.counts_from_looking
                 return _compare(node, self.world.time - (since if counts else 0.0))
             case "VariableCondition" | "ParameterCondition":
-                name = node.get("variableRef") or node.said("parameterRef")
-                value, rule = self.world.variables[name], node.said("rule")
+                value, rule = self.world.variables[_variable(node)], node.said("rule")
                 if rule in ("equalTo", "notEqualTo"):
                     return (value == node.said("value")) is (rule == "equalTo")
                 return RULES[rule](float(value), float(node.said("value")))
             case "StoryboardElementStateCondition":
-                key = node.said("storyboardElementType"), node.said("storyboardElementRef")
-                return self.world.is_in(self.named[key], node.said("state"))
+                return self.world.is_in(self._element(node), node.said("state"))
             case "TrafficSignalCondition":
                 return self.world.lights.get(node.said("name")) == node.said("state")
             case "UserDefinedValueCondition":
@@ -206,6 +274,11 @@ class Conditions:
     def _time(node: Element, distance: float, speed: float) -> bool:
         """Whether a time to come compares; one that cannot be predicted does not."""
         return speed > 0.0 and _compare(node, distance / speed)
+
+
+def _variable(node: Element) -> str:
+    """Return the name of the variable or parameter that a condition or an action is about."""
+    return node.get("variableRef") or node.said("parameterRef")
 
 
 def _compare(node: Element, value: float) -> bool:

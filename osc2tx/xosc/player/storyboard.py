@@ -14,6 +14,7 @@ from types import MappingProxyType
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.player.actions import Stage
+from osc2tx.xosc.player.agenda import Agenda
 from osc2tx.xosc.player.bodies import Body, Running, body_of, couple
 from osc2tx.xosc.player.conditions import BY_THE_STANDARD, Conditions, Reading
 from osc2tx.xosc.player.courses import number, with_parameters
@@ -78,7 +79,16 @@ class Evaluator:
         self.track: dict[str, list[Row]] = {name: [] for name in self.bodies}
         self.conditions = Conditions(self, dt, reading)
         self._stop = self.root.one(xml.Storyboard).find(xml.StopTrigger)
-        self._acts = [(act, _members(act)) for act in self.root.below(xml.Act)]
+        self._ending = Agenda(1)
+        self._acts: list[tuple[xml.Act, Sequence[Member], Agenda]] = []
+        self._place: dict[int, tuple[Agenda, int]] = {}
+        self._waiting: dict[int | str, list[tuple[Agenda, int]]] = {}
+        for act in self.root.below(xml.Act):
+            members = _members(act)
+            agenda = Agenda(len(members))
+            self._acts.append((act, members, agenda))
+            for index, (event, *_) in enumerate(members):
+                self._place[id(event)] = agenda, index
         self._init()
 
     @property
@@ -136,7 +146,7 @@ class Evaluator:
     def _settle(self) -> bool:
         """Go through the storyboard until nothing changes; return whether it is over."""
         for _ in range(SETTLES):
-            if self.conditions.fires(self._stop):
+            if any(self._stops() for _ in self._ending.due(self.time)):
                 return True
             if not any([self._act(*each) for each in self._acts]):
                 return False
@@ -158,11 +168,20 @@ class Evaluator:
 
     def _enter(self, element: Element, state: str, *transitions: str) -> None:
         self.states[id(element)] = state
+        self._changed(id(element))
+        if id(element) in self._place:
+            agenda, index = self._place[id(element)]
+            agenda.wake(index)
         self.transitions |= {(id(element), transition) for transition in transitions}
+
+    def _changed(self, what: int | str) -> None:
+        """Wake what waits for an element or a variable."""
+        for agenda, index in self._waiting.pop(what, ()):
+            agenda.wake(index)
 
     # --- acts and events --------------------------------------------------------------------------
 
-    def _act(self, act: xml.Act, events: Sequence[Member]) -> bool:
+    def _act(self, act: xml.Act, events: Sequence[Member], agenda: Agenda) -> bool:
         """Take an act further; return whether something has changed."""
         state, changed = self._state(act), False
         if state == "completeState":
@@ -179,11 +198,41 @@ class Evaluator:
                 self._break_off(event)
             self._enter(act, "completeState", "stopTransition")
             return True
-        changed = any([self._event(*each) for each in events]) or changed
-        if all(self._state(event) == "completeState" for event, *_ in events):
+        for index in agenda.due(self.time):
+            if self._event(*events[index]):
+                changed = True
+            else:
+                self._put_off(events[index][0], agenda, index)
+            if self._state(events[index][0]) == "completeState":
+                agenda.drop(index)
+        if agenda.is_over:
             self._enter(act, "completeState", "endTransition")
             changed = True
         return changed
+
+    def _put_off(self, event: xml.Event, agenda: Agenda, index: int) -> None:
+        """Let an event that has not changed wait for what its trigger needs."""
+        trigger = event.find(xml.StartTrigger)
+        if self._state(event) != "standbyState" or self.started_at.get(id(event)) == self.step:
+            return
+        if trigger is not None:
+            self._wait(trigger, agenda, index)
+
+    def _stops(self) -> bool:
+        """Whether the storyboard is over now."""
+        if self.conditions.fires(self._stop):
+            return True
+        if self._stop is not None:
+            self._wait(self._stop, self._ending, 0)
+        return False
+
+    def _wait(self, trigger: Element, agenda: Agenda, index: int) -> None:
+        """Put off what a trigger that does not fire starts."""
+        awaited = self.conditions.awaited(trigger)
+        if awaited is not None:
+            agenda.sleep(index, awaited.times)
+            for what in awaited.changes:
+                self._waiting.setdefault(what, []).append((agenda, index))
 
     def _event(
         self, event: xml.Event, beside: Sequence[xml.Event], group: xml.ManeuverGroup
@@ -259,6 +308,7 @@ class Evaluator:
 
     def _set(self, node: Element) -> None:
         name = node.get("variableRef") or node.said("parameterRef")
+        self._changed(name)
         given = node.find(xml.SetAction)
         if given is not None:
             self.variables[name] = given.said("value")

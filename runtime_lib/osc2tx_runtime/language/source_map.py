@@ -9,6 +9,7 @@ import json
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import field
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeGuard
 
@@ -69,13 +70,21 @@ def read_source_map(scenario: type, name: str, file: str) -> SourceMap:
     path = getattr(sys.modules.get(scenario.__module__), "__file__", None)
     if path is None:
         return SourceMap(file)
+    place = Path(path).with_suffix(".map.json")
     try:
-        content = json.loads(Path(path).with_suffix(".map.json").read_text(encoding="utf-8"))
+        status = place.stat()
+        content = _content(place, (status.st_mtime_ns, status.st_size))
     except (OSError, ValueError, RecursionError):
         return SourceMap(file)
     if not isinstance(content, dict) or content.get("version") != VERSION:
         return SourceMap(file)
     return parse_source_map(_table(_table(content.get("scenarios")).get(name)), file)
+
+
+@lru_cache(maxsize=4)
+def _content(place: Path, state: tuple[int, int]) -> Any:
+    """Return what is in a file of some state: each invoked scenario asks for that of its module."""
+    return json.loads(place.read_text(encoding="utf-8"))
 
 
 def parse_source_map(entry: Mapping[str, Any], file: str) -> SourceMap:

@@ -57,12 +57,22 @@ def draw_key(
 
 
 def unique_name(name: str, taken: Mapping[str, object]) -> str:
-    """Return `name`, or `name_2` and so on where that is taken."""
-    number, found = 1, name
-    while found in taken:
-        number += 1
-        found = f"{name}_{number}"
-    return found
+    """Return `name`, or `name_2` and so on where that is taken.
+
+    The number is looked for by halves: of a thousand equal names each is found in a few looks.
+    """
+    if name not in taken:
+        return name
+    last, free = 1, 2
+    while f"{name}_{free}" in taken:
+        last, free = free, 2 * free
+    while free - last > 1:
+        middle = (last + free) // 2
+        if f"{name}_{middle}" in taken:
+            last = middle
+        else:
+            free = middle
+    return f"{name}_{free}"
 
 
 def own_nodes(root: Behaviour) -> Iterator[Node]:

@@ -11,7 +11,6 @@ import linecache
 import re
 import sys
 from collections.abc import Callable, Iterator
-from itertools import islice
 from types import CodeType
 from typing import Any
 
@@ -19,7 +18,10 @@ RUNTIME = __name__.partition(".")[0]
 MAX_LENGTH = 90
 MEMBER = re.compile(r" {8}self\.(\w+)")  # a statement of a method
 
+MOST_KEPT = 64  # functions with a table of positions
+
 Position = tuple[int | None, int | None, int | None, int | None]
+_positions: dict[int, tuple[CodeType, tuple[Position, ...]]] = {}  # by identity of the code
 
 
 def call_arguments() -> str:
@@ -27,7 +29,7 @@ def call_arguments() -> str:
     frame = sys._getframe(1)
     while _package(frame.f_globals) == RUNTIME and frame.f_back is not None:
         frame = frame.f_back
-    position = next(islice(frame.f_code.co_positions(), frame.f_lasti // 2, None))
+    position = _position(frame.f_code, frame.f_lasti)
     text = _text(frame.f_code, frame.f_globals, position)
     return _shorten(text[text.index("(") :]) if "(" in text else ""
 
@@ -58,12 +60,22 @@ def failing_part(error: BaseException) -> tuple[str, str]:
     while trace is not None:
         code, names = trace.tb_frame.f_code, trace.tb_frame.f_globals
         if _package(names) != RUNTIME:
-            position = next(islice(code.co_positions(), trace.tb_lasti // 2, None))
+            position = _position(code, trace.tb_lasti)
             text = _shorten(_text(code, names, position))
             if code.co_name == "declare":
                 member = _member_at(code.co_filename, trace.tb_lineno, names)
         trace = trace.tb_next
     return text, member
+
+
+def _position(code: CodeType, offset: int) -> Position:
+    """Return the position of an instruction; a table of all makes the next ones quick."""
+    known = _positions.get(id(code))
+    if known is None or known[0] is not code:
+        if len(_positions) == MOST_KEPT:
+            _positions.clear()
+        known = _positions[id(code)] = (code, tuple(code.co_positions()))
+    return known[1][offset // 2]
 
 
 def _member_at(file: str, line: int, names: dict[str, Any]) -> str:
