@@ -312,7 +312,7 @@ SHAPES: Mapping[str, tuple[Callable[[int], str], int]] = {
 
 def compile_shape(name: str, size: int, *, build: bool = False) -> Compilation:
     """Return the compilation of a shape, all products made that are asked for."""
-    options = CompileOptions(target="both" if build else "py")
+    options = CompileOptions(target="all" if build else "py")
     text = HEAD + SHAPES[name][0](size)
     compilation = Compilation(Path("shape.osc"), "shape.osc", options, text=text)
     compilation.check()

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 
 from osc2tx import ir
 from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.value_types import lower_type
+from osc2tx.semantics import types
 from osc2tx.semantics.model import Binding
 from osc2tx.syntax import ast
 
@@ -23,9 +25,16 @@ def lower_arguments(
             lowered.append(
                 ir.Argument(
                     parameter=parameter.name,
-                    value=expression,
+                    value=_as_range(expression, parameter.type),
                     is_positional=argument is not None and argument.name is None,
                     span=argument.span if argument else value.span,
                 )
             )
     return tuple(lowered)
+
+
+def _as_range(value: ir.Expression, type_: types.Type) -> ir.Expression:
+    """Return a value of a parameter: where that is a range, a number is the range of itself."""
+    if not isinstance(type_, types.RangeType) or value.type.kind is ir.Kind.RANGE:
+        return value
+    return ir.RangeValue(span=value.span, type=lower_type(type_), lower=value, upper=value)

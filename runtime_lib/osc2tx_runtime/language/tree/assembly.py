@@ -84,11 +84,10 @@ def name_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:
 
     The keys are names of the module: of the composition around, and of the node or its activity.
     """
-    own = set(own_nodes(tree))
     names: dict[str, None] = {}
     draws: dict[str, None] = {}
-    for node in in_order(tree, scenario._root.actors.values()):
-        if not isinstance(node, Node) or node not in own:
+    for node in in_order(tree, scenario._root.actors.values(), only_own=True):
+        if not isinstance(node, Node):
             continue
         if not isinstance(node, Composition) and node.name != node.label:
             node.name = unique_name(node.name, names)
@@ -223,11 +222,18 @@ def number_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:
             node.position = position
 
 
-def in_order(tree: Behaviour, actors: Iterable[BaseActor]) -> list[Behaviour]:
+def in_order(
+    tree: Behaviour, actors: Iterable[BaseActor], *, only_own: bool = False
+) -> list[Behaviour]:
     """Return the nodes of a tree, parents first, in an order that its meaning decides.
 
     Members that run together are ordered by their actors as these are declared, then by name, then
     by their content: the order of the members in the module must not show.
+
+    Args:
+        tree: The tree.
+        actors: In the order of their declaration.
+        only_own: Leave out the nodes of the scenarios that it invokes.
     """
     declared = {id(actor): index for index, actor in enumerate(actors)}
 
@@ -252,12 +258,13 @@ def in_order(tree: Behaviour, actors: Iterable[BaseActor]) -> list[Behaviour]:
             key=lambda child: (first := key(child), content(child) if keys[first] > 1 else []),
         )
 
-    def ordered(start: Behaviour) -> list[Behaviour]:
+    def ordered(start: Behaviour, only_own: bool = False) -> list[Behaviour]:
         found, waiting = [], [start]
         while waiting:
             node = waiting.pop()
             found.append(node)
-            waiting += reversed([*members(node)])
+            if not (only_own and isinstance(node, Invocation)):
+                waiting += reversed([*members(node)])
         return found
 
-    return ordered(tree)
+    return ordered(tree, only_own)

@@ -60,6 +60,7 @@ class Values(Scenario):
                 lambda: self.text[0:4] == "fast"
                 and self.text.replace("a", "e").strip() == "fest,fester"
             ),
+            self.ego.drive(speed(speed_range=within(30 * kph, 30 * kph)), duration=1 * s),
         )
 
 
