@@ -277,22 +277,22 @@ def test_what_only_a_dialect_has_is_refused(shell: Shell) -> None:
 
 
 @pytest.mark.parametrize(
-    ("scenarios", "alone"),
+    ("scenarios", "names"),
     [
-        (("left",), "left"),
-        (("left", "right"), "left"),
-        (("right", "left", "lanes"), "lanes"),
-        (("right", "two_lanes", "lanes"), "two_lanes"),
-        (("left", "top"), "top"),
+        (("left",), {"two_lanes.left"}),
+        (("left", "right"), {"two_lanes.left", "two_lanes.right"}),
+        (("right", "left"), {"two_lanes.left", "two_lanes.right"}),
+        (("left", "two_lanes"), {"two_lanes.left", "two_lanes"}),
+        (("top", "left"), {"two_lanes.left", "two_lanes.top"}),
+        (("left", "Left"), {"two_lanes.left", "two_lanes.Left_2"}),
     ],
 )
-def test_one_scenario_has_the_name_of_the_file(
-    shell: Shell, scenarios: tuple[str, ...], alone: str
+def test_documents_are_named_by_file_and_scenario(
+    shell: Shell, scenarios: tuple[str, ...], names: set[str]
 ) -> None:
-    """So a scenario that comes below it renames no document."""
+    """So another scenario of the file renames no document."""
     shell.write("in/two-lanes.osc", HEAD + "\n".join(DRIVE.format(name=n) for n in scenarios))
     shell("build", "in", "-o", "out", "--target", "xosc")
-    others = {f"two_lanes.{name}.xosc" for name in scenarios if name != alone}
-    assert {name for name in made(shell) if name.endswith(".xosc")} == {"two_lanes.xosc", *others}
-    text = (shell.folder / "out/two_lanes.xosc").read_text()
-    assert f'description="{alone}"' in text
+    assert {name.removesuffix(".xosc") for name in made(shell) if name.endswith(".xosc")} == names
+    text = (shell.folder / "out/two_lanes.left.xosc").read_text()
+    assert 'description="left"' in text
