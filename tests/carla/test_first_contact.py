@@ -13,12 +13,14 @@ import sys
 import textwrap
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from osc2tx.module_loading import scenarios_of_file
 from osc2tx_runtime import RunResult, RunSettings, run_scenario
 from osc2tx_runtime.errors import InputError, SettingsError, SimulatorError
+from osc2tx_runtime.simulators.carla import level
 from osc2tx_runtime.simulators.carla.client_process import ClientProcess
 from osc2tx_runtime.simulators.carla.world import OPTIONS
 
@@ -143,6 +145,20 @@ def test_a_level_that_takes_longer_than_a_call(capsys: pytest.CaptureFixture[str
         settings = in_carla(RunSettings(max_time=1.0), server.port, carla_timeout=2.0)
         assert run(settings).status == "timeout"
     assert "CARLA: loading highway" in capsys.readouterr().err
+
+
+def test_a_map_that_takes_longer_than_a_call() -> None:
+    """So does that of a large level, though the server has it already."""
+    with StandInProcess([OWN_MAPS], "highway", "--fault", "slow-map") as server:
+        settings = in_carla(RunSettings(max_time=0.5), server.port, carla_timeout=1.0)
+        assert run(settings).status == "timeout"
+
+
+def test_a_level_that_does_not_come(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(level, "LOADING", 1.0)
+    with StandInProcess([OWN_MAPS], "curve", "--loading", "8") as server:
+        said = message_of(in_carla(RunSettings(), server.port, carla_timeout=1.0))
+    assert said == "CARLA has not loaded highway within 1 s: --carla-timeout allows longer"
 
 
 def test_a_map_that_only_the_server_has(tmp_path: Path) -> None:
@@ -321,3 +337,28 @@ def test_actors_start_at_their_speed(control: str) -> None:
     assert (found[0]["x"], found[0]["y"]) == pytest.approx((200.0, -8.75), abs=0.01)
     settled = [each["v"] for each in found[6:]]  # 0.3 s
     assert settled == pytest.approx([found[0]["v"]] * len(settled), abs=0.5)
+
+
+# --- heights ---------------------------------------------------------------------------------
+
+
+def test_a_mesh_that_is_not_where_the_lanes_are() -> None:
+    """Exact actors are where the scenario says; the run says that they float."""
+    with StandInProcess([OWN_MAPS], "highway", "--fault", "sunk-mesh") as server:
+        said = run(in_carla(RunSettings(max_time=0.5), server.port)).warnings
+        driven = in_carla(RunSettings(max_time=0.5), server.port, control={"": "driven"})
+        assert not [each for each in run(driven).warnings if "ground of CARLA" in each]
+    assert "ego floats: the ground of CARLA is 0.50 m below the lane where it starts" in said, said
+
+
+def test_a_mesh_that_rises_above_the_lanes() -> None:
+    """Who falls on its feet is spawned higher, unless somebody stands there."""
+    with StandInProcess([OWN_MAPS], "highway", "--fault", "rising-mesh") as server:
+        settings = in_carla(RunSettings(max_time=0.5), server.port, control={"": "driven"})
+        assert run(settings).status == "timeout"
+        heights = [pose[0][2] for name, (_, pose, *_) in spawns(server)]
+    assert heights == pytest.approx([0.3, 0.6, 0.3, 0.6], abs=1e-3)
+
+
+def spawns(server: StandInProcess) -> list[tuple[str, list[Any]]]:
+    return [(name, given) for name, given in server.calls() if name == "spawn_actor"]

@@ -17,7 +17,14 @@ from osc2tx_runtime.simulators.carla.frames import measurement_from, pose_from, 
 from osc2tx_runtime.simulators.carla.gains import CAR
 from osc2tx_runtime.simulators.carla.level import with_spawn_points
 from osc2tx_runtime.simulators.carla.motion_lights import MotionLights
-from osc2tx_runtime.simulators.carla.surroundings import FLAGS, lamps_for, state_for, weather_of
+from osc2tx_runtime.simulators.carla.surroundings import (
+    FLAGS,
+    lamps_for,
+    losses_of,
+    same_ids,
+    state_for,
+    weather_of,
+)
 from osc2tx_runtime.simulators.carla.tracking import SpeedControl
 from osc2tx_runtime.world.actor_dimensions import limits_of, shape_of
 from osc2tx_runtime.world.protocol import ActorSpec
@@ -137,6 +144,7 @@ def test_weather_has_fields_of_the_library() -> None:
     assert (weather["cloudiness"], weather["fog_density"]) == (100.0, 100.0)
     assert weather["precipitation"] == pytest.approx(50.0)
     assert weather_of({"snow_intensity": 1e-6, "temperature": 270.0}) == {}
+    assert any("from a direction of CARLA's own" in each for each in losses_of(sky))
 
 
 def test_default_places_are_the_spawn_points_of_the_level() -> None:
@@ -165,6 +173,13 @@ def test_what_a_light_shows() -> None:
         assert state in carla.TrafficLightState.names
         assert lamps_for(lamps, state) == (shown if state != "Yellow" else YELLOW)
     assert lamps_for(lamps, "Unknown") is None
+
+
+def test_long_ids_of_lights_arrive_without_their_end() -> None:
+    """What two of the map begin with could be either one."""
+    long, twin = "signal_of_the_northern_approach_to_the_bridge", "x" * 32
+    cut = [long[:32], twin, "7", ""]
+    assert same_ids([long, f"{twin}1", f"{twin}2", "7", "8"], cut) == {long: long[:32], "7": "7"}
 
 
 LIBRARY = {

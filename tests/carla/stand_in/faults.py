@@ -9,10 +9,13 @@ from typing import Any
 
 from . import dynamics
 from .blueprints import BLUEPRINTS, VEHICLES
+from .rpc import CallError
 from .simulation import Simulation
 
 LIFE_SPAN = 20  # steps that a walker that was hit is still there
 SPIN_UP, SLIP = 0.3, 0.12  # shares of a step
+SLOW_MAP = 2.5  # s
+RISEN = 0.5  # m
 STREAMED = 100.0  # m around what a large level shows
 Calls = dict[str, Callable[..., Any]]
 
@@ -202,6 +205,30 @@ def large_level(simulation: Simulation, calls: Calls) -> None:
     calls["tick_cue"] = asleep
 
 
+def slow_map(simulation: Simulation, calls: Calls) -> None:
+    """The text of the map takes longer than a call, as that of a large level does."""
+    data = calls["get_map_data"]
+
+    def slowly() -> str:
+        time.sleep(SLOW_MAP)
+        return str(data())
+
+    calls["get_map_data"] = slowly
+
+
+def rising_mesh(simulation: Simulation, calls: Calls) -> None:
+    """The mesh rises above the lanes: who is spawned close to them stands in it."""
+    spawn = calls["spawn_actor"]
+
+    def above_the_mesh(description: list[Any], pose: list[Any]) -> list[Any]:
+        ground = simulation.level.ground(pose[0], 0.0)
+        if ground is not None and pose[0][2] < ground[0] + RISEN:
+            raise CallError("Spawn failed because of collision at spawn position")
+        return list(spawn(description, pose))
+
+    calls["spawn_actor"] = above_the_mesh
+
+
 FAULTS: Mapping[str, Callable[[Simulation, Calls], None]] = {
     each.__name__.replace("_", "-"): each
     for each in (
@@ -221,5 +248,7 @@ FAULTS: Mapping[str, Callable[[Simulation, Calls], None]] = {
         sticky_camera,
         mortal_walkers,
         large_level,
+        slow_map,
+        rising_mesh,
     )
 }

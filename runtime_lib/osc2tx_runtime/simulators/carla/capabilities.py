@@ -8,9 +8,9 @@ RUNTIME = "by the runtime, on measured states"
 MOTION = "exact: poses written; driven: throttle, brake, steering"
 MAP = "by the runtime on the map of the level"
 WEATHER = (
-    "sun and clouds exact; rain, fog and wind approximated (percentages); snow, temperature,"
-    " pressure, humidity and direction of the wind not possible (no field), their effects and"
-    " conditions hold"
+    "elevation of the sun and clouds exact; azimuth of the sun (from a zero of CARLA's own), rain,"
+    " fog and wind (percentages) approximated; snow, temperature, pressure, humidity and direction"
+    " of the wind not possible (no field), their effects and conditions hold"
 )
 VEHICLE_LIGHTS = (
     "position, low and high beam exact, daytime as position; brake, turn and reversing lights"

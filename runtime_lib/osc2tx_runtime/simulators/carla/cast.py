@@ -51,6 +51,7 @@ class CastMember:
         ahead: Metres from its origin in CARLA forwards to its reference point.
         up: Metres from the ground to that origin.
         size: Length, width and height (m) in CARLA.
+        above: Metres above the ground at which it begins to fall on its feet.
         foreign: Another client spawned it.
         removed: It is not in CARLA any more.
         now: The latest measurement; None while it is exactly as commanded.
@@ -65,6 +66,7 @@ class CastMember:
     size: tuple[float, float, float]
     steering: Steering
     speed: SpeedControl
+    above: float = ABOVE
     foreign: bool = False
     removed: bool = False
     now: Measurement | None = None
@@ -119,7 +121,7 @@ class CastMember:
         if setpoint.towed or self.control in EXACT:
             return self._exact(setpoint)
         x, y, z, *turn = self.transform(setpoint.state)
-        commands: list[Command] = [("place", self.actor, x, y, z + ABOVE, *turn)]
+        commands: list[Command] = [("place", self.actor, x, y, z + self.above, *turn)]
         if self.foreign:
             commands.append(("velocity", self.actor, 0.0, 0.0, 0.0))
         if self.control == "driven" and self.is_vehicle:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
 from osc2tx_runtime.errors import InputError, SimulatorError
@@ -37,7 +38,7 @@ def map_of(client: ClientProcess, request: WorldRequest) -> RoadMap:
         SimulatorError: The server has another map.
     """
     load = request.options.get("carla_load", False)
-    level = client.ask("level", patience=LOADING)
+    level = _level(client, _patience(request))
     theirs, wanted = read_level(level), _wanted(client, request, level, load)
     if (
         wanted is None
@@ -65,26 +66,43 @@ def _loaded(
     client: ClientProcess, request: WorldRequest, name: str, *, load: bool
 ) -> Mapping[str, Any]:
     """Have the server load a map that it has, else make a level of the file; return the level."""
-    patience = max(LOADING, request.options.get("carla_timeout", 0.0))
+    patience = _patience(request)
     known = {plain_name(each): each for each in client.ask("maps")} if load else {}
     keep = request.options.get("carla_keep", False)
     complain(f"CARLA: loading {name}")
     if not keep:
         client.patience_at_end = patience
-    try:
+    with _in_time(f"loaded {name}", patience):
         if name in known:
             client.ask("load", known[name], patience, keep, patience=2.0 * patience)
         else:
             text = request.find_map().read_text(encoding="utf-8")
             client.ask("generate", text, patience, keep, patience=2.0 * patience)
+    return _level(client, patience)
+
+
+def _patience(request: WorldRequest) -> float:
+    return max(LOADING, float(request.options.get("carla_timeout", 0.0)))
+
+
+def _level(client: ClientProcess, patience: float) -> Mapping[str, Any]:
+    """Return the level of the server, whose map may be large."""
+    with _in_time("sent its map", patience):
+        level: Mapping[str, Any] = client.ask("level", patience, patience=2.0 * patience)
+    return level
+
+
+@contextmanager
+def _in_time(done: str, patience: float) -> Iterator[None]:
+    """Name the remedy where something took longer than a time (s)."""
+    try:
+        yield
     except SimulatorError as error:
         if "time-out" not in error.message and "failed to connect" not in error.message:
             raise
         raise SimulatorError(
-            f"CARLA has not loaded {name} within {patience:g} s: --carla-timeout allows longer"
+            f"CARLA has not {done} within {patience:g} s: --carla-timeout allows longer"
         ) from None
-    level: Mapping[str, Any] = client.ask("level", patience=patience)
-    return level
 
 
 def _wanted(

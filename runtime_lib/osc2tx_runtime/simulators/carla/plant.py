@@ -16,6 +16,7 @@ from osc2tx_shared.text import say
 from .attendance import Attendance
 from .cast import DISPLACED, KICKING, CastMember, Command
 from .client_process import ClientProcess
+from .ground import floating
 from .sensors import SensorStacks
 from .spawning import Spawning
 from .surroundings import CarlaSurroundings
@@ -136,7 +137,7 @@ class CarlaPlant:
                 self._client.ask("watch_collisions", member.actor)
         kicks = [each for actor, member in members for each in member.kick(setpoints[actor])]
         self._client.ask("apply", kicks)
-        self._surroundings.begin(ticks=self._ticks)
+        self._surroundings.begin(scene, ticks=self._ticks)
         self._start = looked["time"]
         return {
             actor: found if self._members[actor].foreign else found._replace(velocity=(v, 0.0, 0.0))
@@ -147,6 +148,10 @@ class CarlaPlant:
     def _report(self, scene: Scene) -> None:
         """Say what cannot be as it is wanted, and which topics there will be."""
         for problem in self._spawning.problems:
+            scene.warn(problem)
+        members = self._members
+        placed = {a: s for a, s in scene.setpoints.items() if not members[a].is_measured}
+        for problem in floating(self._client, placed, scene.map):
             scene.warn(problem)
         roles = {actor: each.spec.role or actor for actor, each in scene.setpoints.items()}
         for line in self._sensors.table(roles):

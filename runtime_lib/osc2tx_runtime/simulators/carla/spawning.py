@@ -18,6 +18,10 @@ from .frames import transform_of
 OUT_OF_THE_WAY = 50.0
 """Height (m) above the ground at which actors are spawned before they are moved."""
 
+HEIGHTS = (ABOVE, 2.0 * ABOVE, 4.0 * ABOVE)
+"""Heights (m) at which to spawn who falls on its feet, one after the other: a mesh that rises above
+the lane refuses the lower ones."""
+
 CLOSE = 8.0  # m: radius of the search for blocking actors
 
 
@@ -82,27 +86,39 @@ class Spawning:
             self.problems.append(problem)
         self._count += 1
         exact = control in EXACT or setpoint.towed
-        up = OUT_OF_THE_WAY + 5.0 * self._count if exact else ABOVE
-        if blueprint.startswith("walker."):
-            up += 1.0
+        heights = (OUT_OF_THE_WAY + 5.0 * self._count,) if exact else HEIGHTS
+        legs = 1.0 if blueprint.startswith("walker.") else 0.0
         half = 0.5 * spec.shape.length
         ahead = spec.shape.rear - half if spec.shape.wheelbase > 0.0 else 0.0
         pose = Pose(state.x, state.y, state.z, state.h, state.pitch, state.roll)
-        try:
-            found = self._client.ask("spawn", blueprint, attributes, transform_of(pose, ahead, up))
-        except SimulatorError as error:
-            raise self._refused(setpoint, blueprint, error) from None
-        return member_of(spec, found, control)
+        for up in heights:
+            place = transform_of(pose, ahead, up + legs)
+            try:
+                found = self._client.ask("spawn", blueprint, attributes, place)
+            except SimulatorError as error:
+                others = self._others_at(pose)
+                if others or up == heights[-1]:
+                    raise _refused(setpoint, blueprint, error, others) from None
+            else:
+                break
+        member = member_of(spec, found, control)
+        member.above = up
+        return member
 
-    def _refused(self, setpoint: Setpoint, blueprint: str, error: SimulatorError) -> SimulatorError:
-        """Name the actors that block a position, if there are any."""
-        state = setpoint.state
-        x, y, *_ = transform_of(Pose(state.x, state.y, state.z, state.h))
+    def _others_at(self, pose: Pose) -> str:
+        """Return the names of the actors that may block a position."""
+        x, y, *_ = transform_of(pose)
         near: list[Any] = self._client.ask("nearby", x, y, CLOSE)
-        names = [f"{kind} {number}{f' ({role})' if role else ''}" for number, kind, role in near]
-        who = f"; there is {', '.join(names)}" if names else ""
-        place = f"({state.x:.1f}, {state.y:.1f})"
-        return SimulatorError(
-            f"{setpoint.spec.id}: CARLA does not spawn {blueprint} at {place}:"
-            f" {error.message.removeprefix('CARLA: ')}{who}"
-        )
+        return ", ".join(f"{k} {number}{f' ({role})' if role else ''}" for number, k, role in near)
+
+
+def _refused(
+    setpoint: Setpoint, blueprint: str, error: SimulatorError, others: str
+) -> SimulatorError:
+    """Name what the server does not spawn, and who is there."""
+    who = f"; there is {others}" if others else ""
+    return SimulatorError(
+        f"{setpoint.spec.id}: CARLA does not spawn {blueprint} at"
+        f" ({setpoint.state.x:.1f}, {setpoint.state.y:.1f}):"
+        f" {error.message.removeprefix('CARLA: ')}{who}"
+    )

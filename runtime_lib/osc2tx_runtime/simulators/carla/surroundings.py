@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from osc2tx_runtime.enums import BulbState
@@ -36,6 +36,26 @@ def lamps_for(lamps: Sequence[Lamp], state: str) -> tuple[BulbState, ...] | None
         return None
     color = dict(STATES).get(state)
     return tuple("is_on" if lamp.color == color else "is_off" for lamp in lamps)
+
+
+LONGEST_ID = 32
+"""Bytes of the id of a signal that snapshots have room for (`ActorDynamicState.h`)."""
+
+
+def same_ids(ours: Iterable[str], theirs: Iterable[str]) -> Mapping[str, str]:
+    """Return the ids of lights on the server by those on the map.
+
+    Longer ones arrive without their end: what several ids of the map begin with stands for none.
+    """
+    found = {_cut(each): each for each in theirs}
+    alike = Counter(map(_cut, ours := list(ours)))
+    return {
+        each: found[_cut(each)] for each in ours if found.get(_cut(each)) and alike[_cut(each)] == 1
+    }
+
+
+def _cut(name: str) -> bytes:
+    return name.encode()[:LONGEST_ID]
 
 
 POSITION, LOW_BEAM, HIGH_BEAM = 1, 2, 4
@@ -83,6 +103,7 @@ FIELDS: Mapping[str, Callable[[float], Mapping[str, float]]] = {
 
 
 APPROXIMATED: Mapping[str, str] = {
+    "sun_azimuth": "the azimuth of the sun counts from a direction of CARLA's own, not from north",
     "rain_intensity": "rain is a percentage in CARLA: 50 mm/h are its most",
     "visual_range": "fog is a percentage in CARLA: dense where one sees 50 m",
     "wind_speed": "wind is a percentage in CARLA: 30 m/s are its most",
@@ -129,12 +150,13 @@ class CarlaSurroundings:
         self._moving: defaultdict[str, MotionLights] = defaultdict(MotionLights)
         self._environment: Mapping[str, float] = {}
         self._adhesion = 1.0
-        self._signals: frozenset[str] = frozenset()
+        self._signals: Mapping[str, str] = {}  # ids of the map -> those of the server
         self._shown: dict[str, str] = {}
 
-    def begin(self, *, ticks: bool) -> None:
+    def begin(self, scene: Scene, *, ticks: bool) -> None:
         """Find the traffic lights; their cycles begin with the run if it makes the steps."""
-        self._signals = frozenset(self._client.ask("traffic_lights"))
+        there = self._client.ask("traffic_lights")
+        self._signals = same_ids([each.id for each in scene.map.signals() if each.dynamic], there)
         if self._signals and ticks:
             self._client.ask("reset_lights")
 
@@ -174,7 +196,7 @@ class CarlaSurroundings:
     def _set_traffic_lights(self, scene: Scene) -> None:
         """The first switch by the scenario stops all cycles: CARLA stops all or none."""
         signals = scene.signals
-        for name in sorted(self._signals):
+        for name, theirs in sorted(self._signals.items()):
             if signals.shown_by(name) is None:
                 continue
             if not self._shown:
@@ -182,14 +204,14 @@ class CarlaSurroundings:
             state = state_for(signals.lamps(name), signals.states(name))
             if self._shown.get(name) != state:
                 self._shown[name] = state
-                self._client.ask("set_light", name, state)
+                self._client.ask("set_light", theirs, state)
 
     def observe(self, scene: Scene, states: Mapping[str, Any]) -> None:
         """Report to the scenario the states of lights that it has not switched."""
         signals = scene.signals
-        for name, state in states.items():
-            if name in self._shown or name not in self._signals:
+        for name, theirs in self._signals.items():
+            if name in self._shown:
                 continue
-            lamps = lamps_for(signals.lamps(name), state)
+            lamps = lamps_for(signals.lamps(name), states[theirs])
             if lamps is not None and lamps != signals.states(name):
                 signals.observe(name, lamps)

@@ -8,7 +8,8 @@ import subprocess
 from osc2tx_runtime.errors import InputError, SimulatorError
 from osc2tx_runtime.opendrive import LanePosition, MapError
 from osc2tx_runtime.simulators.carla.blueprints import blueprint_for
-from osc2tx_runtime.simulators.carla.level import difference_of, plain_name, read_level
+from osc2tx_runtime.simulators.carla.ground import FLOATS, heights_of
+from osc2tx_runtime.simulators.carla.level import LOADING, difference_of, plain_name, read_level
 from osc2tx_runtime.simulators.carla.sensors import SensorStacks
 
 from .probe import Finding, Probe, differs, line, ok, unknown
@@ -17,15 +18,13 @@ LARGE = ("Town11", "Town12", "Town13", "Town15")
 """Levels that are streamed around actors whose role name has `hero` in it."""
 
 POINTS = 20
-ABOVE = 2.0  # m above a lane from where the ground is looked for
-FLOATS = 0.1  # m between ground and lane that one can see
 ROS_PATIENCE = 10.0  # s
 
 
 @line(9, "map", blocks=True)
 def level(probe: Probe) -> Finding:
     """The server has loaded the scenario's map."""
-    probe.level = probe.client.ask("level", patience=probe.timeout)
+    probe.level = probe.client.ask("level", LOADING, patience=LOADING)
     probe.road_map = read_level(probe.level)
     request = probe.request.world
     name = probe.level["name"]
@@ -60,8 +59,7 @@ def ground(probe: Probe) -> Finding:
         poses = [probe.road_map.pose(place) for place in places]
     except MapError as error:
         return unknown(str(error))
-    heights = probe.client.ask("ground", [(p.x, -p.y, p.z + ABOVE) for p in poses])
-    off = [abs(z - p.z) for z, p in zip(heights, poses, strict=True) if z is not None]
+    off = [abs(each) for each in heights_of(probe.client, poses) if each is not None]
     if not off:
         return unknown("no ground was found below the lanes")
     found = f"{max(off):.2f} m at most between mesh and lanes ({len(off)} points)"

@@ -19,6 +19,9 @@ POLL = 0.1  # s between two looks for a foreign actor
 OWN, FOREIGN = "own actors", "foreign actors"
 """Kinds of changes."""
 
+SOLID = ("vehicle.", "walker.", "static.prop.")
+"""Begins of the blueprints of what one can run into."""
+
 ROLLING = 0.1  # m/s of a controlled vehicle
 
 
@@ -128,7 +131,7 @@ class Actors:
         for actor in self._session.world.get_actors():
             at = actor.get_location()
             at.z = 0.0
-            if at.distance(here) <= radius and actor.type_id.startswith(("vehicle.", "walker.")):
+            if at.distance(here) <= radius and actor.type_id.startswith(SOLID):
                 found.append([actor.id, actor.type_id, actor.attributes.get("role_name", "")])
         return found
 

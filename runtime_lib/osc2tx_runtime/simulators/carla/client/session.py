@@ -122,9 +122,13 @@ class Session:
         settings.synchronous_mode, settings.fixed_delta_seconds = False, None
         self.world.apply_settings(settings)
 
-    def level(self) -> Mapping[str, Any]:
-        """Return name, OpenDRIVE text and spawn points of the level, and which maps there are."""
-        found = self.world.get_map()
+    def level(self, patience: float = 0.0) -> Mapping[str, Any]:
+        """Return name, OpenDRIVE text and spawn points of the level.
+
+        The text of a large one takes a time (s), too.
+        """
+        with self._patient(patience):
+            found = self.world.get_map()
         return {
             "name": found.name.rpartition("/")[2],
             "text": found.to_opendrive(),
