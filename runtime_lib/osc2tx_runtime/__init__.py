@@ -134,6 +134,7 @@ from osc2tx_runtime.language.tree import (
     rise,
 )
 from osc2tx_runtime.language.tree.duration_limits import Duration
+from osc2tx_runtime.language.values.bounded_methods import bounded
 from osc2tx_runtime.language.values.parameters import (
     Range,
     any_of,
@@ -184,6 +185,7 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "as_type",
     "at_least",
     "at_most",
+    "bounded",
     "fixed",
     "inf",
     "not_given",

@@ -7,12 +7,15 @@ of its issue threads; the stand-in shows it.
 from __future__ import annotations
 
 import json
+import os
+import pty
 import socket
 import subprocess
 import sys
 import textwrap
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -20,7 +23,8 @@ import pytest
 from osc2tx.module_loading import scenarios_of_file
 from osc2tx_runtime import RunResult, RunSettings, run_scenario
 from osc2tx_runtime.errors import InputError, SettingsError, SimulatorError
-from osc2tx_runtime.simulators.carla import level
+from osc2tx_runtime.simulators.carla import attendance, level
+from osc2tx_runtime.simulators.carla.attendance import Attendance
 from osc2tx_runtime.simulators.carla.client_process import ClientProcess
 from osc2tx_runtime.simulators.carla.world import OPTIONS
 
@@ -268,6 +272,43 @@ def test_nobody_takes_control(server: StandInProcess) -> None:
     assert not server.ask("stand_in_synchronous")
 
 
+def test_enter_begins_at_once(server: StandInProcess, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Somebody at the terminal does not have to wait for a stack."""
+    terminal, keyboard = pty.openpty()
+    monkeypatch.setattr(sys, "stdin", os.fdopen(keyboard))
+    os.write(terminal, b"\n")
+    settings = in_carla(
+        RunSettings(expect=True, max_time=0.5),
+        server.port,
+        control={"ego": "external"},
+        wait_control=600.0,
+    )
+    assert run(settings).status == "timeout"
+    os.close(terminal)
+
+
+def test_steps_are_not_made_before_their_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """At twice the speed of real time, of which steps use up some themselves."""
+    now, slept = 100.0, []
+
+    def sleep(seconds: float) -> None:
+        nonlocal now
+        slept.append(seconds)
+        now += seconds
+
+    clock = SimpleNamespace(monotonic=lambda: now, sleep=sleep)
+    monkeypatch.setattr(attendance, "time", clock)
+    paced = Attendance(pace=2.0)
+    paced.start()
+    for cost in (0.01, 0.0, 0.04, 0.0):
+        now += cost
+        paced.pause(0.05)
+    assert slept == pytest.approx([0.015, 0.025, 0.0, 0.01])
+    assert now == pytest.approx(100.1)
+    Attendance().pause(0.05)
+    assert len(slept) == 4  # without a factor nothing waits
+
+
 def test_the_camera_follows_an_actor_and_is_put_back(server: StandInProcess) -> None:
     run(in_carla(RunSettings(max_time=1.0), server.port, carla_view="ego"))
     placed = [
@@ -294,11 +335,18 @@ def test_options_are_read() -> None:
 # --- as it was before ----------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["C16_weather", "C17_signal_cycles"])
-def test_weather_and_lights_are_as_before(name: str) -> None:
-    town = {"C16_weather": "highway", "C17_signal_cycles": "urban_crossing"}[name]
+@pytest.mark.parametrize(
+    ("name", "town", "fault"),
+    [
+        ("C16_weather", "highway", ""),
+        ("C17_signal_cycles", "urban_crossing", ""),
+        ("C17_signal_cycles", "urban_crossing", "frozen-lights"),
+    ],
+)
+def test_weather_and_lights_are_as_before(name: str, town: str, fault: str) -> None:
+    """Lights that another client had stopped stay so."""
     with (
-        StandInProcess([OWN_MAPS], town) as server,
+        StandInProcess([OWN_MAPS], town, *(["--fault", fault] if fault else [])) as server,
         scenarios_of_file(GENERATED / "capabilities" / f"{name}.py", f"contact_{name}") as found,
     ):
         before = server.ask("stand_in_surroundings")
@@ -311,6 +359,26 @@ def test_weather_and_lights_are_as_before(name: str) -> None:
     assert [frozen for _, frozen in lights] == [frozen for _, frozen in before[1]]
 
 
+def test_the_level_is_loaded_anew() -> None:
+    """Its weather, its lights and who is there are then those that it begins with."""
+    with StandInProcess([OWN_MAPS], "highway") as server:
+        script = """
+            world.set_weather(carla.WeatherParameters.HardRainSunset)
+            blueprint = world.get_blueprint_library().find("vehicle.audi.tt")
+            world.spawn_actor(blueprint, world.get_map().get_spawn_points()[40])
+            print("there", flush=True)
+        """
+        client_of(server.port, script).wait()
+        before = server.ask("stand_in_surroundings")[0]
+        server.calls()
+        run(in_carla(RunSettings(max_time=0.5), server.port, carla_load=False, carla_reload=True))
+        names = [name for name, _ in server.calls()]
+        assert names.count("load_new_episode") == 1
+        assert names.index("load_new_episode") < names.index("spawn_actor")
+        assert server.ask("stand_in_actors") == {}
+        assert server.ask("stand_in_surroundings")[0] == pytest.approx(before, abs=1e-3)
+
+
 # --- large levels ----------------------------------------------------------------------------
 
 
@@ -320,6 +388,22 @@ def test_actors_that_a_large_level_does_not_stream() -> None:
         said = message_of(in_carla(RunSettings(), server.port))
         assert "ego is dormant in CARLA" in said and "--carla-view ego" in said
         assert run(in_carla(RunSettings(), server.port, carla_view="ego")).status == "success"
+
+
+def test_actors_that_leave_what_a_large_level_streams() -> None:
+    """They are found out in the step in which they fall asleep, whatever they did before."""
+    with StandInProcess([OWN_MAPS], "highway", "--fault", "large-level") as server:
+        script = """
+            place = carla.Transform(carla.Location(200.0, 9.0, 5.0))
+            world.get_spectator().set_transform(place)
+            world.wait_for_tick()
+            print("there", flush=True)
+        """
+        client_of(server.port, script).wait()
+        server.calls()
+        assert "is dormant in CARLA" in message_of(in_carla(RunSettings(), server.port))
+        steps = [name for name, _ in server.calls()].count("tick_cue")
+    assert 60 < steps < 140  # 100 m at 19 to 26 m/s
 
 
 # --- speeds at the start ---------------------------------------------------------------------

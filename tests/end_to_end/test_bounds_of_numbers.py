@@ -6,6 +6,11 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx.compilation.driver import Compilation
+from osc2tx.module_loading import scenarios_of_module
+from osc2tx.options import CompileOptions
+from osc2tx_runtime import run_scenario
+from osc2tx_runtime.opendrive import RoadMap, read_map
 from tests.unit.cli.shell import Shell
 
 HEAD = """import osc.standard.all
@@ -111,3 +116,58 @@ def test_a_method_that_calls_itself_without_an_end(shell: Shell, tmp_path: Path)
     line = place.read_text(encoding="utf-8").split("\n").index("    last: int = step.after(1)") + 1
     assert f"top.osc:{line}:5: error[OSC801]: " in ended.err
     assert "a method calls itself without an end" in ended.err
+
+
+TWICE = (
+    "    def doubled(n: int) -> int is expression n <= 0 ? 1 : doubled(n - 1) + doubled(n - 1)\n"
+)
+LEVELS = "    def level_0(n: int) -> int is expression n\n" + "".join(
+    f"    def level_{k + 1}(n: int) -> int is expression level_{k}(n) + level_{k}(n)\n"
+    for k in range(30)
+)
+
+
+@pytest.mark.parametrize("kind", ["struct steps", "scenario"])
+@pytest.mark.parametrize(("methods", "call"), [(TWICE, "doubled(30)"), (LEVELS, "level_30(1)")])
+def test_methods_that_multiply_their_calls(
+    shell: Shell, tmp_path: Path, methods: str, call: str, kind: str
+) -> None:
+    """Whether they are of an object or of the scenario."""
+    if kind == "scenario":
+        text = HEAD + methods + f"    last: int = {call}\n    do ego.drive(duration: 1s)\n"
+    else:
+        text = HEAD.replace("scenario top:", f"{kind}:\n{methods}\nscenario top:")
+        text += f"    step: steps\n    last: int = step.{call}\n    do ego.drive(duration: 1s)\n"
+    place = tmp_path / "top.osc"
+    place.write_text(text)
+    ended = shell("run", str(place))
+    assert ended.code == 5
+    line = next(n for n, each in enumerate(text.split("\n"), 1) if "last: int" in each)
+    assert f"top.osc:{line}:5: error[OSC801]: method `" in ended.err
+    assert "leads to more than 100,000 calls for one value" in ended.err
+
+
+BEYOND = """    v: speed with:
+        keep(it in [5mps..20mps])
+    do serial:
+        ego.drive(duration: 1s) with:
+            lane(1, at: start)
+            position(20m, at: start)
+            speed(v)
+        ego.change_lane(num_of_lanes: 9, side: right)
+"""
+
+
+def test_other_draws_of_a_run_read_the_map_once(tmp_path: Path) -> None:
+    compilation = Compilation(Path(source(tmp_path, BEYOND)), "top.osc", CompileOptions())
+    module = compilation.module
+    assert module is not None
+    read: list[Path] = []
+
+    def read_and_count(path: Path) -> RoadMap:
+        read.append(path)
+        return read_map(path)
+
+    with scenarios_of_module(module) as scenarios:
+        result = run_scenario(scenarios["top"], read=read_and_count)
+    assert (result.status, len(read)) == ("failure", 1)

@@ -61,6 +61,7 @@ RUNTIME_FUNCTIONS = frozenset(
         "as_type",
         "at_least",
         "at_most",
+        "bounded",
         "elapsed",
         "every",
         "fall",

@@ -111,6 +111,7 @@ class _TypeWriter:
         return FunctionView(
             signature=signature(self._table.member(self._own.name, name), parameters, result),
             value=writer.write(body),
+            is_bounded=self._uses.bounded(body),
             comments=comments(method.comments),
         )
 

@@ -101,6 +101,7 @@ class ScenarioWriter:
             type_methods,
             event_class=self._event_class,
         )
+        self._bounded = uses.bounded
         self._calls = CallWriter(expressions, uses.name, uses.modifier, functions)
         self._declarations = DeclarationWriter(scenario, self._members, self._calls, types)
         self.source_map = ScenarioMap(scenario.span.source.name)
@@ -239,6 +240,7 @@ class ScenarioWriter:
                 self._types.annotation(method.result),
             ),
             value=self._calls.expressions.write(body),
+            is_bounded=self._bounded(body),
             comments=comments(method.comments),
         )
 

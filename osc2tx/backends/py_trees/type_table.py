@@ -201,7 +201,15 @@ class TypeTable:
 
 def _seen_by_class(own: ir.UserType) -> frozenset[str]:
     """Return the names that annotations and defaults in the class of a struct use."""
-    names = {*ANNOTATIONS.values(), "list", "dataclass", *CLASSES.values(), "Range", "not_given"}
+    names = {
+        *ANNOTATIONS.values(),
+        "list",
+        "dataclass",
+        *CLASSES.values(),
+        "Range",
+        "not_given",
+        "bounded",
+    }
     fields = own.all_fields
     names.update(class_name(f.type.name) for f in fields if f.type.kind is ir.Kind.ENUM)
     parameters = [each for method in own.methods for each in method.parameters]

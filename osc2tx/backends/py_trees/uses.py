@@ -40,6 +40,20 @@ class Uses:
         self._names.add(name)
         return PyName(name)
 
+    def bounded(self, body: ir.Expression) -> bool:
+        """Return whether a method has a budget of calls, and use its decorator if so.
+
+        Calls multiply where a method calls several others.
+
+        Args:
+            body: Of the method.
+        """
+        calls = [part for part in ir.walk(body) if isinstance(part, ir.MethodCall)]
+        several = sum(isinstance(call.base, ir.ScenarioSelf) for call in calls) > 1
+        if several:
+            self.name("bounded")
+        return several
+
     def library(self, name: str) -> PyExpr:
         """Use a class of the runtime library whose name is that of a class of the module."""
         self.needs_library = True

@@ -51,10 +51,11 @@ def signature(name: PyName, parameters: Iterable[str], result: PyExpr) -> PyExpr
 
 @dataclass(frozen=True, slots=True)
 class FunctionView:
-    """A method that computes a value."""
+    """A method that computes a value; one that is bounded has a budget of calls."""
 
     signature: PyExpr
     value: PyExpr
+    is_bounded: bool
     comments: tuple[PyComment, ...] = ()
 
 

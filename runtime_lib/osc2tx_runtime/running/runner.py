@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import asdict, field
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
@@ -87,6 +88,7 @@ def run_scenario(
     """
     settings = settings or RunSettings()
     check_outputs(settings)
+    read = cache(read)  # other values that are drawn are for the same map
 
     def run(scenario: Scenario, *, is_last: bool) -> RunResult:
         root = scenario.create_tree()
@@ -130,6 +132,7 @@ def check_start(
         ScenarioError: What the run would refuse.
     """
     quiet = replace(settings, trace=None, report=None)
+    read = cache(read)
 
     def start(scenario: Scenario, *, is_last: bool) -> RunResult:
         root = scenario.create_tree()
