@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field
-from itertools import combinations, pairwise
+from itertools import combinations
 
 from osc2tx.diagnostics import Span
 from osc2tx.xosc import elements as xml
@@ -48,8 +48,6 @@ class ActorDeviation:
     Attributes:
         place: Longest distance (m).
         at: Time of the longest distance (s).
-        shifted: Longest distance (m) from where it is a little earlier or later; the end does not
-            count, as there is no later.
         speed: Largest difference of speeds (m/s), late events apart.
         spread: Range of its speeds (m/s); times the delay of events it is the distance that late
             events explain.
@@ -58,7 +56,6 @@ class ActorDeviation:
 
     place: float
     at: float
-    shifted: float
     speed: float
     spread: float
     since: float
@@ -95,18 +92,12 @@ class Deviation:
         """Longest delay of an event or of the end (s)."""
         return max(self.late, self.end)
 
-    def beyond(self, allowed: float, *, is_fine: bool = True) -> list[str]:
-        """Return the actors that are farther off than late events explain.
-
-        Args:
-            allowed: The distance that is allowed besides (m).
-            is_fine: The steps are so short that a delay times the range of speeds explains little;
-                at longer ones the actor has to be there a little earlier or later.
-        """
+    def beyond(self, allowed: float) -> list[str]:
+        """Return the actors that are farther off (m) than late events explain."""
         return [
             actor
             for actor, each in self.actors.items()
-            if (each.place - self.late * each.spread if is_fine else each.shifted) >= allowed
+            if each.place - self.late * each.spread >= allowed
         ]
 
 
@@ -289,7 +280,7 @@ def _deviation(
     first = there.get(round(before[0] / dt), before)
     begins_elsewhere = math.dist(before[1:3], first[1:3]) > JUMP
     jumped = 0.0 if begins_elsewhere else -longest
-    worst, at, shifted, speed, since = 0.0, 0.0, 0.0, 0.0, math.inf
+    worst, at, speed, since = 0.0, 0.0, 0.0, math.inf
     reach = math.ceil(late / dt - ROUNDING) + 1
     for row in expected[1:]:
         t, x, y, v = row
@@ -304,32 +295,9 @@ def _deviation(
             worst, at = apart, t
         if apart > explained:
             since = min(since, t)
-        if apart > shifted and step + reach in there:
-            shifted = max(shifted, _shifted((x, y), there, step, reach))
         if abs(v - other[3]) > speed:
             speed = max(speed, _speed_apart(v, there, step, reach))
-    return ActorDeviation(worst, at, shifted, speed, spread, since)
-
-
-def _shifted(point: tuple[float, float], there: Mapping[int, Row], step: int, reach: int) -> float:
-    """Return the distance of a point (m) from a motion during some steps before and after one."""
-    near = [there[each][1:3] for each in range(step - reach, step + reach + 1) if each in there]
-    if len(near) == 1:
-        return math.dist(point, near[0])
-    return min(_to_line(point, *ends) for ends in pairwise(near))
-
-
-def _to_line(
-    point: tuple[float, float], start: tuple[float, float], end: tuple[float, float]
-) -> float:
-    """Return the distance of a point from a straight line (m)."""
-    along = (end[0] - start[0], end[1] - start[1])
-    length = along[0] ** 2 + along[1] ** 2
-    if not length:
-        return math.dist(point, start)
-    part = ((point[0] - start[0]) * along[0] + (point[1] - start[1]) * along[1]) / length
-    part = min(max(part, 0.0), 1.0)
-    return math.dist(point, (start[0] + part * along[0], start[1] + part * along[1]))
+    return ActorDeviation(worst, at, speed, spread, since)
 
 
 def _speed_apart(v: float, there: Mapping[int, Row], step: int, reach: int) -> float:

@@ -141,7 +141,7 @@ class Measuring:
         patience = self._stated / PACE if self._is_bounded else inf
         deviation = compare(self._root, self._found.origins, world.recording, found, dt, patience)
         allowed = EXACT + self._stated
-        is_near = not deviation.beyond(allowed, is_fine=dt == FINE)
+        is_near = not deviation.beyond(allowed)
         measured = Measured(deviation.place, deviation.speed, deviation.time)
         is_faithful = is_near and not deviation.problems
         return Finding(measured, deviation, world.recording.starts, is_faithful)

@@ -16,6 +16,7 @@ import pytest
 from osc2tx.module_loading import scenarios_of_file
 from osc2tx_runtime import RunResult, RunSettings, run_scenario
 from osc2tx_runtime.errors import SimulatorError
+from osc2tx_runtime.simulators.carla import plant
 from osc2tx_runtime.simulators.carla.client import actors, surroundings
 from osc2tx_runtime.simulators.carla.client.journal import UNDO, Journal, left_behind
 from osc2tx_runtime.simulators.carla.client_process import ClientProcess
@@ -218,6 +219,61 @@ def test_a_level_made_of_a_text_is_made_again(tmp_path: Path) -> None:
         assert before[0] == "OpenDriveMap"
         run(bare, "pedestrian_crossing", carla_keep=False)
         assert level_of(bare) == before
+
+
+WEATHERED = """
+    settings = world.get_settings()
+    settings.no_rendering_mode = True
+    world.apply_settings(settings)
+    world.set_weather(carla.WeatherParameters.HardRainSunset)
+    place = carla.Transform(carla.Location(1.0, 2.0, 3.0), carla.Rotation(yaw=40.0))
+    world.get_spectator().set_transform(place)
+    world.wait_for_tick()
+"""
+
+
+def all_of(server: StandInProcess) -> list[object]:
+    """Return what a run may change."""
+    weather, lights = server.ask("stand_in_surroundings")
+    at, turn = server.ask("stand_in_spectator")
+    return [
+        level_of(server)[0],
+        server.ask("stand_in_settings"),
+        [round(each, 3) for each in weather],
+        [round(each, 3) for each in (*at, *turn)],
+        lights,
+        server.ask("stand_in_actors"),
+    ]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("end", ["Ctrl-C", "exception"])
+def test_all_is_as_before_where_a_run_is_cut_short(
+    tmp_path: Path, wait: Until, monkeypatch: pytest.MonkeyPatch, end: str
+) -> None:
+    """Level, settings, weather, camera, lights and actors."""
+    with StandInProcess([OWN_MAPS], "curve") as server:
+        text = SOMEBODY + textwrap.dedent(WEATHERED)
+        subprocess.run([sys.executable, "-c", text, str(server.port)], check=True)
+        before = all_of(server)
+        if end == "Ctrl-C":
+            stop = begin_slowly(server)
+            given = ("--carla-load", "--carla-view", "ego")
+            interrupted = module(server.port, tmp_path / "trace.jsonl", *given)
+            wait_for_steps(server, wait)
+            interrupted.send_signal(signal.SIGINT)
+            stop()
+            interrupted.communicate()
+            assert interrupted.returncode == 130
+        else:
+            monkeypatch.setattr(plant.CarlaPlant, "moved", broken)
+            with pytest.raises(SimulatorError, match="nothing that a run expects"):
+                run(server, carla_keep=False, carla_view="ego")
+        assert all_of(server) == before
+
+
+def broken(*_: object) -> None:
+    raise ZeroDivisionError("nothing that a run expects")
 
 
 # --- actors and traffic of others ------------------------------------------------------------

@@ -185,6 +185,25 @@ def test_who_meets_a_vehicle_under_test_has_physics(stand_in: StandInProcess) ->
     assert found == {"ego": "external", "other": "exact"}
 
 
+def test_who_meets_traffic_of_the_simulator_has_physics(stand_in: StandInProcess) -> None:
+    settings = RunSettings(expect=True, max_time=0.5)
+    found = control_of(in_carla(settings, stand_in.port, control={"other": "autopilot"}))
+    assert found == {"ego": "exact-physics", "other": "autopilot"}
+
+
+def test_who_meets_a_vehicle_of_another_client_has_physics(
+    stand_in: StandInProcess, client: Any
+) -> None:
+    world = client.get_world()
+    blueprint = world.get_blueprint_library().find("vehicle.tesla.model3")
+    blueprint.set_attribute("role_name", "ego")
+    ego = world.spawn_actor(blueprint, world.get_map().get_spawn_points()[30])
+    settings = RunSettings(expect=True, max_time=0.5)
+    found = control_of(in_carla(settings, stand_in.port, wait_for={"ego": 5.0}))
+    ego.destroy()
+    assert found == {"ego": "external", "other": "exact-physics"}
+
+
 def test_a_radar_sees_speeds(stand_in: StandInProcess, tmp_path: Path) -> None:
     file = tmp_path / "stack.json"
     file.write_text(json.dumps(RADAR), encoding="utf-8")

@@ -6,65 +6,29 @@ of its issue threads; the stand-in shows it.
 
 from __future__ import annotations
 
-import json
 import socket
-import subprocess
 import sys
-import textwrap
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from osc2tx.module_loading import scenarios_of_file
-from osc2tx_runtime import RunResult, RunSettings, run_scenario
-from osc2tx_runtime.errors import InputError, SettingsError, SimulatorError
+from osc2tx_runtime import RunSettings, run_scenario
+from osc2tx_runtime.errors import InputError, SimulatorError
 from osc2tx_runtime.simulators.carla import level
 from osc2tx_runtime.simulators.carla.client_process import ClientProcess
-from osc2tx_runtime.simulators.carla.world import OPTIONS
 
 from .conftest import OWN_MAPS
+from .contact import client_of, message_of, run
 from .runs import GENERATED, in_carla
 from .stand_in.process import StandInProcess
-
-CLIENT = """
-import os, sys, time
-import carla
-
-client = carla.Client("127.0.0.1", int(sys.argv[1]))
-client.set_timeout(20.0)
-world = client.get_world()
-"""
 
 
 @pytest.fixture
 def server() -> Iterator[StandInProcess]:
     with StandInProcess([OWN_MAPS], "highway") as process:
         yield process
-
-
-def run(settings: RunSettings, name: str = "cut_in") -> RunResult:
-    with scenarios_of_file(GENERATED / f"{name}.py", f"contact_{name}") as scenarios:
-        return run_scenario(scenarios[name], settings)
-
-
-def client_of(port: int, script: str) -> subprocess.Popen[str]:
-    """Start a client of somebody else; it says `there` once it is ready."""
-    process = subprocess.Popen(
-        [sys.executable, "-c", textwrap.dedent(CLIENT) + textwrap.dedent(script), str(port)],
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-    assert process.stdout is not None
-    assert process.stdout.readline() == "there\n"
-    return process
-
-
-def message_of(settings: RunSettings, name: str = "cut_in") -> str:
-    with pytest.raises((SimulatorError, SettingsError, InputError)) as found:
-        run(settings, name)
-    return str(found.value.message)
 
 
 # --- ports -----------------------------------------------------------------------------------
@@ -216,89 +180,21 @@ def test_windows_is_named_before_anything_else(monkeypatch: pytest.MonkeyPatch) 
         ClientProcess(5.0)
 
 
-# --- attendance --------------------------------------------------------------------------------
-
-
-def states(result: RunResult, actor: str) -> list[dict[str, float]]:
-    lines = map(json.loads, result.trace_lines)
-    return [each for each in lines if each["kind"] == "state" and each["actor"] == actor]
-
-
-def test_the_scenario_waits_for_a_first_control(server: StandInProcess) -> None:
-    """A stack that needs its time to attach finds the ego where it starts, at step 0."""
-    stack = subprocess.Popen(
-        [
-            sys.executable,
-            "-c",
-            textwrap.dedent(CLIENT) + textwrap.dedent("""
-            ego = None
-            while ego is None:
-                found = [a for a in world.get_actors() if a.attributes.get("role_name") == "ego"]
-                ego = found[0] if found else None
-            for _ in range(30):
-                world.wait_for_tick()
-            while True:
-                ego.apply_control(carla.VehicleControl(throttle=1.0))
-                world.wait_for_tick()
-            """),
-            str(server.port),
-        ]
-    )
-    try:
-        settings = in_carla(
-            RunSettings(expect=True, max_time=1.0),
-            server.port,
-            control={"ego": "external"},
-            wait_control=60.0,
-        )
-        result = run(settings)
-    finally:
-        stack.kill()
-        stack.wait()
-    first = states(result, "ego")[0]
-    assert (first["t"], first["x"]) == (0.0, pytest.approx(200.0, abs=0.5))
-    assert result.steps == 20
-
-
-def test_nobody_takes_control(server: StandInProcess) -> None:
-    settings = in_carla(
-        RunSettings(expect=True), server.port, control={"ego": "external"}, wait_control=0.2
-    )
-    assert "the external actors are not controlled within 0.2 s" in message_of(settings)
-    assert not server.ask("stand_in_synchronous")
-
-
-def test_the_camera_follows_an_actor_and_is_put_back(server: StandInProcess) -> None:
-    run(in_carla(RunSettings(max_time=1.0), server.port, carla_view="ego"))
-    placed = [
-        given
-        for name, given in server.calls()
-        if name == "set_actor_transform" or name == "apply_batch"
-    ]
-    assert placed
-    (x, y, z), _ = server.ask("stand_in_spectator")
-    assert (x, y, z) == (0.0, 0.0, 0.0)
-    said = message_of(in_carla(RunSettings(), server.port, carla_view="nobody"))
-    assert said == "--carla-view nobody: the scenario has no such actor"
-
-
-def test_options_are_read() -> None:
-    known = {each.name: each for each in OPTIONS}
-    assert known["realtime"].read(["2"]) == 2.0
-    assert known["carla-tm-port"].read(["8001"]) == 8001
-    for name, wrong in (("realtime", "0"), ("realtime", "nan"), ("carla-tm-port", "0")):
-        with pytest.raises(SettingsError, match=f"--{name} {wrong}"):
-            known[name].read([wrong])
-
-
 # --- as it was before ----------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["C16_weather", "C17_signal_cycles"])
-def test_weather_and_lights_are_as_before(name: str) -> None:
-    town = {"C16_weather": "highway", "C17_signal_cycles": "urban_crossing"}[name]
+@pytest.mark.parametrize(
+    ("name", "town", "fault"),
+    [
+        ("C16_weather", "highway", ""),
+        ("C17_signal_cycles", "urban_crossing", ""),
+        ("C17_signal_cycles", "urban_crossing", "frozen-lights"),
+    ],
+)
+def test_weather_and_lights_are_as_before(name: str, town: str, fault: str) -> None:
+    """Lights that another client had stopped stay so."""
     with (
-        StandInProcess([OWN_MAPS], town) as server,
+        StandInProcess([OWN_MAPS], town, *(["--fault", fault] if fault else [])) as server,
         scenarios_of_file(GENERATED / "capabilities" / f"{name}.py", f"contact_{name}") as found,
     ):
         before = server.ask("stand_in_surroundings")
@@ -311,54 +207,21 @@ def test_weather_and_lights_are_as_before(name: str) -> None:
     assert [frozen for _, frozen in lights] == [frozen for _, frozen in before[1]]
 
 
-# --- large levels ----------------------------------------------------------------------------
-
-
-def test_actors_that_a_large_level_does_not_stream() -> None:
-    """Without a camera or a `hero` near them they would stand still, and nobody would know why."""
-    with StandInProcess([OWN_MAPS], "highway", "--fault", "large-level") as server:
-        said = message_of(in_carla(RunSettings(), server.port))
-        assert "ego is dormant in CARLA" in said and "--carla-view ego" in said
-        assert run(in_carla(RunSettings(), server.port, carla_view="ego")).status == "success"
-
-
-# --- speeds at the start ---------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("control", ["driven", "external"])
-def test_actors_start_at_their_speed(control: str) -> None:
-    """A speed that is given once sags; given for half a second it stays.
-
-    An external actor is given it before the run, and is where it starts all the same.
-    """
-    with StandInProcess([OWN_MAPS], "highway", "--fault", "sagging") as server:
-        settings = RunSettings(expect=True, max_time=1.0)
-        found = states(run(in_carla(settings, server.port, control={"ego": control})), "ego")
-    assert (found[0]["x"], found[0]["y"]) == pytest.approx((200.0, -8.75), abs=0.01)
-    settled = [each["v"] for each in found[6:]]  # 0.3 s
-    assert settled == pytest.approx([found[0]["v"]] * len(settled), abs=0.5)
-
-
-# --- heights ---------------------------------------------------------------------------------
-
-
-def test_a_mesh_that_is_not_where_the_lanes_are() -> None:
-    """Exact actors are where the scenario says; the run says that they float."""
-    with StandInProcess([OWN_MAPS], "highway", "--fault", "sunk-mesh") as server:
-        said = run(in_carla(RunSettings(max_time=0.5), server.port)).warnings
-        driven = in_carla(RunSettings(max_time=0.5), server.port, control={"": "driven"})
-        assert not [each for each in run(driven).warnings if "ground of CARLA" in each]
-    assert "ego floats: the ground of CARLA is 0.50 m below the lane where it starts" in said, said
-
-
-def test_a_mesh_that_rises_above_the_lanes() -> None:
-    """Who falls on its feet is spawned higher, unless somebody stands there."""
-    with StandInProcess([OWN_MAPS], "highway", "--fault", "rising-mesh") as server:
-        settings = in_carla(RunSettings(max_time=0.5), server.port, control={"": "driven"})
-        assert run(settings).status == "timeout"
-        heights = [pose[0][2] for name, (_, pose, *_) in spawns(server)]
-    assert heights == pytest.approx([0.3, 0.6, 0.3, 0.6], abs=1e-3)
-
-
-def spawns(server: StandInProcess) -> list[tuple[str, list[Any]]]:
-    return [(name, given) for name, given in server.calls() if name == "spawn_actor"]
+def test_the_level_is_loaded_anew() -> None:
+    """Its weather, its lights and who is there are then those that it begins with."""
+    with StandInProcess([OWN_MAPS], "highway") as server:
+        script = """
+            world.set_weather(carla.WeatherParameters.HardRainSunset)
+            blueprint = world.get_blueprint_library().find("vehicle.audi.tt")
+            world.spawn_actor(blueprint, world.get_map().get_spawn_points()[40])
+            print("there", flush=True)
+        """
+        client_of(server.port, script).wait()
+        before = server.ask("stand_in_surroundings")[0]
+        server.calls()
+        run(in_carla(RunSettings(max_time=0.5), server.port, carla_load=False, carla_reload=True))
+        names = [name for name, _ in server.calls()]
+        assert names.count("load_new_episode") == 1
+        assert names.index("load_new_episode") < names.index("spawn_actor")
+        assert server.ask("stand_in_actors") == {}
+        assert server.ask("stand_in_surroundings")[0] == pytest.approx(before, abs=1e-3)

@@ -155,6 +155,27 @@ def test_the_ego_that_somebody_else_spawns(server: StandInProcess, beside: Any) 
     assert roles(server) == ["ego"]
 
 
+def test_two_egos_of_others(server: StandInProcess, beside: Any) -> None:
+    """Both are named; a sensor of that role name is no ego."""
+    script = """
+        blueprint = world.get_blueprint_library().find("sensor.other.imu")
+        blueprint.set_attribute("role_name", "ego")
+        one = spawn("ego", 30)
+        world.spawn_actor(blueprint, carla.Transform(), attach_to=one)
+        {more}
+        print("there", flush=True); sys.stdin.read()
+        """
+    settings = in_carla(RunSettings(expect=True, max_time=0.5), server.port, wait_for={"ego": 1.0})
+    one = beside(script.format(more=""))
+    assert one.stdout.readline() == "there\n"
+    assert run("cut_in", settings).status == "timeout"
+    assert beside('spawn("ego", 40); print("there", flush=True)').stdout.readline() == "there\n"
+    with pytest.raises(SimulatorError) as found:
+        run("cut_in", settings)
+    assert "several actors have the role_name ego: vehicle.tesla.model3" in found.value.message
+    assert found.value.message.count("vehicle.tesla.model3") == 2
+
+
 def test_an_ego_that_never_comes(server: StandInProcess) -> None:
     settings = in_carla(RunSettings(expect=True), server.port, wait_for={"ego": 0.3})
     with pytest.raises(SimulatorError, match="no actor with role_name ego came"):
@@ -253,7 +274,11 @@ def test_a_map_that_the_server_lacks_is_generated(tmp_path: Path) -> None:
     shutil.copy(OWN_MAPS / "curve.xodr", tmp_path)
     with StandInProcess([tmp_path], "curve") as bare:
         assert run("cut_in", in_carla(RunSettings(), bare.port)).status == "success"
-        ((text, *_),) = (given for name, given in bare.calls() if name == "copy_opendrive_to_file")
+        ((text, parameters),) = (
+            given for name, given in bare.calls() if name == "copy_opendrive_to_file"
+        )
+        _, _, wall_height, *_, pedestrian_navigation = parameters
+        assert wall_height == 0.0 and not pedestrian_navigation
     assert text == (OWN_MAPS / "highway.xodr").read_text(encoding="utf-8")
 
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from tests.xosc.case_texts import EGO, Case, indented, point, source
 from tests.xosc.cut_short import composed, cut
-from tests.xosc.modified import lines, phases, relative, timed
+from tests.xosc.modified import interrupted, lines, phases, relative, timed
 from tests.xosc.oncoming import oncoming
 from tests.xosc.starts import OPEN, relative_starts, starts, turned, walkers
 
@@ -254,6 +254,7 @@ FAMILIES: Mapping[str, Family] = {
     "relative": _family(relative()),
     "lines": _family(lines()),
     "phases": _family(phases()),
+    "interrupted": _family(interrupted()),
     "placed": _family(_placed()),
     "starts": _family(starts("straight", frozenset({"left_lane"}))),
     "starts_in_a_bend": _family(starts("bend", ALL_BUT_OPEN), "curve"),

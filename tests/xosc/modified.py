@@ -135,3 +135,29 @@ def lines() -> Iterator[Case]:
             f"do serial:\n    ego.drive(duration: 0.2s) with:\n{indented(EGO, 2)}"
             f"{indented(act, 1)}    {after}\n    ego.drive(duration: 1s)\n"
         )
+
+
+LONGER = {
+    "aside_and_slower": "change_lane(side: right, duration: 2s) with:\n    speed(6mps)",
+    "slower_and_aside": "change_speed(target: 19mps) with:\n    lateral(0.6m)",
+    "covering": "drive(duration: 3s) with:\n    distance(75m)",
+    "covering_less": "drive(duration: 3s) with:\n    distance(40m)",
+}
+"""Actions that are over while a modifier or the acceleration of the vehicle still goes on."""
+
+NEXT = {
+    "rate": "ego.change_acceleration(target: 1mpss, duration: 2s)",
+    "speed": "ego.change_speed(target: 15mps)",
+    "wait": "wait elapsed(1s)\nego.change_lane(side: left)",
+}
+
+
+def interrupted() -> Iterator[Case]:
+    """Yield actions that something outlasts, and what comes next."""
+    for (name, action), (after, members) in product(LONGER.items(), NEXT.items()):
+        if (name, after) == ("aside_and_slower", "rate"):
+            continue  # which begins with an acceleration that only the run knows
+        yield f"{name}_then_{after}", (
+            f"ego: vehicle\ndo serial:\n    ego.drive(duration: 0.5s) with:\n{indented(EGO, 2)}"
+            f"{indented('ego.' + action, 1)}{indented(members, 1)}"
+        )

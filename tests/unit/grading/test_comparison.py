@@ -37,16 +37,14 @@ def test_an_offset_is_a_deviation(aside: float) -> None:
     moved = recording(straight(10.0, aside=aside))
     found = compare(EMPTY, {}, recording(straight(10.0)), moved, DT)
     assert found.place == pytest.approx(aside)
-    for is_fine in (True, False):
-        assert found.beyond(EXACT, is_fine=is_fine) == ["car"] * (aside >= EXACT)
+    assert found.beyond(EXACT) == ["car"] * (aside >= EXACT)
 
 
-def test_a_step_of_delay_is_none_at_coarse_steps() -> None:
+def test_a_step_of_delay_without_a_late_event_is_a_deviation() -> None:
     """Half a metre behind, it is where the other one was one step before."""
     found = compare(EMPTY, {}, recording(straight(10.0)), recording(straight(10.0, late=DT)), DT)
     assert found.place == pytest.approx(10.0 * DT)
     assert found.speed == 0.0
-    assert not found.beyond(EXACT, is_fine=False)
     assert found.beyond(EXACT)  # no event is late, so nothing explains it
 
 
@@ -56,7 +54,7 @@ def test_another_speed_is_a_deviation_that_grows() -> None:
     assert found.speed == pytest.approx(1.0)
     assert found.actors["car"].at == pytest.approx(4.0)
     assert found.actors["car"].since == pytest.approx(1.1, abs=DT)
-    assert found.beyond(EXACT, is_fine=False) == ["car"]
+    assert found.beyond(EXACT) == ["car"]
 
 
 def test_ends_are_compared_unless_the_run_was_left() -> None:

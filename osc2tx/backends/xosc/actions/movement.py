@@ -14,7 +14,7 @@ from osc2tx.backends.xosc.actions.leaf import (
     Performance,
 )
 from osc2tx.backends.xosc.actions.position.walkers import change_pace, stand, walk_on
-from osc2tx.backends.xosc.actions.registry import action, apply_modifiers
+from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
 from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to
 from osc2tx.backends.xosc.actions.speed.speed_elements import hold_speed
 from osc2tx.backends.xosc.actions.speed.speed_modifiers import time_to_cover
@@ -80,7 +80,7 @@ def _change_speed(leaf: Leaf) -> Performance:
         walk = change_pace(leaf, target, course)
         return Performance((walk, *apply_modifiers(leaf)), "goal", course.duration)
     change = change_speed(leaf, target, profile, peak, leaf.duration)
-    return Performance((change, *apply_modifiers(leaf)), "goal")
+    return to_goal(leaf, change)
 
 
 @action("assign_speed")

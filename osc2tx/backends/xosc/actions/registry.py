@@ -15,9 +15,11 @@ from osc2tx.backends.xosc.actions.leaf import (
     Leaf,
     Modify,
     Perform,
+    Performance,
     PerformGlobal,
 )
 from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.xosc import elements as xml
 
 ACTIONS: dict[str, Perform] = {}
 GLOBAL_ACTIONS: dict[str, PerformGlobal] = {}
@@ -111,3 +113,15 @@ def apply_modifiers(leaf: Leaf) -> tuple[Change, ...]:
             changes.extend(handler(leaf, call, arguments))
             arguments.finish()
     return tuple(changes)
+
+
+def to_goal(
+    leaf: Leaf, *own: Change, reached: tuple[xml.ByEntityCondition, ...] = ()
+) -> Performance:
+    """Return an action that is over with its own changes, whatever its modifiers still change."""
+    others = apply_modifiers(leaf)
+    lengths = [change.time for change in own if change.time is not None]
+    longest = max(lengths, default=0.0)
+    is_known = len(lengths) == len(own)
+    is_shorter = is_known and any(o.time is None or o.time > longest for o in others)
+    return Performance((*own, *others), "goal", longest if is_shorter else None, reached)

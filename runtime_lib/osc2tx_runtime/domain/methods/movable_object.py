@@ -223,7 +223,7 @@ class MovableObjectMethods:
         *modifiers: SideModifier | StartModifier,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Hold the present speed, as a released slot does (§8.8.2.13)."""
+        """Hold the present speed (§8.8.2.13)."""
 
     def move(
         self,

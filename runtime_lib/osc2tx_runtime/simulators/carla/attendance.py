@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import select
+import sys
 import time
 from collections.abc import Sequence
 from dataclasses import field
@@ -48,9 +50,9 @@ class Attendance:
         """
         if self.patience is None or not actors:
             return
-        complain(f"waiting for control ({self.patience:g} s at most)")
+        complain(f"waiting for control ({self.patience:g} s at most; Enter begins at once)")
         end = time.monotonic() + self.patience
-        while not client.ask("controlled", actors):
+        while not client.ask("controlled", actors) and not _is_told_to_begin():
             if time.monotonic() > end:
                 waited = f"{self.patience:g} s"
                 raise SimulatorError(
@@ -85,3 +87,11 @@ class Attendance:
         y = pose.y - BEHIND * math.sin(pose.h)
         behind = Pose(x, y, pose.z + ABOVE, pose.h, DOWN)
         return [("place", self._camera, *transform_of(behind))]
+
+
+def _is_told_to_begin() -> bool:
+    """Return whether somebody at the terminal has pressed Enter."""
+    if not sys.stdin.isatty() or not select.select([sys.stdin], [], [], 0.0)[0]:
+        return False
+    sys.stdin.readline()
+    return True

@@ -49,6 +49,8 @@ def map_of(client: ClientProcess, request: WorldRequest) -> RoadMap:
         return with_spawn_points(read_level(level), level)
     difference = None if wanted is None else difference_of(wanted, theirs)
     if wanted is None or difference is None:
+        if request.options.get("carla_reload", False):
+            _reload(client, theirs.name, _patience(request))
         return with_spawn_points(wanted or theirs, level)
     if not load:
         raise SimulatorError(
@@ -79,6 +81,13 @@ def _loaded(
             text = request.find_map().read_text(encoding="utf-8")
             client.ask("generate", text, patience, keep, patience=2.0 * patience)
     return _level(client, patience)
+
+
+def _reload(client: ClientProcess, name: str, patience: float) -> None:
+    """Have the server load its level anew: lights, weather and actors as it begins with."""
+    complain(f"CARLA: loading {name} anew")
+    with _in_time(f"loaded {name}", patience):
+        client.ask("reload", patience, patience=2.0 * patience)
 
 
 def _patience(request: WorldRequest) -> float:

@@ -77,6 +77,7 @@ OPTIONS: tuple[Option, ...] = (
     Option("carla", "HOST:PORT", "where the server is", parse_address, default="localhost:2000"),
     Option.flag("carla-load", "load the scenario's map if the server has another one"),
     Option.flag("carla-keep", "leave the map there that --carla-load has loaded"),
+    Option.flag("carla-reload", "load the level anew, if it is the right one already"),
     Option(
         "carla-timeout",
         "SECONDS",

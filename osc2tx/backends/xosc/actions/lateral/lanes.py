@@ -8,7 +8,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.lateral.slow_shifts import note_slow
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.position.other_actors import lane_of
-from osc2tx.backends.xosc.actions.registry import action, apply_modifiers
+from osc2tx.backends.xosc.actions.registry import action, to_goal
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.facts.actors import Linear, Profile, apart, course_of_shift, fastest
@@ -47,7 +47,7 @@ def _change_lane(leaf: Leaf) -> Performance:
         own_lanes=None if reference is None else lanes_to(leaf, reference, lanes),
         is_absolute=target is not None,
     )
-    return Performance((change, *apply_modifiers(leaf)), "goal")
+    return to_goal(leaf, change)
 
 
 def lanes_to_segment(leaf: Leaf, target: MapSegment) -> int:

@@ -10,7 +10,7 @@ from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed.gap_elements import Gap, reach
 from osc2tx.backends.xosc.actions.speed.speed_changes import may_jump
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import known
 from osc2tx.backends.xosc.values.constants import Member, Named
 
@@ -64,6 +64,12 @@ def _to(
     own_lanes: int | None,
 ) -> Change:
     """Return the change to a lane beside that of the actor or of a reference."""
+    if any(other.name == "lateral" and other.at != "start" for other in leaf.node.modifiers):
+        instead = "the action `change_lane` with its `offset` is exact"
+        remedy = Remedy(instead=instead, asks=("LaneChangeActionDynamics",))
+        raise Inexpressible(
+            "a lane change and an offset are two lateral actions", call.span, remedy
+        )
     profile, peak = _shape(leaf, arguments)
     in_time = call.at == "end" and profile != "asap" and peak is None
     return lane_change(

@@ -19,7 +19,7 @@ from osc2tx.backends.xosc.actions.position.points_and_lines import (
 )
 from osc2tx.backends.xosc.actions.position.routes import assign_route, lane_position
 from osc2tx.backends.xosc.actions.position.xml_positions import at_place
-from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, modifier
+from osc2tx.backends.xosc.actions.registry import action, modifier, to_goal
 from osc2tx.backends.xosc.actions.speed.speed_changes import may_jump
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
@@ -47,7 +47,7 @@ def _on_line(leaf: Leaf) -> Performance:
     if leaf.duration is not None:
         raise Inexpressible("a duration beside that of the way", leaf.node.span)
     changes = along_line(leaf, line, offsets, is_exact=may_jump(leaf))
-    return Performance((*changes, *apply_modifiers(leaf)), "goal")
+    return to_goal(leaf, *changes)
 
 
 # What says in which lane of a route, or where in it.

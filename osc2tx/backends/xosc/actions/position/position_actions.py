@@ -14,7 +14,7 @@ from osc2tx.backends.xosc.actions.position.xml_positions import (
     at_place,
     world_position,
 )
-from osc2tx.backends.xosc.actions.registry import action, apply_modifiers
+from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
 from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
 from osc2tx.backends.xosc.entities.cast import VEHICLE, CastMember
 from osc2tx.backends.xosc.facts.actors import CRUISE
@@ -185,7 +185,7 @@ def _acquire(leaf: Leaf, target: XmlPosition) -> Performance:
     change = Change(LATERAL, (xml.PrivateAction(acquire),), None, replace(state, lane=None), after)
     there = at_place(leaf.ctx, target.element, target.lane, leaf.construct, leaf.node.span)
     reached = tuple(map(leaf.on_me, there))
-    return Performance((change, *apply_modifiers(leaf)), "goal", reached=reached)
+    return to_goal(leaf, change, reached=reached)
 
 
 def _straight_to(leaf: Leaf, target: XmlPosition) -> Performance:

@@ -8,9 +8,9 @@ from osc2tx.backends.xosc.actions.position.points_and_lines import xml_position
 from osc2tx.backends.xosc.actions.position.xml_positions import at_place
 from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed.gap_elements import Gap, hold, missing_at_start
-from osc2tx.backends.xosc.actions.speed.speed_changes import PROFILE_ACTION, through_points
+from osc2tx.backends.xosc.actions.speed.speed_changes import through_points
 from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
-from osc2tx.backends.xosc.actions.speed.speed_notes import NEAR, with_profiles
+from osc2tx.backends.xosc.actions.speed.speed_notes import NEAR, PROFILE_ACTION, with_profiles
 from osc2tx.backends.xosc.actions.speed.steady_speeds import steady_speed
 from osc2tx.backends.xosc.facts.actors import Linear, way_between
 from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy

@@ -17,10 +17,10 @@ from osc2tx.backends.xosc.actions.leaf import (
     Performance,
     Uneven,
 )
-from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, modifier
-from osc2tx.backends.xosc.actions.speed.speed_changes import PROFILE_ACTION, through_points
+from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, modifier, to_goal
+from osc2tx.backends.xosc.actions.speed.speed_changes import through_points
 from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
-from osc2tx.backends.xosc.actions.speed.speed_notes import with_profiles
+from osc2tx.backends.xosc.actions.speed.speed_notes import PROFILE_ACTION, with_profiles
 from osc2tx.backends.xosc.actions.speed.user_shapes import acceleration_by, user_shape
 from osc2tx.backends.xosc.facts.actors import (
     TOP_SPEED,
@@ -72,7 +72,7 @@ def _change_acceleration(leaf: Leaf) -> Performance:
     duration = leaf.duration if peak is None and profile != "asap" else None
     course = course_of_acceleration(leaf.state.rate, target, profile, peak, duration, leaf.limits)
     change = _ramp(leaf, course, course.duration)
-    return Performance((change, *apply_modifiers(leaf)), "goal")
+    return to_goal(leaf, change)
 
 
 @modifier("acceleration")

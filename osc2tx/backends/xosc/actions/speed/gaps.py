@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Arguments, Leaf, Performance
-from osc2tx.backends.xosc.actions.registry import action, apply_modifiers
+from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
 from osc2tx.backends.xosc.actions.speed.gap_elements import ACROSS, ALONG, Gap, reach
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.flattening.tree_queries import predecessor
@@ -30,7 +30,7 @@ def _change_gap(leaf: Leaf) -> Performance:
             "an action on a distance takes as long as the tool wants",
             "the distance is reached, but not at that time",
         )
-    return Performance((change, *apply_modifiers(leaf)), "goal")
+    return to_goal(leaf, change)
 
 
 @action("keep_space_gap", "keep_time_gap", "keep_space_headway", "keep_time_headway")

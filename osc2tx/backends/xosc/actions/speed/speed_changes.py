@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
 from osc2tx.backends.xosc.actions.speed.speed_elements import longitudinal, speed_action
 from osc2tx.backends.xosc.actions.speed.speed_notes import (
+    PROFILE_ACTION,
     note_acceleration,
     note_even_change,
     refuse_contradiction,
@@ -37,8 +38,6 @@ from osc2tx_shared.classes import replace
 POINTS = 12
 """Points of a smooth course; the way it covers is within 2 cm for changes of 30 m/s."""
 
-
-PROFILE_ACTION = "SpeedProfileAction"
 RATE = "SpeedActionDynamics/rate"
 
 

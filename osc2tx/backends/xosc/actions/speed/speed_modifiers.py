@@ -259,7 +259,10 @@ def _distance(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[
     end = 2.0 * distance / time - start.low
     if end < 0.0:
         raise Inexpressible("it would stop before its time is over", call.span)
-    after = replace(leaf.state, speed=known(end)).finished(LONGITUDINAL)
+    rate = (end - start.low) / time
+    leaf.ctx.demand(leaf.member.name, Demand(0.0, max(rate, 0.0), max(-rate, 0.0)))
+    left = rate if end > 0.0 else 0.0
+    after = replace(leaf.state.finished(LONGITUDINAL), speed=known(end), rate=left)
     during = replace(after, speed=start.over(known(end)))
     action = speed_action(end, "linear", "time", time)
     return (Change(LONGITUDINAL, (action,), time, during, after),)

@@ -16,6 +16,8 @@ from osc2tx.backends.xosc.facts.actors import (
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import STEADY, known
 
+PROFILE_ACTION = "SpeedProfileAction"
+
 SINCE_PROFILES = Remedy(version="1.2")
 
 STEP = 0.05
@@ -34,7 +36,8 @@ def note_acceleration(leaf: Leaf, target: float, profile: str, peak: float | Non
     """Report that a change takes over an acceleration: that of the XML begins without any."""
     rate, speed, limits = leaf.state.rate, leaf.state.speed, leaf.limits
     rates = leaf.state.pending if rate is None else known(rate)
-    if rates == STEADY or leaf.ctx.profile.carries_acceleration:
+    has_profiles = leaf.ctx.can(PROFILE_ACTION, "1.2")
+    if rates == STEADY or (leaf.ctx.profile.carries_acceleration and has_profiles):
         return
     if speed is None:
         time = max(map(abs, rates)) / limits.jerk
@@ -47,7 +50,7 @@ def note_acceleration(leaf: Leaf, target: float, profile: str, peak: float | Non
         leaf.node.span,
         "it takes over the acceleration of the change before; one of the XML begins without any",
         bound,
-        Remedy(profile="esmini"),
+        Remedy(version=None if has_profiles else "1.2", profile="esmini"),
     )
 
 

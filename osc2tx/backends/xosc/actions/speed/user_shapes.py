@@ -11,7 +11,8 @@ from math import inf
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
-from osc2tx.backends.xosc.actions.speed.speed_changes import PROFILE_ACTION, through_points
+from osc2tx.backends.xosc.actions.speed.speed_changes import through_points
+from osc2tx.backends.xosc.actions.speed.speed_notes import PROFILE_ACTION
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
 from osc2tx_shared.classes import dataclass, replace

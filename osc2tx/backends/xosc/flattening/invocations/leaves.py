@@ -55,6 +55,8 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
         except ArithmeticError as error:
             raise Inexpressible("its values are no movement: they divide by zero") from error
         leaf.arguments.finish()
+    if performance.lasts is not None:
+        start = builder.latched(start, builder.name_of(node))
     leaf.demand_of(performance.changes)
     actions = tuple(action for change in performance.changes for action in change.actions)
     goal = start

@@ -54,12 +54,10 @@ class ModifiableAction(ModifiedMotion):
     `drive() with: speed(...)` and `change_lane(...)` run side by side.
 
     Attributes:
-        commands_speed: Whether it has a command of its own where it controls the speed.
         stands: Whether it goes nowhere, so that all its modifiers are about where it is.
         own: Slots that the action controls itself.
     """
 
-    commands_speed: ClassVar[bool] = True
     stands: ClassVar[bool] = False
 
     def __init__(
@@ -198,9 +196,8 @@ class ModifiableAction(ModifiedMotion):
 
     @property
     def _cares_for_others(self) -> bool:
-        """Whether it holds its speed with care, having no command of its own."""
-        commands = LONGITUDINAL in self.own and self.commands_speed
-        return LONGITUDINAL in self.slots and self._careful() and not commands
+        """Whether it has no command for its speed, but care."""
+        return LONGITUDINAL in self.slots and LONGITUDINAL not in self.own and self._careful()
 
     def _careful(self) -> bool:
         avoid = one_of_kind(self.modifiers, AvoidCollisions)

@@ -6,7 +6,10 @@ from typing import TYPE_CHECKING, ClassVar, Unpack
 
 from osc2tx_runtime.domain.modifiers import Modifier, PhysicalMovement, Value, value_of
 from osc2tx_runtime.domain.modifiers.groups import PLACES, SIDE_FREE
-from osc2tx_runtime.domain.planning.longitudinal.longitudinal_planning import stop_command
+from osc2tx_runtime.domain.planning.longitudinal.longitudinal_planning import (
+    hold_command,
+    stop_command,
+)
 from osc2tx_runtime.domain.planning.motion_action import Assignment, Refused
 from osc2tx_runtime.language.actions.action import ActionOptions
 from osc2tx_runtime.language.actions.registry import LATERAL, LONGITUDINAL, action
@@ -80,10 +83,13 @@ class ChangeSpeed(RatedChange):
 
 @action("movable_object", "keep_speed", slots=(LONGITUDINAL,), ends="open")
 class KeepSpeed(ModifiableAction):
-    """Hold the present speed, as a released slot does."""
+    """Hold the present speed."""
 
-    commands_speed = False
     accepts: ClassVar[tuple[type, ...]] = SIDE_FREE
+
+    def on_start(self) -> None:
+        """Commands it."""
+        self.command(LONGITUDINAL, hold_command(self))
 
 
 @action("movable_object", "assign_speed", ends="at_once", slots=(LONGITUDINAL,))

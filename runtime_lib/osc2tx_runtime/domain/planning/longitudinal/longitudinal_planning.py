@@ -11,6 +11,7 @@ from osc2tx_runtime.domain.modifiers import (
     ChangeSpeed,
     Distance,
     KeepPosition,
+    KeepSpeed,
     Position,
     Speed,
 )
@@ -117,6 +118,11 @@ def stop_command(action: ModifiedMotion, *, at_once: bool = False) -> Command:
     return Standstill()
 
 
+def hold_command(action: ModifiedMotion) -> SpeedChange:
+    """The command to hold the present speed."""
+    return SpeedChange(action.here.v, "constant", None, 0.0)
+
+
 def _says_how(action: ModifiedMotion) -> bool:
     """Whether a speed comes with its course, or holds from the start on."""
     return any(each.shaped or each.at == "all" for each in speeds_of(action))
@@ -147,7 +153,7 @@ def _speed(action: ModifiedMotion) -> Command | None:
             return _acceleration(action, rate, start)
         if start is not None:
             _assign(action, start)
-        return None
+        return None if one_of_kind(action.modifiers, KeepSpeed) is None else hold_command(action)
     speed = lasting[0]
     other = 0.0
     if speed.reference is not None:

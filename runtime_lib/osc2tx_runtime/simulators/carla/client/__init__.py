@@ -1,10 +1,10 @@
 """The process that holds CARLA's client library.
 
 Requests come as lines of JSON, `[number, name, arguments]`, and are answered by `[number, kind,
-value]`: a kind is a value, an error or a bug. Names are those of the methods of `session` (level,
-time), `actors`, `surroundings`, `traffic_manager` and `inspection`. The end of the input ends the
-session: all that it changed is as before. `journal` has the list, also for a next session where
-this one is killed.
+value]`: a kind is a value, an error or a bug. Names are those of the methods of `session`
+(connection, time), `levels`, `actors`, `surroundings`, `traffic_manager` and `inspection`. The end
+of the input ends the session: all that it changed is as before. `journal` has the list, also for a
+next session where this one is killed.
 """
 
 from __future__ import annotations

@@ -29,6 +29,7 @@ def main(folder: str) -> int:
     try:
         from .actors import Actors
         from .inspection import Inspection
+        from .levels import Levels
         from .session import Session
         from .surroundings import Surroundings
         from .traffic_manager import TrafficManagers
@@ -39,7 +40,8 @@ def main(folder: str) -> int:
     session = Session(folder)
     actors = Actors(session)
     surroundings, managers = Surroundings(session, actors), TrafficManagers(session)
-    holders = (session, actors, surroundings, managers, Inspection(session))
+    levels, inspection = Levels(session), Inspection(session)
+    holders = (session, levels, actors, surroundings, managers, inspection)
     requests = {name: call for each in holders for name, call in requests_of(each)}
     try:
         for line in sys.stdin:

@@ -6,7 +6,6 @@ import math
 import socket
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from typing import Any
 
 import carla
@@ -25,7 +24,7 @@ TICKS = 2.0  # s without a step after which no client counts as making them
 
 
 class Session:
-    """Connection, level and time; its methods are requests, with values that JSON knows.
+    """Connection and time; its methods are requests, with values that JSON knows.
 
     Args:
         folder: Where the journals are; none if empty.
@@ -59,7 +58,7 @@ class Session:
         self._frame: int | None = None
         self.watched: list[int] = []
 
-    # --- connection and map -------------------------------------------------------------------
+    # --- connection -------------------------------------------------------------------
 
     def connect(self, host: str, port: int, timeout: float) -> Mapping[str, Any]:
         """Return the findings of a first contact, up to the first missing part.
@@ -122,92 +121,11 @@ class Session:
         settings.synchronous_mode, settings.fixed_delta_seconds = False, None
         self.world.apply_settings(settings)
 
-    def level(self, patience: float = 0.0) -> Mapping[str, Any]:
-        """Return name, OpenDRIVE text and spawn points of the level.
-
-        The text of a large one takes a time (s), too.
-        """
-        with self._patient(patience):
-            found = self.world.get_map()
-        return {
-            "name": found.name.rpartition("/")[2],
-            "text": found.to_opendrive(),
-            "spawn_points": [written(point) for point in found.get_spawn_points()],
-        }
-
-    def maps(self) -> Sequence[str]:
-        """Return the names of the maps that the server has."""
-        return [each.rpartition("/")[2] for each in self.client.get_available_maps()]
-
-    def load(self, name: str, patience: float, keep: bool = False) -> None:
-        """Load a map of the server, which may take a time (s).
-
-        The level before is loaded again in the end, unless the new one is to be kept.
-        """
-        self._leave(patience, keep)
-        self._load(name, patience)
-
-    def generate(self, text: str, patience: float, keep: bool = False) -> None:
-        """Make a level from OpenDRIVE text, without walls beside the road; see `load`.
-
-        A mesh for pedestrians is left out: it takes long, and walkers are led without it.
-        """
-        self._leave(patience, keep)
-        self._generate(text, patience)
-
-    def _load(self, name: str, patience: float) -> None:
-        with self._patient(patience):
-            self._enter(self.client.load_world(name))
-
-    def _generate(self, text: str, patience: float) -> None:
-        parameters = carla.OpendriveGenerationParameters()
-        parameters.wall_height = 0.0
-        parameters.enable_pedestrian_navigation = False
-        with self._patient(patience):
-            self._enter(self.client.generate_opendrive_world(text, parameters))
-
-    def _leave(self, patience: float, keep: bool) -> None:
-        """Note what goes with the level: a new one begins with settings and weather of its own."""
-        self._note_settings()
-        if keep or "level" in self.journal.changes:
-            return
-        camera = self.world.get_spectator().get_transform()
-        self.journal.note("camera", written(camera))
-        self.journal.note("weather", fields_of(self.world.get_weather()))
-        name = self.world.get_map().name.rpartition("/")[2]
-        text = "" if name in self.maps() else self.world.get_map().to_opendrive()
-        self.journal.note("level", [name, text, patience])
-        self.patience = patience
-
-    def come_back(self, name: str, text: str, patience: float) -> None:
-        """Load the level before: by its name, or made anew from its text if the server lacks it.
-
-        A server that waits for steps would not come to do so.
-        """
-        self.free_time()
-        if text:
-            self._generate(text, patience)
-        else:
-            self._load(name, patience)
-
-    def _enter(self, world: Any) -> None:
-        self.world = world
-        self.journal.enter(world.id)
-
-    @contextmanager
-    def _patient(self, seconds: float) -> Iterator[None]:
-        """Give calls more time: the library retries for as long as one call may take."""
-        self.client.set_timeout(max(seconds, self.timeout))
-        try:
-            yield
-        finally:
-            self.client.set_timeout(self.timeout)
-
     # --- time ---------------------------------------------------------------------------------
 
     def own_time(self, dt: float) -> None:
         """Take over the time: steps of a length (s), made by us."""
-        self._note_settings()
+        note_settings(self)
         settings = self.world.get_settings()
         settings.synchronous_mode, settings.fixed_delta_seconds = True, dt
         settings.substepping = True
@@ -215,11 +133,6 @@ class Session:
         settings.max_substep_delta_time = max(SUBSTEP, dt / settings.max_substeps)
         self.ticks = True
         self.world.apply_settings(settings)
-
-    def _note_settings(self) -> None:
-        """Note the settings before their first change."""
-        if "settings" not in self.journal.changes:
-            self.journal.note("settings", fields_of(self.world.get_settings()))
 
     def step(self, commands: Sequence[Sequence[Any]]) -> Mapping[str, Any]:
         """Execute commands, make a step, and return the new state."""
@@ -321,16 +234,17 @@ def _is_over(step: Callable[[], object]) -> bool:
     return True
 
 
+def note_settings(session: Session) -> None:
+    """Note the settings before their first change."""
+    if "settings" not in session.journal.changes:
+        session.journal.note("settings", fields_of(session.world.get_settings()))
+
+
 @undoes("settings")
 def _restore_settings(session: Session, values: Sequence[Any]) -> None:
     settings = session.world.get_settings()
     set_fields(settings, values[0])
     session.world.apply_settings(settings)
-
-
-@undoes("level")
-def _restore_level(session: Session, values: Sequence[Any]) -> None:
-    session.come_back(*values[0])
 
 
 def listens(host: str, port: int) -> bool:
