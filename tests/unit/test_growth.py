@@ -5,20 +5,38 @@ import math
 import pytest
 
 from benchmarks.growth import SHAPES, compile_shape
+from osc2tx_runtime.language.tree.invocation import unique_name
 from tests.work import calls
 
 INHERITED = "generations"  # scenarios have all that they inherit: n * n / 2 members together
 
 
-def exponent(name: str, size: int) -> float:
-    compile_shape(name, 3)  # what is loaded once does not count
-    small, large = (calls(lambda n=n: compile_shape(name, n)) for n in (size, 2 * size))
-    return math.log2(large / small)
+BUILT = ("choices", "convoy", "misspelt", "reactions", "sequence", "signals", "tower", "wide")
+
+
+def exponent(name: str, size: int, *, build: bool = False) -> float:
+    def work(number: int) -> int:
+        return calls(lambda: compile_shape(name, number, build=build))
+
+    compile_shape(name, 3, build=build)  # what is loaded once does not count
+    return math.log2(work(2 * size) / work(size))
 
 
 @pytest.mark.parametrize("name", sorted(SHAPES.keys() - {INHERITED}))
 def test_growth_is_linear(name: str) -> None:
     assert exponent(name, 2 * SHAPES[name][1]) < 1.2
+
+
+@pytest.mark.parametrize("name", BUILT)
+def test_growth_of_builds_is_linear(name: str) -> None:
+    """Modules and documents are made, and played to be graded."""
+    assert exponent(name, 2 * SHAPES[name][1], build=True) < 1.2
+
+
+def test_a_unique_name_has_the_next_number() -> None:
+    taken = dict.fromkeys(["drive", *(f"drive_{number}" for number in range(2, 1000))])
+    assert unique_name("drive", taken) == "drive_1000"
+    assert unique_name("brake", taken) == "brake"
 
 
 def test_each_inherited_member_takes_little_work() -> None:
