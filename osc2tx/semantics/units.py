@@ -49,8 +49,12 @@ _BASES = {base: f"si_{base}" for base in SI_BASES}
 
 
 def to_si(value: float, unit: UnitSymbol) -> float:
-    """Return a value of a unit in SI base units: `value * factor + offset`."""
-    if unit.origin != "user" or not math.isfinite(value):
+    """Return a value of a unit in SI base units: `value * factor + offset`.
+
+    pint takes no unit whose declaration is an error (OSC516), and no value that is not finite.
+    """
+    is_sound = math.isfinite(value) and is_measurable(unit.factor, unit.offset)
+    if unit.origin != "user" or not is_sound:
         return value * unit.factor + unit.offset
     return to_si_with_pint(value, unit)
 
