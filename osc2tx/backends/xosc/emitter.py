@@ -79,27 +79,14 @@ def emit(
 
 
 def _infixes(scenarios: Sequence[ir.Scenario], stem: str) -> list[str]:
-    """Return what tells the documents of several scenarios of a file apart, even without case.
+    """Return what stands between the stem of the file and the suffix in the names of documents.
 
-    One of them has the name of the file alone, and keeps it when others come: the one called as
-    the file is, else `top` or `main`, else the first one.
+    It depends on the names of the file and of the scenario alone, so that no other scenario of the
+    file renames a document. A scenario called as its file is not named twice. File systems may fold
+    case: names that differ in nothing else are numbered.
     """
-    ranks = [_rank(scenario.name, stem) for scenario in scenarios]
-    alone = ranks.index(min(ranks)) if ranks else 0
     names = Names(folds_case=True)
-    return [
-        "" if number == alone else f".{names.new(scenario.name)}"
-        for number, scenario in enumerate(scenarios)
-    ]
-
-
-def _rank(name: str, stem: str) -> int:
-    """Return how far a scenario is from being the one that its file is about."""
-    if name == stem:
-        return 0
-    if stem.endswith(f"_{name}"):
-        return 1
-    return 2 if name in ("top", "main") else 3
+    return ["" if each.name == stem else f".{names.new(each.name)}" for each in scenarios]
 
 
 class _Emission:

@@ -71,7 +71,7 @@ def test_imports_of_the_revision_count_for_it(project: Project) -> None:
     assert compared(project).differences == ()
     write(project.sources / "lib.osc", "scenario\n")
     paths = [d.path for d in compared(project).differences]
-    assert paths == [f"sub/b_c.{suffix}" for suffix in ("py", "xosc")]
+    assert paths == [f"sub/b_c.{suffix}" for suffix in ("py", "top.xosc")]
 
 
 def test_a_source_with_errors_then_is_told(project: Project) -> None:
@@ -90,7 +90,7 @@ def test_a_single_file_and_a_relative_path(
     project.drive("old.osc", speed=31)
     monkeypatch.chdir(project.sources)
     found = compared(project, Path("a.osc"))
-    assert [d.path for d in found.differences] == ["a.py", "a.xosc"]
+    assert [d.path for d in found.differences] == ["a.py", "a.top.xosc"]
     assert len(compared(project, Path(".")).differences) == 4
 
 

@@ -22,7 +22,7 @@ def test_build_check_lists_what_would_change(shell: Shell) -> None:
     shell.drive("in/a.osc")
     ended = shell("build", "in", "-o", "out", "--check")
     assert ended.code == 1
-    assert ended.err == "out/a.py: is missing\nout/a.xosc: is missing\n"
+    assert ended.err == "out/a.py: is missing\nout/a.top.xosc: is missing\n"
     shell("build", "in", "-o", "out")
     assert shell("build", "in", "-o", "out", "--check").code == 0
     (shell.folder / "out/a.py").write_text("edited")

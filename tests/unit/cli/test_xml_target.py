@@ -87,9 +87,9 @@ def test_by_default_there_is_xml_where_it_is_exact(shell: Shell) -> None:
     ]
     assert [name for name in made(shell) if ".xosc" in name] == [
         "a.xosc",
-        "b.xosc.report.json",
+        "b.computed.xosc.report.json",
     ]
-    assert report(shell, "b")["written"] is False
+    assert report(shell, "b.computed")["written"] is False
 
 
 def test_the_summary_is_remembered(shell: Shell) -> None:
@@ -109,7 +109,7 @@ def test_where_xml_is_asked_for_its_lack_is_an_error(shell: Shell) -> None:
     assert lines[0].startswith("a.osc: a: OpenSCENARIO XML 1.3: ") and "exact" in lines[0]
     assert lines[1].startswith("b.osc: computed: no OpenSCENARIO XML 1.3: ")
     assert "1 inexpressible" in lines[1]
-    assert made(shell) == ["a.xosc", "b.xosc.report.json"]
+    assert made(shell) == ["a.xosc", "b.computed.xosc.report.json"]
 
 
 def test_only_modules(shell: Shell) -> None:
@@ -124,10 +124,10 @@ def test_approximations_have_to_be_accepted(shell: Shell) -> None:
     refused = shell(*asked)
     assert refused.code == 3
     assert "error[OSC515]" in refused.err and "`--allow-approx` accepts this" in refused.err
-    assert "a.xosc" not in made(shell)
+    assert "a.nearly.xosc" not in made(shell)
     assert shell(*asked, "--allow-approx").code == 0
-    assert 'revMinor="0"' in (shell.folder / "out/a.xosc").read_text()
-    losses = report(shell, "a")["losses"]
+    assert 'revMinor="0"' in (shell.folder / "out/a.nearly.xosc").read_text()
+    losses = report(shell, "a.nearly")["losses"]
     assert [loss["grade"] for loss in losses] == ["approximated"]
 
 
@@ -144,19 +144,19 @@ def test_settings(shell: Shell) -> None:
     shell.write("in/a.osc", HEAD + DRIVE.format(name="a"))
     shell.write("in/b.osc", HEAD + DRIVE.format(name="b"))
     assert shell("build", "in", "-o", "out").code == 0
-    assert "b.xosc" not in made(shell)
+    assert "b.computed.xosc" not in made(shell)
     assert version(shell, "a") == "1.1"
 
 
 def test_signals_of_a_run_are_those_of_the_document(shell: Shell) -> None:
     shell.write("in/a.osc", HEAD + OUTSIDE)
     shell("build", "in", "-o", "out")
-    assert "signal_go" not in (shell.folder / "out/a.xosc").read_text()
+    assert "signal_go" not in (shell.folder / "out/a.outside.xosc").read_text()
     shell.write("in/osc2tx.toml", '[scenarios.a.run]\nsignal = ["go@1500ms"]\n')
     shell("build", "in", "-o", "out")
-    assert 'value="1.5"' in (shell.folder / "out/a.xosc").read_text()
+    assert 'value="1.5"' in (shell.folder / "out/a.outside.xosc").read_text()
     shell("build", "in", "-o", "out", "--signal", "go@2s")
-    assert 'value="1.5"' not in (shell.folder / "out/a.xosc").read_text()
+    assert 'value="1.5"' not in (shell.folder / "out/a.outside.xosc").read_text()
 
 
 @pytest.mark.parametrize("option", [("--signal", "go"), ("--spawn", "ego=1"), ("--signal", "@1s")])
@@ -191,10 +191,10 @@ def test_several_scenarios_have_a_document_each(shell: Shell) -> None:
     )
     shell("build", "in", "-o", "out", "--target", "xosc")
     assert [name for name in made(shell) if name.endswith(".xosc")] == [
-        "two_lanes.Left.xosc",
+        "two_lanes.Left_2.xosc",
+        "two_lanes.left.xosc",
         "two_lanes.logical.params.xosc",
         "two_lanes.logical.xosc",
-        "two_lanes.xosc",
     ]
     text = (shell.folder / "out/two_lanes.logical.params.xosc").read_text()
     assert '<ScenarioFile filepath="two_lanes.logical.xosc"/>' in text
@@ -214,7 +214,7 @@ def test_a_document_that_cannot_be_made_any_more_is_removed(shell: Shell) -> Non
     assert "out/a.xosc: is orphaned: a.osc makes no such file\n" in ended.err
     ended = shell("build", "in", "-o", "out")
     assert "1 removed" in ended.out
-    assert "a.xosc" not in made(shell) and "a.xosc.report.json" in made(shell)
+    assert "a.xosc" not in made(shell) and "a.computed.xosc.report.json" in made(shell)
 
 
 def test_files_that_nobody_asked_for_are_no_orphans(shell: Shell) -> None:
@@ -277,22 +277,22 @@ def test_what_only_a_dialect_has_is_refused(shell: Shell) -> None:
 
 
 @pytest.mark.parametrize(
-    ("scenarios", "alone"),
+    ("scenarios", "names"),
     [
-        (("left",), "left"),
-        (("left", "right"), "left"),
-        (("right", "left", "lanes"), "lanes"),
-        (("right", "two_lanes", "lanes"), "two_lanes"),
-        (("left", "top"), "top"),
+        (("left",), {"two_lanes.left"}),
+        (("left", "right"), {"two_lanes.left", "two_lanes.right"}),
+        (("right", "left"), {"two_lanes.left", "two_lanes.right"}),
+        (("left", "two_lanes"), {"two_lanes.left", "two_lanes"}),
+        (("top", "left"), {"two_lanes.left", "two_lanes.top"}),
+        (("left", "Left"), {"two_lanes.left", "two_lanes.Left_2"}),
     ],
 )
-def test_one_scenario_has_the_name_of_the_file(
-    shell: Shell, scenarios: tuple[str, ...], alone: str
+def test_documents_are_named_by_file_and_scenario(
+    shell: Shell, scenarios: tuple[str, ...], names: set[str]
 ) -> None:
-    """So a scenario that comes below it renames no document."""
+    """So another scenario of the file renames no document."""
     shell.write("in/two-lanes.osc", HEAD + "\n".join(DRIVE.format(name=n) for n in scenarios))
     shell("build", "in", "-o", "out", "--target", "xosc")
-    others = {f"two_lanes.{name}.xosc" for name in scenarios if name != alone}
-    assert {name for name in made(shell) if name.endswith(".xosc")} == {"two_lanes.xosc", *others}
-    text = (shell.folder / "out/two_lanes.xosc").read_text()
-    assert f'description="{alone}"' in text
+    assert {name.removesuffix(".xosc") for name in made(shell) if name.endswith(".xosc")} == names
+    text = (shell.folder / "out/two_lanes.left.xosc").read_text()
+    assert 'description="left"' in text
