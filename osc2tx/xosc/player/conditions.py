@@ -144,7 +144,8 @@ class Conditions:
         for index in (*range(start, len(conditions)), *range(start)):
             if not self.test(conditions[index].inner):
                 self.last_false[id(group)] = index
-                return conditions[index]
+                found: Element = conditions[index]
+                return found
         return None
 
     def _may_wait(self, trigger: Element, groups: Sequence[Element]) -> bool:

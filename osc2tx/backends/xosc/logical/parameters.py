@@ -175,7 +175,32 @@ def open_parameters(scenario: ir.Scenario, module: ir.Module) -> tuple[OpenParam
         found.update((side.key, side) for side in _sides(scope, names))
         if module.one_of == "seeded":
             found.update((branch.key, branch) for branch in _branches(scope, names))
-    return tuple(found.values())
+    return _with_known_bounds(scenario, module, tuple(found.values()))
+
+
+def _with_known_bounds(
+    scenario: ir.Scenario, module: ir.Module, parameters: tuple[OpenParameter, ...]
+) -> tuple[OpenParameter, ...]:
+    """Leave out those whose bounds are only known during the run; it is reported where one is read.
+
+    Args:
+        scenario: The scenario.
+        module: Where it stands.
+        parameters: Those from which the bounds of others are computed come first.
+    """
+    if not any(parameter.is_dependent for parameter in parameters):
+        return parameters
+    point: dict[str, Constant] = {}
+    kept = []
+    for parameter in parameters:
+        scopes = open_scopes(scenario, module, point).all()
+        values = next(scope.values for scope in scopes if scope.path == parameter.path)
+        try:
+            point[parameter.key] = parameter.at(0.0, values)
+        except Inexpressible:
+            continue
+        kept.append(parameter)
+    return tuple(kept)
 
 
 def _in_order(scenario: ir.Scenario) -> list[ir.Parameter]:
