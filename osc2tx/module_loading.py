@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 import importlib.util
 import sys
-import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -14,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from osc2tx.support.paths import COVERAGE_MODEL, SOURCE_MAP, real_path
 from osc2tx_runtime import Scenario, ScenarioError
+from osc2tx_shared.own_folders import RUN, own_folder
 
 if TYPE_CHECKING:
     from osc2tx.backends.py_trees.emitter import GeneratedModule
@@ -33,7 +33,7 @@ def scenarios_of_module(
         ScenarioError: A value of a type cannot be computed.
     """
     files, main = module_files(module, siblings)
-    with tempfile.TemporaryDirectory(prefix="osc2tx-run-") as folder:
+    with own_folder(RUN) as folder:
         for name, text in files.items():
             Path(folder, name).parent.mkdir(parents=True, exist_ok=True)
             Path(folder, name).write_text(text, encoding="utf-8")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from difflib import unified_diff
@@ -29,6 +28,7 @@ from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Severity
 from osc2tx.support.paths import SETTINGS_FILES, real_path
 from osc2tx_shared.classes import dataclass, replace
+from osc2tx_shared.own_folders import REVISION, own_folder
 
 REFUSED_PARTS = ("", ".", "..", ".git")
 """Parts of paths that lead elsewhere or would be a repository."""
@@ -68,7 +68,7 @@ def checked_out(
     """
     root = _repository(paths)
     commit = commit_of(root, revision)
-    with tempfile.TemporaryDirectory(prefix="osc2tx-revision-") as folder:
+    with own_folder(REVISION) as folder:
         top = Path(os.path.realpath(folder))
         try:
             problems = list(_lay_out(root, commit, top))

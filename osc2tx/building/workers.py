@@ -43,13 +43,18 @@ def processors() -> int:
 def compile_jobs(
     jobs: Sequence[Job], workers: int, finished: Finished = lambda result: None
 ) -> list[FileResult]:
-    """Return the results of all jobs, in their order.
+    """Return the results of all jobs, in their order; first remove what killed builds have left.
 
     Args:
         jobs: What to compile.
         workers: How many processes may work at once.
         finished: Is given each result as soon as there is one.
     """
+    if jobs:
+        from osc2tx_shared.own_folders import REVISION, RUN, remove_left_over
+
+        for prefix in (RUN, REVISION):
+            remove_left_over(prefix)
     return run_jobs(compile_job, jobs, workers, finished)
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import shlex
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from osc2tx_shared.classes import dataclass
+from osc2tx_shared.own_folders import CAMPAIGN, own_folder
 
 if TYPE_CHECKING:
     from osc2tx.campaigns.coverage import Item
@@ -136,7 +136,7 @@ def run_campaign(
     plan, texts = plan_of(path, scenario, kpi, fail_if, options)
     wanted = wanted_rows(plan, sampler, samples, levels, search, search_batch)
     runs_rows = engine_by_name(engine, wanted.at_once, 1, workers)
-    with tempfile.TemporaryDirectory(prefix="osc2tx-campaign-") as folder:
+    with own_folder(CAMPAIGN) as folder:
         place = Path(store or Path(folder, "rows.campaign"))
         with Store(place, is_new=True) as opened:
             run(plan, texts, wanted, opened, runs_rows)

@@ -21,8 +21,8 @@ from osc2tx.campaigns.report import render_report
 from osc2tx.campaigns.store import Store
 from osc2tx.campaigns.summary import results_of, summary_of
 from osc2tx_runtime.campaigns import Modules
-from osc2tx_runtime.campaigns.modules import FRESH, PREFIX
 from osc2tx_runtime.errors import SettingsError
+from osc2tx_shared.own_folders import CAMPAIGN, FRESH
 from tests.campaigns.kit import MIXED, TRIANGLE, Here, digest, plan_of, run
 
 
@@ -219,14 +219,16 @@ def test_folders_of_killed_processes_are_removed(
 ) -> None:
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     held = Modules({"case.py": ""})
-    left, young, others = (tmp_path / name for name in (f"{PREFIX}left", f"{PREFIX}new", "other"))
+    left, young, others = (
+        tmp_path / name for name in (f"{CAMPAIGN}left", f"{CAMPAIGN}new", "other")
+    )
     for folder in (left, young, others):
         folder.mkdir()
         (folder / "case.py").write_text("")
     old = time.time() - 2 * FRESH
     for folder in (left, others, Path(held._folder.name)):
         os.utime(folder, (old, old))
-    link = tmp_path / f"{PREFIX}link"
+    link = tmp_path / f"{CAMPAIGN}link"
     link.symlink_to(others)
     Modules({}).close()
     assert not left.exists()

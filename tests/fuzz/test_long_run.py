@@ -1,6 +1,9 @@
 """A part of the long run (`make fuzz`): a number of inputs of each kind, always the same."""
 
+import subprocess
+import sys
 from itertools import islice
+from pathlib import Path
 
 import pytest
 
@@ -22,3 +25,11 @@ def test_inputs(maker: str) -> None:
         finding = case.attempt(case.text, execute=True)
         if finding is not None:
             pytest.fail(f"{case.seed}: {finding.key}\n{case.text}\n{finding.report}")
+
+
+@pytest.mark.slow
+def test_random_scenarios_run_the_same_twice() -> None:
+    command = [sys.executable, str(Path(__file__).with_name("twice.py")), "--count", "40"]
+    ended = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert " trace" in ended.stdout

@@ -5,27 +5,16 @@ from __future__ import annotations
 import importlib
 import importlib.util
 import os
-import shutil
 import sys
 import tempfile
-import time
 from collections.abc import Mapping
-from contextlib import suppress
 from itertools import count
 from pathlib import Path, PureWindowsPath
 from types import ModuleType
 
 from osc2tx_runtime.domain.scenario import Scenario
 from osc2tx_runtime.errors import OwnCode, SettingsError
-
-if sys.platform != "win32":
-    import fcntl
-
-PREFIX = "osc2tx-campaign-"
-"""How the names of the folders begin."""
-
-FRESH = 60.0
-"""Seconds: a folder that is younger may be one that its process is about to lock."""
+from osc2tx_shared.own_folders import CAMPAIGN, hold, remove_left_over
 
 _NUMBERS = count()  # modules of one process have names of their own
 
@@ -46,9 +35,9 @@ class Modules:
         for name in files:
             _require_inside(name)
         self._files = frozenset(files)
-        remove_left_over()
-        self._folder = tempfile.TemporaryDirectory(prefix=PREFIX)
-        self._mark = _hold(self._folder.name)
+        remove_left_over(CAMPAIGN)
+        self._folder = tempfile.TemporaryDirectory(prefix=CAMPAIGN)
+        self._mark = hold(self._folder.name)
         self._name = f"osc2tx_campaign_{next(_NUMBERS)}"
         self._path = list(sys.path)
         self._known = set(sys.modules)
@@ -88,34 +77,6 @@ class Modules:
         self._folder.cleanup()
         if self._mark is not None:
             os.close(self._mark)
-
-
-def remove_left_over() -> None:
-    """Remove the folders of processes that were killed: they are no longer locked."""
-    if sys.platform == "win32":  # no locks of folders there
-        return
-    for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
-        with suppress(OSError):  # of another user, or removed meanwhile
-            found = folder.lstat()
-            if found.st_uid != os.getuid() or time.time() - found.st_mtime < FRESH:
-                continue
-            mark = _hold(str(folder))
-            if mark is not None:
-                shutil.rmtree(folder, ignore_errors=True)
-                os.close(mark)
-
-
-def _hold(folder: str) -> int | None:
-    """Lock a folder until the descriptor is closed; None if it is locked, or cannot be."""
-    if sys.platform == "win32":
-        return None
-    mark = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
-    try:
-        fcntl.flock(mark, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        os.close(mark)
-        return None
-    return mark
 
 
 def _require_inside(name: str) -> None:
