@@ -1,5 +1,6 @@
 """A part of the long run (`make fuzz`): a number of inputs of each kind, always the same."""
 
+import re
 import subprocess
 import sys
 from itertools import islice
@@ -25,6 +26,12 @@ def test_inputs(maker: str) -> None:
         finding = case.attempt(case.text, execute=True)
         if finding is not None:
             pytest.fail(f"{case.seed}: {finding.key}\n{case.text}\n{finding.report}")
+
+
+def test_the_page_states_these_counts() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "robustness.md").read_text(encoding="utf-8")
+    stated = re.findall(r"^\| `(\w+)` \|.*\| ([\d,]+) \|$", page, re.MULTILINE)
+    assert {kind: int(count.replace(",", "")) for kind, count in stated} == COUNTS
 
 
 @pytest.mark.slow
