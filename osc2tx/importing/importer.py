@@ -49,6 +49,7 @@ class Imported:
         report: What the import found.
         document: What was read.
         parameters: The parameters by their names in the document.
+        actors: The names of the actors by those in the document.
     """
 
     name: str
@@ -56,6 +57,7 @@ class Imported:
     report: ImportReport
     document: Document
     parameters: dict[str, Parameter]
+    actors: dict[str, str]
 
 
 def import_document(
@@ -168,7 +170,9 @@ class _Import:
         self._report.under_test = [each.name for each in actors.values() if each.is_under_test]
         self._close()
         parameters = self._values.parameters
-        return Imported(self._scenario, program.text, self._report, self._document, parameters)
+        return Imported(
+            self._scenario, program.text, self._report, self._document, parameters, kinds
+        )
 
     # --- declarations -----------------------------------------------------------------------------
 

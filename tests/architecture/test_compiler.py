@@ -45,7 +45,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "campaigns": {"version"},
     "language_server": {"building", "catalogue", "compilation", "config", "diagnostics"}
     | {"reference", "semantics", "stdlib", "support", "syntax", "version"},
-    "cli": {"building", "campaigns", "compilation", "config", "importing", "reference"}
+    "cli": {"building", "campaigns", "compilation", "config", "grading", "importing", "reference"}
     | {
         "language_server",
         "diagnostics",
