@@ -87,7 +87,8 @@ def test_exactness(place: float, time: float, *, is_exact: bool) -> None:
 def test_tools_parts_move_nothing() -> None:
     root = read(
         '<Event name="e"><Action name="a"><PrivateAction><ControllerAction/></PrivateAction>'
-        '</Action><StartTrigger><ConditionGroup><Condition name="c"/></ConditionGroup></StartTrigger></Event>'
+        '</Action><StartTrigger><ConditionGroup><Condition name="c"/></ConditionGroup>'
+        "</StartTrigger></Event>"
     )
     found = plain(root)
     assert [node.tag for node in found.walk()] == [

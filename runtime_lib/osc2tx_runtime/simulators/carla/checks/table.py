@@ -9,12 +9,12 @@ from osc2tx_runtime.simulators.carla.client_process import ClientProcess
 from osc2tx_runtime.simulators.carla.connection import TIMEOUT
 from osc2tx_runtime.worlds import CheckRequest, CheckResult
 
-from . import contact, motion, surroundings
+from . import contact, driving, motion, surroundings
 from .probe import LINES, Finding, Line, Probe, differs, unknown
 
 CONTACT = 5  # the last line that the others need
 
-assert contact and motion and surroundings  # they have declared their lines
+assert contact and driving and motion and surroundings  # they have declared their lines
 
 
 def check(request: CheckRequest) -> Iterator[CheckResult]:
@@ -44,6 +44,8 @@ def check(request: CheckRequest) -> Iterator[CheckResult]:
 def _found(line: Line, probe: Probe) -> Finding:
     if line.drives and not probe.request.drives:
         return unknown("not tried", "--drive spawns and moves actors to find out")
+    if line.of_map and probe.is_other_map:
+        return unknown("the map of the scenario is not loaded")
     try:
         return line.look(probe)
     except ScenarioError as error:
