@@ -278,6 +278,7 @@ def _measure(result: Result, compilation: Compilation) -> None:
                 scenarios[imported.name],
                 imported.actors,
                 _in_si_units(given, imported.parameters),
+                imported.starts,
             )
     except (NoEvidence, ScenarioError) as error:
         imported.report.measure(None, str(error))

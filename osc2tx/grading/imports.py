@@ -61,6 +61,7 @@ def import_deviation(
     scenario: type[Scenario],
     names: Mapping[str, str],
     values: Mapping[str, float | str],
+    starts: Mapping[str, tuple[str, int, float]],
 ) -> ImportDeviation:
     """Run an imported scenario in the embedded world and compare it with its document.
 
@@ -70,6 +71,7 @@ def import_deviation(
         scenario: The scenario.
         names: Names of the actors in the scenario, by those in the document.
         values: Values of open parameters of the scenario, in SI units.
+        starts: Where the scenario puts actors at once, so that no free places are looked for.
 
     Raises:
         NoEvidence: The scenario cannot be run, or the document not be played.
@@ -77,7 +79,7 @@ def import_deviation(
     played = plain(document)
     if sum(1 for _ in played.below(xml.Event)) > MOST_EVENTS:
         raise NoEvidence(f"it has more than {MOST_EVENTS} events")
-    case = _Case(played, map_file or find_map(None, ()), scenario, names, values)
+    case = _Case(played, map_file or find_map(None, ()), scenario, names, values, starts)
     found = case.at(COARSE)
     return found if found.is_exact else case.at(FINE)
 
@@ -92,6 +94,7 @@ class _Case:
         scenario: The scenario.
         names: Names of the actors in the scenario, by those in the document.
         values: Values of open parameters.
+        starts: Where the scenario puts actors at once.
     """
 
     document: Element
@@ -99,13 +102,18 @@ class _Case:
     scenario: type[Scenario]
     names: Mapping[str, str]
     values: Mapping[str, float | str]
+    starts: Mapping[str, tuple[str, int, float]]
 
     def at(self, dt: float) -> ImportDeviation:
         """Return the deviation at a length of steps (s)."""
         longest = min(LONGEST, MOST_ACTOR_STEPS * COARSE / max(1, len(self.names)))
         played = self._played(dt, longest)
         settings = RunSettings(
-            map_path=(self.map_file,), dt=dt, max_time=longest, set=dict(self.values)
+            map_path=(self.map_file,),
+            dt=dt,
+            max_time=longest,
+            set=dict(self.values),
+            spawn=self.starts,
         )
         run = run_in_world(self.scenario, settings).recording
         late = (1 + max(hops(self.document).values(), default=0)) * dt
