@@ -258,7 +258,7 @@ def _checked(result: Result, out: Path) -> Result:
         for each in compilation.sink.sorted()
         if each.severity is Severity.ERROR
     )
-    if faults:
+    if faults or compilation.ir is None:
         result.imported.report.measure(None, "a check of the scenario finds errors")
     else:
         _measure(result, compilation)
