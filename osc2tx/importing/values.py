@@ -322,11 +322,8 @@ class Values:
             self._collect(node, votes)
         for said, parameter in reversed(self.parameters.items()):
             found = votes[said]
-            dimensions = {dimension for dimension, _ in found}
             if len(found) == 1 and parameter.kind == "double":
                 parameter.dimension, parameter.is_hourly = next(iter(found))
-            elif len(dimensions) == 1 and not any(hourly for _, hourly in found):
-                parameter.dimension = next(iter(dimensions))
             if parameter.expression is not None and parameter.dimension != NUMBER:
                 _vote(parameter.expression, parameter.dimension, parameter.is_hourly, votes)
 
