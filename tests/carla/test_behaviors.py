@@ -1,4 +1,4 @@
-"""The table of `README.md` names tests and faults that there are, and all faults; and its rest."""
+"""The tables of `README.md` name tests, checks and faults that there are, and all of them."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from osc2tx_runtime.simulators.carla.checks.table import LINES as UNSORTED
+
 from .conftest import OWN_MAPS
 from .runs import GENERATED
 from .stand_in.faults import FAULTS
@@ -18,6 +20,7 @@ from .stand_in.process import ROOT, StandInProcess
 HERE = Path(__file__).parent
 TABLE = (HERE / "README.md").read_text(encoding="utf-8")
 FINDINGS = 28
+LINES = dict(sorted(UNSORTED.items()))
 
 
 def test_the_tests_of_the_table_exist() -> None:
@@ -27,10 +30,29 @@ def test_the_tests_of_the_table_exist() -> None:
         assert f"def {test}(" in (HERE / f"{file}.py").read_text(encoding="utf-8"), test
 
 
-def test_the_table_has_all_faults_and_findings() -> None:
+def test_the_tables_have_all_faults_findings_and_checks() -> None:
     assert set(re.findall(r"`--fault ([\w-]+)`", TABLE)) == set(FAULTS)
-    numbers = [int(each) for each in re.findall(r"^\| (\d+) \|", TABLE, re.MULTILINE)]
-    assert numbers == list(range(1, FINDINGS + 1))
+    assert numbers("Findings") == list(range(1, FINDINGS + 1))
+    assert numbers("Checks") == list(LINES)
+    names = re.findall(r"^\| \d+ \| ([^|]+) \|", section("Checks"), re.MULTILINE)
+    assert names == [line.name for line in LINES.values()]
+
+
+def test_each_finding_has_a_source_and_a_test() -> None:
+    for row in re.findall(r"^\| \d+ .*", section("Findings"), re.MULTILINE):
+        _, _, finding, source, tests, _ = row.split("|")
+        assert source.strip() and "`test_" in tests, finding
+
+
+def section(title: str) -> str:
+    """Return a section of the page."""
+    return TABLE.partition(f"## {title}\n")[2].partition("\n## ")[0]
+
+
+def numbers(title: str) -> list[int]:
+    """Return the numbers of the rows of a section; rows may have parts."""
+    found = re.findall(r"^\| (\d+) \|", section(title), re.MULTILINE)
+    return [int(each) for each in dict.fromkeys(found)]
 
 
 def test_frames_are_uneven_until_a_client_fixes_them() -> None:

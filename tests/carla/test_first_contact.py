@@ -6,69 +6,29 @@ of its issue threads; the stand-in shows it.
 
 from __future__ import annotations
 
-import json
-import os
-import pty
 import socket
-import subprocess
 import sys
-import textwrap
 from collections.abc import Iterator
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any
 
 import pytest
 
 from osc2tx.module_loading import scenarios_of_file
-from osc2tx_runtime import RunResult, RunSettings, run_scenario
-from osc2tx_runtime.errors import InputError, SettingsError, SimulatorError
-from osc2tx_runtime.simulators.carla import attendance, level
-from osc2tx_runtime.simulators.carla.attendance import Attendance
+from osc2tx_runtime import RunSettings, run_scenario
+from osc2tx_runtime.errors import InputError, SimulatorError
+from osc2tx_runtime.simulators.carla import level
 from osc2tx_runtime.simulators.carla.client_process import ClientProcess
-from osc2tx_runtime.simulators.carla.world import OPTIONS
 
 from .conftest import OWN_MAPS
+from .contact import client_of, message_of, run
 from .runs import GENERATED, in_carla
 from .stand_in.process import StandInProcess
-
-CLIENT = """
-import os, sys, time
-import carla
-
-client = carla.Client("127.0.0.1", int(sys.argv[1]))
-client.set_timeout(20.0)
-world = client.get_world()
-"""
 
 
 @pytest.fixture
 def server() -> Iterator[StandInProcess]:
     with StandInProcess([OWN_MAPS], "highway") as process:
         yield process
-
-
-def run(settings: RunSettings, name: str = "cut_in") -> RunResult:
-    with scenarios_of_file(GENERATED / f"{name}.py", f"contact_{name}") as scenarios:
-        return run_scenario(scenarios[name], settings)
-
-
-def client_of(port: int, script: str) -> subprocess.Popen[str]:
-    """Start a client of somebody else; it says `there` once it is ready."""
-    process = subprocess.Popen(
-        [sys.executable, "-c", textwrap.dedent(CLIENT) + textwrap.dedent(script), str(port)],
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-    assert process.stdout is not None
-    assert process.stdout.readline() == "there\n"
-    return process
-
-
-def message_of(settings: RunSettings, name: str = "cut_in") -> str:
-    with pytest.raises((SimulatorError, SettingsError, InputError)) as found:
-        run(settings, name)
-    return str(found.value.message)
 
 
 # --- ports -----------------------------------------------------------------------------------
@@ -220,118 +180,6 @@ def test_windows_is_named_before_anything_else(monkeypatch: pytest.MonkeyPatch) 
         ClientProcess(5.0)
 
 
-# --- attendance --------------------------------------------------------------------------------
-
-
-def states(result: RunResult, actor: str) -> list[dict[str, float]]:
-    lines = map(json.loads, result.trace_lines)
-    return [each for each in lines if each["kind"] == "state" and each["actor"] == actor]
-
-
-def test_the_scenario_waits_for_a_first_control(server: StandInProcess) -> None:
-    """A stack that needs its time to attach finds the ego where it starts, at step 0."""
-    stack = subprocess.Popen(
-        [
-            sys.executable,
-            "-c",
-            textwrap.dedent(CLIENT) + textwrap.dedent("""
-            ego = None
-            while ego is None:
-                found = [a for a in world.get_actors() if a.attributes.get("role_name") == "ego"]
-                ego = found[0] if found else None
-            for _ in range(30):
-                world.wait_for_tick()
-            while True:
-                ego.apply_control(carla.VehicleControl(throttle=1.0))
-                world.wait_for_tick()
-            """),
-            str(server.port),
-        ]
-    )
-    try:
-        settings = in_carla(
-            RunSettings(expect=True, max_time=1.0),
-            server.port,
-            control={"ego": "external"},
-            wait_control=60.0,
-        )
-        result = run(settings)
-    finally:
-        stack.kill()
-        stack.wait()
-    first = states(result, "ego")[0]
-    assert (first["t"], first["x"]) == (0.0, pytest.approx(200.0, abs=0.5))
-    assert result.steps == 20
-
-
-def test_nobody_takes_control(server: StandInProcess) -> None:
-    settings = in_carla(
-        RunSettings(expect=True), server.port, control={"ego": "external"}, wait_control=0.2
-    )
-    assert "the external actors are not controlled within 0.2 s" in message_of(settings)
-    assert not server.ask("stand_in_synchronous")
-
-
-def test_enter_begins_at_once(server: StandInProcess, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Somebody at the terminal does not have to wait for a stack."""
-    terminal, keyboard = pty.openpty()
-    monkeypatch.setattr(sys, "stdin", os.fdopen(keyboard))
-    os.write(terminal, b"\n")
-    settings = in_carla(
-        RunSettings(expect=True, max_time=0.5),
-        server.port,
-        control={"ego": "external"},
-        wait_control=600.0,
-    )
-    assert run(settings).status == "timeout"
-    os.close(terminal)
-
-
-def test_steps_are_not_made_before_their_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    """At twice the speed of real time, of which steps use up some themselves."""
-    now, slept = 100.0, []
-
-    def sleep(seconds: float) -> None:
-        nonlocal now
-        slept.append(seconds)
-        now += seconds
-
-    clock = SimpleNamespace(monotonic=lambda: now, sleep=sleep)
-    monkeypatch.setattr(attendance, "time", clock)
-    paced = Attendance(pace=2.0)
-    paced.start()
-    for cost in (0.01, 0.0, 0.04, 0.0):
-        now += cost
-        paced.pause(0.05)
-    assert slept == pytest.approx([0.015, 0.025, 0.0, 0.01])
-    assert now == pytest.approx(100.1)
-    Attendance().pause(0.05)
-    assert len(slept) == 4  # without a factor nothing waits
-
-
-def test_the_camera_follows_an_actor_and_is_put_back(server: StandInProcess) -> None:
-    run(in_carla(RunSettings(max_time=1.0), server.port, carla_view="ego"))
-    placed = [
-        given
-        for name, given in server.calls()
-        if name == "set_actor_transform" or name == "apply_batch"
-    ]
-    assert placed
-    (x, y, z), _ = server.ask("stand_in_spectator")
-    assert (x, y, z) == (0.0, 0.0, 0.0)
-    said = message_of(in_carla(RunSettings(), server.port, carla_view="nobody"))
-    assert said == "--carla-view nobody: the scenario has no such actor"
-
-
-def test_options_are_read() -> None:
-    known = {each.name: each for each in OPTIONS}
-    assert known["realtime"].read(["2"]) == 2.0
-    assert known["carla-tm-port"].read(["8001"]) == 8001
-    for name, wrong in (("realtime", "0"), ("realtime", "nan"), ("carla-tm-port", "0")):
-        with pytest.raises(SettingsError, match=f"--{name} {wrong}"):
-            known[name].read([wrong])
-
-
 # --- as it was before ----------------------------------------------------------------------
 
 
@@ -377,72 +225,3 @@ def test_the_level_is_loaded_anew() -> None:
         assert names.index("load_new_episode") < names.index("spawn_actor")
         assert server.ask("stand_in_actors") == {}
         assert server.ask("stand_in_surroundings")[0] == pytest.approx(before, abs=1e-3)
-
-
-# --- large levels ----------------------------------------------------------------------------
-
-
-def test_actors_that_a_large_level_does_not_stream() -> None:
-    """Without a camera or a `hero` near them they would stand still, and nobody would know why."""
-    with StandInProcess([OWN_MAPS], "highway", "--fault", "large-level") as server:
-        said = message_of(in_carla(RunSettings(), server.port))
-        assert "ego is dormant in CARLA" in said and "--carla-view ego" in said
-        assert run(in_carla(RunSettings(), server.port, carla_view="ego")).status == "success"
-
-
-def test_actors_that_leave_what_a_large_level_streams() -> None:
-    """They are found out in the step in which they fall asleep, whatever they did before."""
-    with StandInProcess([OWN_MAPS], "highway", "--fault", "large-level") as server:
-        script = """
-            place = carla.Transform(carla.Location(200.0, 9.0, 5.0))
-            world.get_spectator().set_transform(place)
-            world.wait_for_tick()
-            print("there", flush=True)
-        """
-        client_of(server.port, script).wait()
-        server.calls()
-        assert "is dormant in CARLA" in message_of(in_carla(RunSettings(), server.port))
-        steps = [name for name, _ in server.calls()].count("tick_cue")
-    assert 60 < steps < 140  # 100 m at 19 to 26 m/s
-
-
-# --- speeds at the start ---------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("control", ["driven", "external"])
-def test_actors_start_at_their_speed(control: str) -> None:
-    """A speed that is given once sags; given for half a second it stays.
-
-    An external actor is given it before the run, and is where it starts all the same.
-    """
-    with StandInProcess([OWN_MAPS], "highway", "--fault", "sagging") as server:
-        settings = RunSettings(expect=True, max_time=1.0)
-        found = states(run(in_carla(settings, server.port, control={"ego": control})), "ego")
-    assert (found[0]["x"], found[0]["y"]) == pytest.approx((200.0, -8.75), abs=0.01)
-    settled = [each["v"] for each in found[6:]]  # 0.3 s
-    assert settled == pytest.approx([found[0]["v"]] * len(settled), abs=0.5)
-
-
-# --- heights ---------------------------------------------------------------------------------
-
-
-def test_a_mesh_that_is_not_where_the_lanes_are() -> None:
-    """Exact actors are where the scenario says; the run says that they float."""
-    with StandInProcess([OWN_MAPS], "highway", "--fault", "sunk-mesh") as server:
-        said = run(in_carla(RunSettings(max_time=0.5), server.port)).warnings
-        driven = in_carla(RunSettings(max_time=0.5), server.port, control={"": "driven"})
-        assert not [each for each in run(driven).warnings if "ground of CARLA" in each]
-    assert "ego floats: the ground of CARLA is 0.50 m below the lane where it starts" in said, said
-
-
-def test_a_mesh_that_rises_above_the_lanes() -> None:
-    """Who falls on its feet is spawned higher, unless somebody stands there."""
-    with StandInProcess([OWN_MAPS], "highway", "--fault", "rising-mesh") as server:
-        settings = in_carla(RunSettings(max_time=0.5), server.port, control={"": "driven"})
-        assert run(settings).status == "timeout"
-        heights = [pose[0][2] for name, (_, pose, *_) in spawns(server)]
-    assert heights == pytest.approx([0.3, 0.6, 0.3, 0.6], abs=1e-3)
-
-
-def spawns(server: StandInProcess) -> list[tuple[str, list[Any]]]:
-    return [(name, given) for name, given in server.calls() if name == "spawn_actor"]

@@ -166,6 +166,10 @@ os._exit(0)
 def test_12_an_actor_that_a_client_has_left(server: StandInProcess) -> None:
     subprocess.run([sys.executable, "-c", LEFT, str(server.port)], check=True)
     assert "ego (vehicle.audi.tt" in broken(server.port, 12, str(CUT_IN))
+    subprocess.run(
+        [sys.executable, "-c", LEFT.replace("[40]", "[20]"), str(server.port)], check=True
+    )
+    assert "since ego is there twice" in broken(server.port, 12, str(CUT_IN))
     assert checked(server.port, str(CUT_IN), "--fix")[12]["found"].startswith("removed ego")
     assert server.ask("stand_in_actors") == {}
 
@@ -217,15 +221,20 @@ def test_22_topics_that_nobody_publishes(server: StandInProcess, tmp_path: Path)
     ("number", "fault", "says"),
     [
         (7, "long-steps", "steps are 0.1 s long"),
+        (7, "few-substeps", "substeps cover 0.01 of 0.05 s"),
         (8, "slow", "times real time"),
         (10, "sunk-mesh", "0.50 m at most"),
         (14, "no-boxes", "0.00 m long"),
+        (11, "large-level", "far from the camera are dormant"),
         (14, "no-wheels", "are at one place"),
+        (14, "late-boxes", "changes after its first step"),
         (15, "loose", "20.0 mm"),
         (16, "sagging", "of 20 m/s"),
         (17, "weak", "speed within"),
+        (17, "soft-brakes", "brake 0.24"),
         (18, "other-axes", "by the server"),
         (19, "late-walkers", "1.40 m in 2 s"),
+        (19, "sunk-walkers", "its origin is 0.00 m above the ground"),
         (23, "sticky-camera", "not restored: camera"),
     ],
 )

@@ -8,7 +8,6 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from . import dynamics
-from .blueprints import BLUEPRINTS, VEHICLES
 from .rpc import CallError
 from .simulation import Simulation
 
@@ -51,13 +50,6 @@ def sunk_mesh(simulation: Simulation, calls: Calls) -> None:
         return [hit, [[x, y, z - 0.5], label]]
 
     calls["project_point"] = below
-
-
-def few_blueprints(simulation: Simulation, calls: Calls) -> None:
-    """No vehicle has the size that is wanted, and models have other names."""
-    for name in VEHICLES:
-        if name != "vehicle.audi.tt":
-            del BLUEPRINTS[name]
 
 
 def no_boxes(simulation: Simulation, calls: Calls) -> None:
@@ -123,6 +115,11 @@ def weak(simulation: Simulation, calls: Calls) -> None:
     """Engines are too weak to keep a speed."""
     dynamics.THROTTLE.update(dict.fromkeys(dynamics.THROTTLE, 0.01))
     dynamics.DRAG = 0.02
+
+
+def soft_brakes(simulation: Simulation, calls: Calls) -> None:
+    """Brakes are half as strong."""
+    dynamics.BRAKING *= 0.5
 
 
 def other_axes(simulation: Simulation, calls: Calls) -> None:
@@ -229,19 +226,71 @@ def rising_mesh(simulation: Simulation, calls: Calls) -> None:
     calls["spawn_actor"] = above_the_mesh
 
 
+def few_substeps(simulation: Simulation, calls: Calls) -> None:
+    """The physics makes one substep of a step, whatever was set."""
+    settings = calls["set_episode_settings"]
+    calls["set_episode_settings"] = lambda given: settings([*given[:5], 1, *given[6:]])
+
+
+def late_boxes(simulation: Simulation, calls: Calls) -> None:
+    """Boxes have their sizes after a step only."""
+    tick, box = calls["tick_cue"], simulation.box
+    known: set[int] = set()
+
+    def small_before(actor: Any) -> list[Any]:
+        place, extent, *rest = box(actor)
+        return [place, extent if actor.id in known else [1.0, 1.0, 1.0], *rest]
+
+    def learn() -> int:
+        known.update(simulation.actors)
+        return int(tick())
+
+    simulation.box = small_before  # type: ignore[method-assign]
+    calls["tick_cue"] = learn
+
+
+def sunk_walkers(simulation: Simulation, calls: Calls) -> None:
+    """The origin of a walker is at its feet."""
+    put = simulation._put_on_ground
+
+    def lower(actor: Any) -> None:
+        put(actor)
+        if actor.kind == "walker":
+            actor.location[2] -= actor.extent[2]
+
+    simulation._put_on_ground = lower  # type: ignore[method-assign]
+
+
+def falling(simulation: Simulation, calls: Calls) -> None:
+    """Bodies take their time to fall on the ground."""
+    put = simulation._put_on_ground
+    speeds: dict[int, float] = {}
+
+    def fall(actor: Any) -> None:
+        before, dt = actor.location[2], simulation.dt
+        put(actor)
+        speed = speeds.get(actor.id, 0.0) - dynamics.GRAVITY * dt
+        lower = before + speed * dt
+        is_above = lower > actor.location[2]
+        speeds[actor.id] = actor.velocity[2] = speed if is_above else 0.0
+        actor.location[2] = max(lower, actor.location[2])
+
+    simulation._put_on_ground = fall  # type: ignore[method-assign]
+
+
 FAULTS: Mapping[str, Callable[[Simulation, Calls], None]] = {
     each.__name__.replace("_", "-"): each
     for each in (
         long_steps,
         slow,
         sunk_mesh,
-        few_blueprints,
         no_boxes,
         no_wheels,
         frozen_lights,
         loose,
         sagging,
         weak,
+        soft_brakes,
         other_axes,
         late_walkers,
         nameless_lights,
@@ -250,5 +299,9 @@ FAULTS: Mapping[str, Callable[[Simulation, Calls], None]] = {
         large_level,
         slow_map,
         rising_mesh,
+        few_substeps,
+        late_boxes,
+        sunk_walkers,
+        falling,
     )
 }

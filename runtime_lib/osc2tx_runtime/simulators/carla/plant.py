@@ -23,7 +23,9 @@ from .surroundings import CarlaSurroundings
 
 SETTLING = 2.0  # s that vehicles have at most to come to rest on their wheels
 AT_REST = 0.05  # m/s upwards
-STILL_STEPS = 2  # at rest one after the other: a body at the top of a bounce is still for one
+STILL, STILL_STEPS = 0.05, 2
+"""For how long (s, and steps) who stands is at rest: who begins to fall, and who is at the top of a
+bounce, is so for a moment."""
 SAME_DT = 1e-5  # s: frames travel in single precision
 DRIVABLE = ("vehicle", "person")
 
@@ -160,12 +162,12 @@ class CarlaPlant:
     def _at_rest(self, looked: Mapping[str, Any]) -> Mapping[str, Any]:
         """Wait until those with wheels or legs stand on the ground."""
         falling = {m.actor for m in self._members.values() if m.is_measured}
-        still = 0
+        still, enough = 0, max(STILL_STEPS, math.ceil(STILL / self._dt))
         for _ in range(math.ceil(SETTLING / self._dt) if self._ticks else 1):
             states = dict(looked["actors"])
             rests = all(abs(states[each][8]) < AT_REST for each in falling if states[each])
             still = still + 1 if rests else 0
-            if still == STILL_STEPS or not falling:
+            if still == enough or not falling:
                 break
             looked = self._client.ask("step", [])
         return looked

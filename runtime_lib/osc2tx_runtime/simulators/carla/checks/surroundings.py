@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import math
 import shutil
 import subprocess
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 from osc2tx_runtime.errors import InputError, SimulatorError
-from osc2tx_runtime.opendrive import LanePosition, MapError
+from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.simulators.carla.blueprints import blueprint_for
 from osc2tx_runtime.simulators.carla.ground import FLOATS, heights_of
 from osc2tx_runtime.simulators.carla.level import LOADING, difference_of, plain_name, read_level
 from osc2tx_runtime.simulators.carla.sensors import SensorStacks
 
+from .motion import CAR, spawned
 from .probe import Finding, Probe, differs, line, ok, unknown
 
 LARGE = ("Town11", "Town12", "Town13", "Town15")
@@ -49,12 +54,7 @@ def level(probe: Probe) -> Finding:
 def ground(probe: Probe) -> Finding:
     """The ground below the lanes is at the height of OpenDRIVE."""
     assert probe.road_map is not None
-    places = []
-    for road in sorted(probe.road_map.roads)[:POINTS]:
-        for section in probe.road_map.roads[road].sections[:1]:
-            lane = next((n for n, each in section.lanes.items() if each.type == "driving"), None)
-            if lane is not None:
-                places.append(LanePosition(road, lane, 0.5 * (section.begin + section.end)))
+    places = list(_along_lanes(probe.road_map))
     try:
         poses = [probe.road_map.pose(place) for place in places]
     except MapError as error:
@@ -68,17 +68,50 @@ def ground(probe: Probe) -> Finding:
     return ok(found)
 
 
+def _along_lanes(road_map: RoadMap) -> Iterator[LanePosition]:
+    """Yield places on driving lanes, at equal distances over all roads."""
+    stretches = [
+        (road, lane, section.begin, section.end)
+        for road in sorted(road_map.roads)
+        for section in road_map.roads[road].sections
+        for lane in [n for n, each in section.lanes.items() if each.type == "driving"][:1]
+    ]
+    step = sum(end - begin for *_, begin, end in stretches) / POINTS
+    left = 0.5 * step
+    for road, lane, begin, end in stretches:
+        while left < end - begin:
+            yield LanePosition(road, lane, begin + left)
+            left += step
+        left -= end - begin
+
+
 @line(11, "size of the level")
 def size(probe: Probe) -> Finding:
     """A streamed level needs an actor to stream it for."""
     name = plain_name(probe.level["name"])
     roles = [each.role or each.id for each in probe.request.actors]
-    if name not in LARGE or any("hero" in role for role in roles):
+    if any("hero" in role for role in roles):
         return ok(name)
+    if name not in LARGE:
+        return _asleep(probe) if probe.request.drives else ok(name)
     return differs(
         f"{name} is streamed around actors with `hero` in their role names, and there is none",
         'name the actor to stream for: keep(it.name == "hero"); others far from it are dormant',
     )
+
+
+def _asleep(probe: Probe) -> Finding:
+    """Whether an actor far from the camera is put to sleep, whatever the level is called."""
+    driver = probe.driving()
+    places = probe.level["spawn_points"]
+    with spawned(driver, CAR, max(places, key=lambda place: math.dist(place[:2], places[0][:2]))):
+        dormant = driver.ask("step", [])["dormant"]
+    if dormant:
+        return differs(
+            "actors far from the camera are dormant",
+            'name the actor to stream for: keep(it.name == "hero"), or --carla-view ACTOR',
+        )
+    return ok(plain_name(probe.level["name"]))
 
 
 @line(12, "actors of others")
@@ -88,12 +121,23 @@ def left_overs(probe: Probe) -> Finding:
     roles = {each.role or each.id for each in probe.request.actors}
     taken = [(number, kind, role) for number, kind, role in there if role in roles]
     if not taken:
-        return ok(f"{len(there)} actors, none with a role name of the scenario")
+        return ok(f"{_counted(there)}, none with a role name of the scenario")
     named = ", ".join(f"{role} ({kind} {number})" for number, kind, role in taken)
     if probe.request.fixes:
         probe.client.ask("remove", [number for number, *_ in taken])
         return ok(f"removed {named}")
-    return differs(f"left by another client: {named}", "--fix removes them; --wait-for takes them")
+    double = sorted(role for role, count in Counter(r for *_, r in taken).items() if count > 1)
+    takes = f"none, since {double[0]} is there twice" if double else "them"
+    return differs(
+        f"left by another client: {named}", f"--fix removes them; --wait-for takes {takes}"
+    )
+
+
+def _counted(actors: Sequence[Sequence[Any]]) -> str:
+    """Return how many actors there are, by the begin of their blueprints."""
+    kinds = Counter(kind.partition(".")[0] for _, kind, _ in actors)
+    listed = ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
+    return f"{len(actors)} actors{f' ({listed})' if listed else ''}"
 
 
 @line(13, "blueprints", blocks=True)

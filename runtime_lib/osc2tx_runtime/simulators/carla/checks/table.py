@@ -9,12 +9,12 @@ from osc2tx_runtime.simulators.carla.client_process import ClientProcess
 from osc2tx_runtime.simulators.carla.connection import TIMEOUT
 from osc2tx_runtime.worlds import CheckRequest, CheckResult
 
-from . import contact, motion, surroundings
+from . import contact, driving, motion, surroundings
 from .probe import LINES, Finding, Line, Probe, differs, unknown
 
 CONTACT = 5  # the last line that the others need
 
-assert contact and motion and surroundings  # they have declared their lines
+assert contact and driving and motion and surroundings  # they have declared their lines
 
 
 def check(request: CheckRequest) -> Iterator[CheckResult]:

@@ -39,13 +39,21 @@ class Inspection:
         return {"version": client.get_client_version(), "file": carla.__file__}
 
     def situation(self) -> Mapping[str, Any]:
-        """Return what a session may change: settings, weather, actors, camera, lights."""
+        """Return what a session may change: settings, weather, actors, camera, lights.
+
+        `substeps` are the seconds of a step that substeps of the physics can cover.
+        """
         world = self._session.world
         settings, weather, actors = world.get_settings(), world.get_weather(), world.get_actors()
         spawned = [each for each in actors if each.type_id.startswith(SPAWNED)]
         lights = actors.filter("traffic.traffic_light*")
         return {
             "settings": [settings.synchronous_mode, settings.fixed_delta_seconds],
+            "substeps": (
+                settings.max_substeps * settings.max_substep_delta_time
+                if settings.substepping
+                else None
+            ),
             "weather": [round(getattr(weather, name), 3) for name in WEATHER],
             "actors": sorted([a.id, a.type_id, a.attributes.get("role_name", "")] for a in spawned),
             "camera": [round(each, 2) for each in written(world.get_spectator().get_transform())],
