@@ -100,7 +100,7 @@ class _Evaluation(Generic[N]):
             raise ValueError(text)
         self._at = 0
         self._depth = 0
-        self._shown = shown
+        self._shown: Mapping[str, N] = shown
 
     def _literal(self, token: str) -> N:
         """Return what a number stands for."""

@@ -25,6 +25,9 @@ KINDS = ("above", "apart", "behind", "below")
 OURS = ("cut_in", "cut_in_and_evade", "follow_leader", "hello_world", "pedestrian_crossing")
 CASES = (*OURS, "own_events", "own_objects", "own_modifiers", "fields", "reactions", "coverage")
 
+IN_A_LINE_OF_OTHERS = ("keep(", "until", "modifier", "extend")
+"""Statements that say something of what the line of another one makes."""
+
 WITHOUT_CODE = {
     r"type \w+ is SI": "a module has units, and no physical types",
     r"export |use ": "a module exports all that it has",
@@ -90,6 +93,15 @@ def around(python: list[str], place: int) -> str:
     return "\n".join(code[max(before - 8, 0) : before + 3])
 
 
+def is_behind(python: list[str], place: int) -> bool:
+    """Whether a comment is behind code, or above what has several lines, parts or no room."""
+    line = python[place].split("#")[0].strip()
+    below = next((x for x in python[place + 1 :] if x.strip() and x.strip()[0] != "#"), "")
+    is_long = below.endswith(("(", "[", "{", ":")) or len(below) + len("  # <10>") > 100
+    is_gathered = "#" in below or "self.place(" in below
+    return bool(line) or is_long or is_gathered
+
+
 def said_by(source: Source, line: Line) -> str:
     """Return a statement, what it is in, and its first member, which tells of a composition."""
     above = [x for x in source.lines if x.first < line.first and x.column < line.column]
@@ -125,6 +137,9 @@ def test_each_line(case: str, kind: str) -> None:
             wrong.append((len(found), statement))
         elif (beside := around(python, found[0])) != "module":
             is_body = statement.startswith("do ") and "def behavior" in beside
+            is_block = statement.endswith(":") or statement.startswith(IN_A_LINE_OF_OTHERS)
+            if kind == "behind" and not (is_block or is_behind(python, found[0])):
+                wrong.append(("not behind", statement))
             if not is_body and not words(said_by(source, line)) & words(beside):
                 wrong.append((statement, beside))
     assert wrong == []
