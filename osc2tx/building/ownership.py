@@ -14,7 +14,6 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
-from xml.sax.saxutils import unescape
 
 from osc2tx.support.paths import MODULE, SOURCE_MAP, XML, is_output
 
@@ -52,6 +51,8 @@ def _text(found: re.Match[bytes] | None, path: str) -> str | None:
     if found[1] is None:  # old versions of XML have no element for it
         folder, slash, name = path.rpartition("/")
         return f"{folder}{slash}{name.partition('.')[0]}.osc"
+    from xml.sax.saxutils import unescape  # loads a client for the web with it
+
     return unescape(found[1].decode("utf-8", "replace"), {"&quot;": '"'})
 
 

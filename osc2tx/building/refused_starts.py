@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from osc2tx.building.fingerprint import digest
 from osc2tx.compilation.imports import look_up
 from osc2tx.compilation.map_files import named_maps
-from osc2tx.compilation.needed_modules import sibling_modules, siblings_of
+from osc2tx.compilation.needed_modules import sibling_drafts, siblings_of
 from osc2tx.diagnostics import CODES, Diagnostic, Severity, Span
 from osc2tx.support.paths import real_path
 from osc2tx_shared.classes import replace
@@ -83,14 +83,14 @@ def _report(
     from osc2tx_runtime import ScenarioError
     from osc2tx_runtime.running.options import read_options
 
-    module = compilation.module
+    module = compilation.draft
     assert module is not None, "it has a module"
     found: list[Refusal | None] = []
     try:
         settings = replace(read_options(texts, is_trusted=False), map_path=tuple(folders))
         if settings.world != "embedded" or settings.control:
             return  # what that world can do, only it knows
-        with scenarios_of_module(module, sibling_modules(compilation)) as classes:
+        with scenarios_of_module(module, sibling_drafts(compilation)) as classes:
             found += [_refusal(classes[name], settings) for name in names if name in classes]
     except ScenarioError as error:
         found.append((error.code, error.message, error.source))

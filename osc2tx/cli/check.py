@@ -13,7 +13,6 @@ from osc2tx.building.baseline import Baselines
 from osc2tx.building.jobs import Job, find_jobs, run_all
 from osc2tx.building.result_cache import check_jobs
 from osc2tx.building.results import check as check_compilation
-from osc2tx.cli.fixing import fix_files, fix_input, fixes_to_apply
 from osc2tx.cli.options import (
     affected_option,
     affected_sources,
@@ -83,7 +82,11 @@ def check(
     """
     if show_diff and reporter.form != "text":
         raise click.UsageError("--diff and --output-format both print to standard output")
-    fixes = fixes_to_apply(is_fixing=is_fixing, unsafe=unsafe, show_diff=show_diff)
+    fixes = None
+    if is_fixing or unsafe or show_diff:
+        from osc2tx.cli.fixing import fix_files, fix_input, fixes_to_apply  # loads the build
+
+        fixes = fixes_to_apply(is_fixing=is_fixing, unsafe=unsafe, show_diff=show_diff)
     if is_standard_input(paths, stdin_filename):
         job, text = job_of_standard_input(stdin_filename, given)
         if fixes is not None:

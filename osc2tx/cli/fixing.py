@@ -34,16 +34,14 @@ class Fixes:
     show_diff: bool
 
 
-def fixes_to_apply(*, is_fixing: bool, unsafe: bool, show_diff: bool) -> Fixes | None:
-    """Return which fixes a command line asks for, if any.
+def fixes_to_apply(*, is_fixing: bool, unsafe: bool, show_diff: bool) -> Fixes:
+    """Return which fixes a command line with one of these options asks for.
 
     Raises:
         click.UsageError: If unsafe fixes are allowed, and none is asked for.
     """
     if not is_fixing and not show_diff:
-        if unsafe:
-            raise click.UsageError("--unsafe-fixes is for --fix and --diff")
-        return None
+        raise click.UsageError("--unsafe-fixes is for --fix and --diff")
     return Fixes(unsafe, show_diff)
 
 

@@ -29,6 +29,12 @@ def sibling_modules(compilation: Compilation) -> tuple[GeneratedModule, ...]:
     return tuple(module for module in modules if module is not None)
 
 
+def sibling_drafts(compilation: Compilation) -> tuple[GeneratedModule, ...]:
+    """Return the same modules to be executed and not read."""
+    drafts = (each.draft for each in siblings_of(compilation))
+    return tuple(draft for draft in drafts if draft is not None)
+
+
 def all_compiled_alone(compilation: Compilation) -> tuple[Compilation, ...]:
     """Return the imported files that were compiled for themselves, for this one or for others."""
     found: dict[str, Compilation] = {}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
@@ -38,5 +37,7 @@ class Meanings:
 @cache
 def member_meanings() -> Meanings:
     """Return the meanings that come with the library."""
+    import tomllib  # a check needs no meanings
+
     path = Path(__file__).parent / "members.toml"
     return Meanings(tomllib.loads(path.read_text(encoding="utf-8")))

@@ -23,7 +23,9 @@ if TYPE_CHECKING:
 __all__ = ["check_support", "emit"]
 
 
-def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
+def emit(
+    module: ir.Module, sharing: Sharing | None = None, *, is_formatted: bool = True
+) -> GeneratedModule:
     """Write the module for one source file.
 
     The writers are loaded when something is written: checking a file does not need them.
@@ -31,7 +33,8 @@ def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
     Args:
         module: Its IR.
         sharing: Where it has the classes of imported files from; all are copies if left out.
+        is_formatted: Whether people will read it; a module that is only executed needs no style.
     """
     from osc2tx.backends.py_trees.emitter import emit as emit_module
 
-    return emit_module(module, sharing)
+    return emit_module(module, sharing, is_formatted=is_formatted)

@@ -76,12 +76,15 @@ class GeneratedModule:
 NAMES_OF_MAIN = ("top", "main")
 
 
-def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
+def emit(
+    module: ir.Module, sharing: Sharing | None = None, *, is_formatted: bool = True
+) -> GeneratedModule:
     """Write the module for one source file.
 
     Args:
         module: Its IR.
         sharing: Where it has the classes of imported files from; all are copies if left out.
+        is_formatted: Whether people will read it; a module that is only executed needs no style.
     """
     sharing = sharing or Sharing()
     names = _all_names(module, sharing)
@@ -153,7 +156,7 @@ def emit(module: ir.Module, sharing: Sharing | None = None) -> GeneratedModule:
     maps = {s.name: w.source_map for s, w in zip(scenarios, writers, strict=True)}
     stem = module_name(module.source)
     model = render_coverage_model(module.source, complete)
-    python = format_module(text)
+    python = format_module(text) if is_formatted else text
     return GeneratedModule(module.source, stem, python, render_source_map(maps), model)
 
 
