@@ -24,6 +24,20 @@ class Noted(float):
         made.note = short if len(short) <= LONGEST_NOTE else f"{short[: LONGEST_NOTE - 1]}…"
         return made
 
+    # Of other kinds of numbers Python asks first only those that derive from this one.
+
+    def __add__(self, other: float) -> float:
+        return float(self) + other
+
+    def __sub__(self, other: float) -> float:
+        return float(self) - other
+
+    def __mul__(self, other: float) -> float:
+        return float(self) * other
+
+    def __truediv__(self, other: float) -> float:
+        return float(self) / other
+
 
 def number_text(value: float) -> str:
     """Return the shortest plain decimal that reads back as nearly this number.

@@ -9,6 +9,7 @@ from osc2tx.backends.xosc.logical.comparison import evaluated
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions, XmlOptions, XmlVersion
 from osc2tx.xosc.expressions import Symbol
+from osc2tx.xosc.numbers import Noted
 from tests.unit.backends.xosc.checks import schema_errors, story_problems
 
 SOURCE = """\
@@ -209,6 +210,14 @@ def test_what_is_the_same_for_all_values_is_a_number() -> None:
 )
 def test_constants_meet(compute, text: str) -> None:  # type: ignore[no-untyped-def]
     assert compute(Symbol(3.0, "$x"), Symbol(4.0, "$y")).attribute == text
+
+
+def test_numbers_with_notes_meet_symbols() -> None:
+    x, two = Symbol(3.0, "$x"), Noted(2.0, "two")
+    found = [two + x, two - x, two * x, two / x, x + two, x - two, x * two, x / two]
+    assert all(isinstance(each, Symbol) for each in found)
+    assert [float(each) for each in found] == [5, -1, 6, 2 / 3, 5, 1, 6, 1.5]
+    assert not any(isinstance(each, Noted) for each in (two + 1.0, 1.0 - two, two * two, -two))
 
 
 def test_long_expressions_are_given_up() -> None:
