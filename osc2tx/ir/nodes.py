@@ -95,6 +95,11 @@ class Scenario(AbstractScenario):
     body: Behavior
     is_invoked: bool = False
 
+    @property
+    def is_runnable(self) -> bool:
+        """Whether it is one to run by itself: no other one invokes it, and it is of the file."""
+        return not (self.is_invoked or self.is_imported or self.is_action)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Module:

@@ -229,7 +229,7 @@ def main_scenario(module: ir.Module) -> ir.Scenario | None:
     One that is called `top` or `main` needs no such sign.
     """
     own = own_scenarios(module)
-    found = [each for each in own if not each.is_invoked and not each.is_action]
+    found = [each for each in own if each.is_runnable]
     is_named = any(each.name in NAMES_OF_MAIN for each in own)
     return found[0] if len(found) == 1 and not is_named else None
 
