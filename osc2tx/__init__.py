@@ -1,7 +1,7 @@
 """osc2tx: compiles OpenSCENARIO DSL 2.1/2.2 into readable py_trees modules.
 
-`compile_file` and `compile_text` are the compiler as a library; `osc2tx.testing` helps test
-scenarios with pytest.
+`compile_file` and `compile_text` are the compiler as a library, `check_text` and `apply_fixes`
+check and correct a text; `osc2tx.testing` helps test scenarios with pytest.
 """
 
 from __future__ import annotations
@@ -14,15 +14,34 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-    from osc2tx.api import CompileResult, compile_file, compile_text
+    from osc2tx.api import (
+        CheckResult,
+        CompileResult,
+        apply_fixes,
+        check_text,
+        compile_file,
+        compile_text,
+    )
     from osc2tx.diagnostics import Diagnostic
 
-__all__ = ["CompileResult", "Diagnostic", "__version__", "compile_file", "compile_text"]
+__all__ = [
+    "CheckResult",
+    "CompileResult",
+    "Diagnostic",
+    "__version__",
+    "apply_fixes",
+    "check_text",
+    "compile_file",
+    "compile_text",
+]
 
 # Loaded when they are asked for: the command line starts without them.
 _HOMES = {
+    "CheckResult": "osc2tx.api",
     "CompileResult": "osc2tx.api",
     "Diagnostic": "osc2tx.diagnostics",
+    "apply_fixes": "osc2tx.api",
+    "check_text": "osc2tx.api",
     "compile_file": "osc2tx.api",
     "compile_text": "osc2tx.api",
 }

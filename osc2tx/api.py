@@ -18,23 +18,31 @@ True
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TypedDict, Unpack
 
-from osc2tx.building.jobs import find_jobs, job_for
+from osc2tx.building.fixing import fix_text
+from osc2tx.building.jobs import find_jobs, job_of_text
 from osc2tx.building.ownership import beside
 from osc2tx.compilation.driver import Compilation
-from osc2tx.compilation.inputs import Input, InputError
+from osc2tx.compilation.inputs import InputError
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.compilation.products import files_of_module
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Diagnostic, Severity
 from osc2tx.options import Dialect, OneOfPolicy, Standard, Target, XmlProfile, XmlVersion
-from osc2tx.support.paths import MODULE, real_path
+from osc2tx.support.paths import MODULE
 from osc2tx_shared.classes import dataclass
 
-__all__ = ["CompileResult", "compile_file", "compile_text"]
+__all__ = [
+    "CheckResult",
+    "CompileResult",
+    "apply_fixes",
+    "check_text",
+    "compile_file",
+    "compile_text",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +69,7 @@ class CompileResult:
     @property
     def ok(self) -> bool:
         """Whether there are no errors; warnings are fine."""
-        return all(found.severity is not Severity.ERROR for found in self.diagnostics)
+        return _has_no_error(self.diagnostics)
 
     @property
     def xml(self) -> str | None:
@@ -80,6 +88,30 @@ class CompileResult:
             (place / name).parent.mkdir(parents=True, exist_ok=True)
             (place / name).write_text(text, encoding="utf-8", newline="\n")
         return [place / name for name in self.outputs]
+
+
+@dataclass(frozen=True, slots=True)
+class CheckResult:
+    """What a check found.
+
+    Attributes:
+        name: Name of the source in diagnostics.
+        diagnostics: Reports without those that a comment suppresses, in order of position.
+        levels: Scenario to `abstract`, `logical` or `concrete` (§5.2).
+    """
+
+    name: str
+    diagnostics: tuple[Diagnostic, ...]
+    levels: Mapping[str, str]
+
+    @property
+    def ok(self) -> bool:
+        """Whether there are no errors; warnings are fine."""
+        return _has_no_error(self.diagnostics)
+
+
+def _has_no_error(found: Iterable[Diagnostic]) -> bool:
+    return all(each.severity is not Severity.ERROR for each in found)
 
 
 class Options(TypedDict, total=False):
@@ -155,10 +187,68 @@ def compile_text(
     Raises:
         ConfigError: If a settings file is wrong.
     """
-    path = Path(folder, name)
-    item = Input(path, real_path(path.parent) / path.name, Path(folder), is_asked=True)
-    job = job_for(item, GivenOptions(**options), ConfigFiles().for_source(path))
+    job = job_of_text(name, folder, GivenOptions(**options))
     return _result(job.compilation(text=text))
+
+
+def check_text(
+    text: str,
+    *,
+    name: str = "scenario.osc",
+    folder: str | Path = ".",
+    **options: Unpack[Options],
+) -> CheckResult:
+    r"""Check a text as `osc2tx check` does; no outputs are made, which is several times faster.
+
+    Examples:
+        >>> from osc2tx import apply_fixes, check_text
+        >>> text = "import osc.standard\n\nactor tram inherits vehicel\n"
+        >>> result = check_text(text)
+        >>> result.ok, result.diagnostics[0].fixes[0].title
+        (False, 'write `vehicle`')
+        >>> check_text(apply_fixes(text, unsafe=True)).ok
+        True
+
+    Args:
+        text: The text.
+        name: How diagnostics call it.
+        folder: Where imported files are looked for, and from where settings files.
+        **options: See `Options`.
+
+    Raises:
+        ConfigError: If a settings file is wrong.
+    """
+    compilation = job_of_text(name, folder, GivenOptions(**options)).compilation(text=text)
+    compilation.check()
+    return CheckResult(
+        name=compilation.name,
+        diagnostics=compilation.diagnostics,
+        levels={entry.name: entry.level for entry in compilation.scenarios},
+    )
+
+
+def apply_fixes(
+    text: str,
+    *,
+    unsafe: bool = False,
+    name: str = "scenario.osc",
+    folder: str | Path = ".",
+    **options: Unpack[Options],
+) -> str:
+    """Return a text with the fixes of its diagnostics, as `osc2tx check --fix` applies them.
+
+    Args:
+        text: The text.
+        unsafe: Whether to apply also fixes whose result the author may not have meant.
+        name: As for `check_text`.
+        folder: As for `check_text`.
+        **options: See `Options`.
+
+    Raises:
+        ConfigError: If a settings file is wrong.
+    """
+    job = job_of_text(name, folder, GivenOptions(**options))
+    return fix_text(job, text, unsafe=unsafe).text
 
 
 def _result(compilation: Compilation) -> CompileResult:

@@ -152,6 +152,19 @@ def job_for(item: Input, given: GivenOptions, config: Config) -> Job:
     return Job(item.path, name, options, roots, item.is_asked, given, run)
 
 
+def job_of_text(name: str, folder: str | Path, given: GivenOptions) -> Job:
+    """Return the job of a text that stands for the file `name` of a folder, which need not exist.
+
+    Raises:
+        ConfigError: If a settings file is wrong.
+    """
+    from osc2tx.config import ConfigFiles
+
+    path = Path(folder, name)
+    item = Input(path, real_path(path.parent) / path.name, Path(folder), is_asked=True)
+    return job_for(item, given, ConfigFiles().for_source(path))
+
+
 def compile_all(paths: Sequence[str | Path], given: GivenOptions) -> list[Compilation]:
     """Return the compilations of all files that the paths name; no stage has run yet.
 

@@ -47,6 +47,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "config": ("osc2tx.cli.config:config", "Show the effective settings and their origins."),
     "reference": ("osc2tx.cli.reference:reference", "Describe a name of the library."),
     "lsp": ("osc2tx.cli.lsp:lsp", "Serve editors: diagnostics, completion, fixes."),
+    "mcp": ("osc2tx.cli.mcp:mcp", "Serve language models: check, build, run and look up."),
     "explain": ("osc2tx.cli.explain:explain", "Explain a diagnostic code."),
 }
 

@@ -45,9 +45,12 @@ MAY_IMPORT: dict[str, set[str]] = {
     "campaigns": {"version"},
     "language_server": {"building", "catalogue", "compilation", "config", "diagnostics"}
     | {"reference", "semantics", "stdlib", "support", "syntax", "version"},
+    "mcp_server": {"api", "building", "compilation", "config", "diagnostics", "importing"}
+    | {"module_loading", "reference", "version"},
     "cli": {"building", "campaigns", "compilation", "config", "importing", "reference"}
     | {
         "language_server",
+        "mcp_server",
         "diagnostics",
         "module_loading",
         "options",
@@ -81,6 +84,7 @@ OTHERS = {
     "cli": {"click", "osc2tx_runtime", "pytest", "rich"},
     "testing": {"osc2tx_runtime", "pytest"},
     "language_server": {"lsprotocol", "pygls"},
+    "mcp_server": {"mcp", "osc2tx_runtime", "pydantic"},  # it runs and draws scenarios
 }
 
 FILES = files_of(COMPILER)

@@ -1,7 +1,7 @@
-"""Pictures of the how-to: a run as another client of the server sees it, drawn by the report.
+"""Pictures of the how-to: runs as another client of the server sees them, drawn by the report.
 
 `python -m tests.carla.pictures`: poses and speeds are those of the server's snapshots; of our trace
-there is the header alone. With Chromium in the path the page becomes a picture of the docs.
+there are the header and the verdict alone. With Chromium in the path the pages become pictures.
 """
 
 from __future__ import annotations
@@ -12,7 +12,10 @@ import shutil
 import subprocess
 import sys
 import time
-from typing import Any
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import carla
 
@@ -26,38 +29,86 @@ from .runs import REPOSITORY
 from .stand_in.process import StandInProcess
 
 SCENARIO = REPOSITORY / "scenarios" / "cut_in.osc"
-PICTURE = REPOSITORY / "docs" / "images" / "carla_cut_in.png"
-SHOWN = 16.5
-"""Seconds of the run that the picture shows: the other car cuts in."""
-
-SIZE = (1400, 860)
+PAGE = REPOSITORY / "docs" / "how-to" / "carla.md"
+PORT = "2000"
+SIZE = (1400, 735)
 Seen = dict[float, dict[str, list[float]]]
 
 
+class Picture(NamedTuple):
+    """A picture.
+
+    Attributes:
+        name: Of its file.
+        options: Of the run.
+        shown: Time (s) of the run.
+        has_stack: The stack of the page controls the ego.
+    """
+
+    name: str
+    options: tuple[str, ...]
+    shown: float
+    has_stack: bool = False
+
+
+UNDER_TEST = ("--control", "ego=external", "--wait-control", "30s", "--expect")
+PICTURES = (
+    Picture("carla_cut_in", (), 14.5),
+    Picture("carla_under_test", UNDER_TEST, 14.5, has_stack=True),
+)
+
+
 def main() -> int:
-    """Play the scenario, watch it, and draw what was seen."""
+    """Make the pictures."""
+    for picture in PICTURES:
+        page = draw(picture)
+        say(str(page))
+        browser = shutil.which("chromium")
+        if browser is not None:
+            file = REPOSITORY / "docs" / "images" / f"{picture.name}.png"
+            size = ",".join(map(str, SIZE))
+            shot = [browser, "--headless", "--no-sandbox", "--hide-scrollbars"]
+            shot += [f"--window-size={size}", f"--screenshot={file}"]
+            command = [*shot, f"{page.as_uri()}#t={picture.shown}"]
+            subprocess.run(command, check=True, stderr=subprocess.DEVNULL)
+            say(str(file))
+    return 0
+
+
+def draw(picture: Picture) -> Path:
+    """Play the scenario, watch it, and write the page of what was seen."""
     out = REPOSITORY / "out"
     out.mkdir(exist_ok=True)
-    page, trace = out / "carla_cut_in.html", out / "carla_cut_in.jsonl"
-    with StandInProcess([OWN_MAPS], "highway") as server:
+    page, trace = out / f"{picture.name}.html", out / f"{picture.name}.jsonl"
+    with StandInProcess([OWN_MAPS], "highway") as server, stack(server, picture.has_stack):
         run = [sys.executable, "-m", "osc2tx", "run", str(SCENARIO), "--world", "carla"]
         run += ["--carla", f"127.0.0.1:{server.port}", "--trace", str(trace), "--realtime", "8"]
         watched = carla.Client("127.0.0.1", server.port)
         watched.set_timeout(20.0)
-        process = subprocess.Popen(run, cwd=REPOSITORY)
+        process = subprocess.Popen([*run, *picture.options], cwd=REPOSITORY)
         seen = watch(watched.get_world(), process)
-    header, *_ = trace.read_text(encoding="utf-8").splitlines()
-    steps = lines_of(json.loads(header), seen)
-    write_report(page, [header, *steps], read_map(OWN_MAPS / "highway.xodr"))
-    say(f"{page}: {len(seen)} steps")
-    browser = shutil.which("chromium")
-    if browser is not None:
-        size = ",".join(map(str, SIZE))
-        shot = [browser, "--headless", "--no-sandbox", f"--window-size={size}"]
-        shot += [f"--screenshot={PICTURE}", f"{page.as_uri()}#t={SHOWN}"]
-        subprocess.run(shot, check=True, stderr=subprocess.DEVNULL)
-        say(str(PICTURE))
-    return 0
+    header, *_, verdict = trace.read_text(encoding="utf-8").splitlines()
+    states = lines_of(json.loads(header), seen, json.loads(verdict)["steps"])
+    write_report(page, [header, *states, verdict], read_map(OWN_MAPS / "highway.xodr"))
+    return page
+
+
+@contextmanager
+def stack(server: StandInProcess, wanted: bool) -> Iterator[None]:
+    """Run the stack of the page."""
+    if not wanted:
+        yield
+        return
+    process = subprocess.Popen([sys.executable, "-c", stack_for(server.port)])
+    yield
+    process.kill()
+    process.wait()
+
+
+def stack_for(port: int) -> str:
+    """Return the text of the page's stack, for a port."""
+    text = PAGE.read_text(encoding="utf-8").partition("```python\n")[2].partition("```")[0]
+    return text.replace(PORT, str(port))
 
 
 def watch(world: Any, process: subprocess.Popen[bytes]) -> Seen:
@@ -86,14 +137,13 @@ def state_of(found: Any) -> list[float]:
     return [at.x, at.y, at.z, turn.pitch, turn.yaw, turn.roll, *moving, *[0.0] * 6]
 
 
-def lines_of(header: dict[str, Any], seen: Seen) -> list[str]:
-    """Return lines of a trace; it begins when all are on the road, and ends when they are gone."""
+def lines_of(header: dict[str, Any], seen: Seen, steps: int) -> list[str]:
+    """Return lines of a trace for the last steps in which all actors are there."""
     actors, dt = header["actors"], header["dt"]
     complete = [at for at in seen.values() if len(at) == len(actors)]
-    on_road = [at for at in complete if all(state[2] < 1.0 for state in at.values())]
     places: dict[str, tuple[float, float]] = {}
     lines = []
-    for step, states in enumerate(on_road):
+    for step, states in enumerate(complete[-steps - 1 :]):
         for name, state in states.items():
             ahead = actors[name]["rear"] - 0.5 * actors[name]["length"]
             pose = measurement_from(state, ahead).pose

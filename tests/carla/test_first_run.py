@@ -1,7 +1,8 @@
-"""The transcript of the how-to: its commands print what it shows, over the stand-in."""
+"""The how-to over the stand-in: its commands print what it shows, and its stack drives the ego."""
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -12,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from .conftest import OWN_MAPS
+from .pictures import UNDER_TEST, stack_for
 from .runs import REPOSITORY
 from .stand_in.process import StandInProcess
 
@@ -67,3 +69,24 @@ def test_the_commands_print_what_the_page_shows(
 def anywhere(line: str) -> str:
     """Return a line without the folder of the client library."""
     return re.sub(r"(client library: [\d.]+), .*", r"\1", line)
+
+
+@pytest.mark.slow
+def test_the_stack_of_the_page_keeps_its_speed(tmp_path: Path) -> None:
+    """It finds the ego, drives it at 70 km/h, and ends with it."""
+    trace = tmp_path / "trace.jsonl"
+    with StandInProcess([OWN_MAPS], "highway") as server:
+        stack = subprocess.Popen([sys.executable, "-c", stack_for(server.port)])
+        run = [sys.executable, "-m", "osc2tx", "run", "scenarios/cut_in.osc", "--world", "carla"]
+        run += ["--carla", f"127.0.0.1:{server.port}", "--trace", str(trace), *UNDER_TEST]
+        ended = subprocess.run(run, cwd=REPOSITORY, capture_output=True, text=True)
+        assert ended.returncode == 0, ended.stderr
+        assert stack.wait(timeout=60.0) == 0
+    lines = map(json.loads, trace.read_text(encoding="utf-8").splitlines())
+    speeds = [each["v"] for each in lines if each.get("actor") == "ego" and "v" in each]
+    assert speeds == pytest.approx([70.0 / 3.6] * len(speeds), abs=0.5)
+
+
+def test_the_page_states_the_command_of_that_run() -> None:
+    text = PAGE.read_text(encoding="utf-8")
+    assert f"osc2tx run scenarios/cut_in.osc --world carla {' '.join(UNDER_TEST)}" in text

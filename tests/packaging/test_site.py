@@ -16,6 +16,7 @@ from osc2tx.reference import entries, find
 TOOLS = Path(__file__).parents[2] / "tools"
 PAGES: dict[str, Any] = run_path(str(TOOLS / "site_pages.py"))
 PICTURES: dict[str, Any] = run_path(str(TOOLS / "site_pictures.py"))
+LLMS: dict[str, Any] = run_path(str(TOOLS / "site_llms.py"))
 SPLITS: dict[str, Any] = run_path(str(TOOLS / "site_splits.py"))
 
 
@@ -65,6 +66,19 @@ def test_old_anchors_lead_to_the_new_pages() -> None:
     assert lead(SPLITS["_lead_to_chapter"], text) == (
         "[a](../coverage-capabilities.md#in-carla) [b](coverage-openscenario-xml.md)"
     )
+
+
+def test_the_list_for_language_models_has_a_sentence_for_each_page() -> None:
+    page = "# Lanes\n\n```\nlane(1)\n```\n\nThe [lane](lane.md) of an actor. More of it.\n"
+    line = LLMS["line_of"]("Lanes", "lanes.html", page)
+    assert line == "- [Lanes](lanes.html): The lane of an actor"
+    assert LLMS["line_of"]("Empty", "empty.html", "# Empty\n") == "- [Empty](empty.html)"
+    text = LLMS["document"]("osc2tx", "Compiles.", {"Reference": [line]})
+    assert text.startswith("# osc2tx\n\n> Compiles.\n\n")
+    assert text.endswith(f"\n\n## Reference\n\n{line}\n")
+    documented = sorted((TOOLS.parent / "docs").rglob("*.md"))
+    without = [p.name for p in documented if ": " not in LLMS["line_of"]("t", "u", p.read_text())]
+    assert without == []
 
 
 @pytest.mark.slow

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TypeGuard
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.signals.traffic_lights import shows
+from osc2tx.backends.xosc.actions.signals.traffic_lights import lamps_condition, shows
 from osc2tx.backends.xosc.conditions.comparisons import Comparison, Groups, relative_speed
 from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Test
 from osc2tx.backends.xosc.conditions.measures import FINITE, MEASURES
@@ -57,11 +56,12 @@ def level_flow(ctx: Context, expression: ir.Expression) -> Flow:
 def _edge_flow(ctx: Context, expression: ir.Expression, *, rising: bool) -> Flow:
     while isinstance(expression, ir.Unary) and expression.operator == "not":
         expression, rising = expression.operand, not rising
-    if _is_light(expression):
+    lamps = lamps_condition(expression)
+    if lamps is not None:
         if not ctx.profile.has_edges:
             reason = f"{ctx.profile.name} does not look at edges"
             raise Inexpressible(reason, expression.span, GENERIC)
-        return _light_edge(ctx, expression, rising=rising)
+        return _light_edge(ctx, lamps, rising=rising)
     if not (isinstance(expression, ir.Binary) and expression.operator in RULES):
         raise Inexpressible(
             "`rise` and `fall` of more than one comparison have no counterpart", expression.span
@@ -70,6 +70,9 @@ def _edge_flow(ctx: Context, expression: ir.Expression, *, rising: bool) -> Flow
 
 
 def _flow(ctx: Context, expression: ir.Expression, *, negated: bool, edge: Edge) -> Flow:
+    lamps = lamps_condition(expression)
+    if lamps is not None and not negated:
+        return Flow((tuple(Test(each, edge) for each in shows(ctx, lamps)),))
     match expression:
         case ir.Unary(operator="not", operand=operand):
             return _flow(ctx, operand, negated=not negated, edge=edge)
@@ -85,18 +88,11 @@ def _flow(ctx: Context, expression: ir.Expression, *, negated: bool, edge: Edge)
             return _comparison(ctx, expression, OPPOSITE[operator] if negated else operator, edge)
     if isinstance(expression, ir.EventArgument):  # a truth value
         return Flow(((Test(parameter_condition(ctx, expression, "equalTo", not negated), edge),),))
-    if _is_light(expression) and not negated:
-        return Flow((tuple(Test(each, edge) for each in shows(ctx, expression)),))
     if not ir.is_live(expression):
         return ALWAYS if bool(ctx.values.of(expression)) is not negated else NEVER
     raise Inexpressible(
         f"`{expression.span.text}` is no comparison with a constant", expression.span
     )
-
-
-def _is_light(expression: ir.Expression) -> TypeGuard[ir.MethodCall]:
-    """Whether an expression is a condition on what traffic lights show."""
-    return isinstance(expression, ir.MethodCall) and expression.method == "state_equal"
 
 
 def _light_edge(ctx: Context, call: ir.MethodCall, *, rising: bool) -> Flow:

@@ -21,12 +21,16 @@ class _Category(NamedTuple):
         literal: From 1.4 on.
         older: Before; `None` if vehicles of this kind could not be said.
         loss: What the older one does not say.
+        instead: What is exact with the older ones, too.
     """
 
     literal: VehicleCategory
     older: VehicleCategory | None
     loss: str = ""
+    instead: str = ""
 
+
+_BICYCLE = "`bicycle` of DSL 2.2 (`--std 2.2`) is exact"
 
 # `vehicle_category` (§8.7.16); the older literals exist in every version.
 _CATEGORIES: Mapping[str, _Category] = {
@@ -39,7 +43,7 @@ _CATEGORIES: Mapping[str, _Category] = {
         "landVehicle", "car", "there is no literal for a land vehicle of any kind"
     ),
     "micro_mobility_device": _Category(
-        "micromobilityDevice", "bicycle", "there is no literal for such a device"
+        "micromobilityDevice", "bicycle", "there is no literal for such a device", _BICYCLE
     ),
     "motorcycle": _Category("motorcycle", "motorbike"),
     "other": _Category("other", "car", "there is no literal for another kind of vehicle"),
@@ -52,7 +56,7 @@ _CATEGORIES: Mapping[str, _Category] = {
     "truck": _Category("heavyTruck", "truck"),
     "van": _Category("van", "van"),
     "vru_vehicle": _Category(
-        "micromobilityDevice", "bicycle", "there is no literal for such a vehicle"
+        "micromobilityDevice", "bicycle", "there is no literal for such a vehicle", _BICYCLE
     ),
     "watercraft": _Category("watercraft", None),
     "wheelchair": _Category(
@@ -104,7 +108,7 @@ def vehicle_literal(ctx: Context, member: CastMember) -> VehicleCategory:
         raise Inexpressible(f"there is no category for `{member.category}`", span)
     if ctx.version >= HARMONIZED:
         return category.literal
-    better = Remedy(version=HARMONIZED)
+    better = Remedy(version=HARMONIZED, instead=category.instead)
     if category.older is None:
         raise Inexpressible(f"there is no category for `{member.category}`", span, better)
     if category.loss:

@@ -17,6 +17,7 @@ from osc2tx.backends.xosc.facts.maps import Roads
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Member, MethodResult, Named
 from osc2tx.xosc import elements as xml
+from osc2tx_shared.classes import replace
 
 WORDS: Mapping[str, str] = {"is_off": "off", "is_on": "on", "is_flashing": "flashing"}
 """State of a lamp -> its word."""
@@ -87,6 +88,30 @@ def infrastructure(action: xml.TrafficSignalActionPart) -> xml.GlobalAction:
 
 
 # --- conditions ---------------------------------------------------------------------------------
+
+
+def lamps_condition(expression: ir.Expression) -> ir.MethodCall | None:
+    """Return the condition on lamps that an expression is, `None` if it is another one.
+
+    What a light means, compared with a constant, is a condition on its lamps.
+    """
+    match expression:
+        case ir.MethodCall(method="state_equal"):
+            return expression
+        case ir.Binary(
+            operator="==",
+            left=ir.MethodCall(
+                method="state_to_semantic_state",
+                base=light,
+                arguments=(ir.Argument(value=ir.Attribute(base=shown, name="bulbs")) as given,),
+            ) as call,
+            right=meaning,
+        ) if shown.span.text == light.span.text and not ir.is_live(meaning):
+            state = replace(given, parameter="state", value=meaning)
+            lamps = replace(call, method="semantic_state_to_state", arguments=(state,))
+            bulbs = replace(given, parameter="bulbs", value=lamps)
+            return replace(call, method="state_equal", arguments=(bulbs,))
+    return None
 
 
 def shows(ctx: Context, call: ir.MethodCall) -> tuple[xml.ConditionPart, ...]:

@@ -47,6 +47,7 @@ class Probe:
         contact: The result of the first contact.
         level: The level of the server.
         road_map: The map of that level.
+        is_other_map: It is not the scenario's.
         driver: A second connection, which makes steps; there from the first line that drives on.
         before: The situation before that.
     """
@@ -56,6 +57,7 @@ class Probe:
     contact: Mapping[str, Any] = field(default_factory=dict)
     level: Mapping[str, Any] = field(default_factory=dict)
     road_map: RoadMap | None = None
+    is_other_map: bool = False
     driver: ClientProcess | None = None
     before: Mapping[str, Any] = field(default_factory=dict)
 
@@ -101,6 +103,7 @@ class Line:
         number: Its number.
         name: The compared property.
         look: Compares it.
+        of_map: It is about the map of the scenario, if there is one.
         drives: It takes the server over.
         blocks: A run cannot begin where it differs.
     """
@@ -108,6 +111,7 @@ class Line:
     number: int
     name: str
     look: Callable[[Probe], Finding]
+    of_map: bool = False
     drives: bool = False
     blocks: bool = False
 
@@ -117,12 +121,17 @@ LINES: dict[int, Line] = {}
 
 
 def line(
-    number: int, name: str, *, drives: bool = False, blocks: bool = False
+    number: int,
+    name: str,
+    *,
+    of_map: bool = False,
+    drives: bool = False,
+    blocks: bool = False,
 ) -> Callable[[Callable[[Probe], Finding]], Callable[[Probe], Finding]]:
     """Declare a line; see `Line`."""
 
     def declared(look: Callable[[Probe], Finding]) -> Callable[[Probe], Finding]:
-        LINES[number] = Line(number, name, look, drives, blocks)
+        LINES[number] = Line(number, name, look, of_map, drives, blocks)
         return look
 
     return declared

@@ -45,12 +45,13 @@ def level(probe: Probe) -> Finding:
     difference = difference_of(wanted, probe.road_map)
     if difference is None:
         return ok(name)
+    probe.is_other_map = True
     known = wanted.name in map(plain_name, probe.client.ask("maps"))
     how = "loads it" if known else "makes a level of its OpenDRIVE file"
     return differs(f"{name} instead of {wanted.name}: {difference}", f"--carla-load {how}")
 
 
-@line(10, "ground")
+@line(10, "ground", of_map=True)
 def ground(probe: Probe) -> Finding:
     """The ground below the lanes is at the height of OpenDRIVE."""
     assert probe.road_map is not None
@@ -85,7 +86,7 @@ def _along_lanes(road_map: RoadMap) -> Iterator[LanePosition]:
         left -= end - begin
 
 
-@line(11, "size of the level")
+@line(11, "size of the level", of_map=True)
 def size(probe: Probe) -> Finding:
     """A streamed level needs an actor to stream it for."""
     name = plain_name(probe.level["name"])
@@ -155,7 +156,7 @@ def blueprints(probe: Probe) -> Finding:
     return ok(", ".join(found) or f"{len(library)} blueprints")
 
 
-@line(20, "traffic lights")
+@line(20, "traffic lights", of_map=True)
 def lights(probe: Probe) -> Finding:
     """Each light of the map is one of the server's, and none is frozen."""
     assert probe.road_map is not None

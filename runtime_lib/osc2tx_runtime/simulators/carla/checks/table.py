@@ -44,6 +44,8 @@ def check(request: CheckRequest) -> Iterator[CheckResult]:
 def _found(line: Line, probe: Probe) -> Finding:
     if line.drives and not probe.request.drives:
         return unknown("not tried", "--drive spawns and moves actors to find out")
+    if line.of_map and probe.is_other_map:
+        return unknown("the map of the scenario is not loaded")
     try:
         return line.look(probe)
     except ScenarioError as error:

@@ -1,0 +1,133 @@
+"""The tools over the protocol, asked by its own client."""
+
+from __future__ import annotations
+
+import asyncio
+import sys
+from collections.abc import Callable, Coroutine
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("mcp")
+from mcp import Client, StdioServerParameters
+
+SECONDS = 120
+
+SCENARIO = """import osc.standard
+
+scenario follow:
+    ego: vehicle
+    leader: vehicle
+    event done
+    do parallel:
+        leader.drive(duration: 3s) with:
+            speed(50kph)
+        serial:
+            ego.drive(duration: 2s) with:
+                speed(10mps)
+                position(20m, behind: leader, at: start)
+            emit done
+"""
+
+Work = Callable[[Client], Coroutine[Any, Any, Any]]
+
+
+def served(folder: Path, work: Work, *options: str) -> Any:
+    """Return what becomes of work with a client of a server that runs in a folder."""
+    command = ["-m", "osc2tx", "mcp", *options]
+    server = StdioServerParameters(command=sys.executable, args=command, cwd=folder)
+
+    async def talk() -> Any:
+        async with Client(server) as client:
+            return await work(client)
+
+    return asyncio.run(asyncio.wait_for(talk(), SECONDS))
+
+
+def called(folder: Path, tool: str, *options: str, **arguments: Any) -> Any:
+    result = served(folder, lambda client: client.call_tool(tool, arguments), *options)
+    assert not result.is_error, result.content
+    found = result.structured_content
+    return found["result"] if set(found) == {"result"} else found
+
+
+def refused(folder: Path, tool: str, **arguments: Any) -> str:
+    result = served(folder, lambda client: client.call_tool(tool, arguments))
+    assert result.is_error
+    return str(result.content[0].text)
+
+
+def test_the_tools_and_what_they_may_do(tmp_path: Path) -> None:
+    async def listed(client: Client) -> Any:
+        return (await client.list_tools()).tools
+
+    tools = served(tmp_path, listed)
+    names = {tool.name for tool in tools}
+    assert names == {"check", "build", "run", "explain", "reference", "tree", "import"}
+    assert all(tool.description and tool.annotations.read_only_hint for tool in tools)
+    writing = served(tmp_path, listed, "--out", "made")
+    writers = {tool.name for tool in writing if not tool.annotations.read_only_hint}
+    assert writers == {"build", "import"}
+
+
+def test_one_client_writes_checks_and_runs_a_scenario(tmp_path: Path) -> None:
+    wrong = SCENARIO.replace("do parallel:", "do paralel:").replace("3s", "3 s")
+
+    async def loop(client: Client) -> list[Any]:
+        first = await client.call_tool("check", {"text": wrong})
+        fixed = await client.call_tool("check", {"text": wrong, "fix": "all"})
+        text = fixed.structured_content["text"]
+        run = await client.call_tool("run", {"text": text})
+        tree = await client.call_tool("tree", {"text": text})
+        return [each.structured_content for each in (first, fixed, run, tree)]
+
+    first, fixed, run, tree = served(tmp_path, loop)
+    assert not first["ok"] and first["diagnostics"][0]["fixes"]
+    assert fixed["ok"] and fixed["text"] == SCENARIO
+    assert (run["status"], round(run["time"])) == ("success", 3)
+    assert [line["t"] for line in run["trace"] if line["kind"] == "event"] == pytest.approx([2.0])
+    assert {line["actor"] for line in run["last_states"]} == {"ego", "leader"}
+    assert "leader" in tree["result"]
+
+
+def test_imports_are_those_of_the_working_folder(tmp_path: Path) -> None:
+    (tmp_path / "shared.osc").write_text("struct limits:\n    top: int\n")
+    text = 'import "shared.osc"\nactor a:\n    x: limits\n'
+    assert called(tmp_path, "check", text=text)["ok"]
+    assert "below the folder" in refused(tmp_path, "check", text=text, name="../a.osc")
+
+
+def test_outputs_are_written_only_to_the_folder_given(tmp_path: Path) -> None:
+    kept = called(tmp_path, "build", text=SCENARIO, name="follow.osc")
+    assert "class Follow(Scenario):" in kept["outputs"]["follow.py"]
+    assert list(tmp_path.iterdir()) == []
+    written = called(tmp_path, "build", "--out", "made", text=SCENARIO, name="follow.osc")
+    assert "follow.py" in written["written"]
+    assert [each.name for each in tmp_path.iterdir()] == ["made"]
+    assert (tmp_path / "made" / "follow.py").read_text() == kept["outputs"]["follow.py"]
+
+
+def test_a_written_document_is_imported(tmp_path: Path) -> None:
+    made = called(tmp_path, "build", text=SCENARIO, name="follow.osc")["outputs"]
+    (document,) = (text for name, text in made.items() if name.endswith("follow.xosc"))
+    back = called(tmp_path, "import", document=document, name="follow")
+    assert called(tmp_path, "check", text=back["text"])["ok"]
+
+
+def test_look_up(tmp_path: Path) -> None:
+    assert "num_of_lanes" in called(tmp_path, "reference", name="change_lane")
+    assert "action vehicle.drive" in called(tmp_path, "reference")
+    assert called(tmp_path, "explain", code="OSC202")["code"] == "OSC202"
+    assert "did you mean" in refused(tmp_path, "reference", name="chang_lane")
+    assert "no code" in refused(tmp_path, "explain", code="OSC999")
+
+
+def test_what_cannot_be_run_is_an_error_that_states_why(tmp_path: Path) -> None:
+    said = refused(tmp_path, "run", text=SCENARIO.replace("ego: vehicle", "ego: car"))
+    assert "OSC202" in said and "car" in said
+    assert "declares no scenario" in refused(tmp_path, "tree", text="import osc.standard\n")
+    assert "follow" in refused(tmp_path, "run", text=SCENARIO, scenario="other")
+    (tmp_path / "osc2tx.toml").write_text("nonsense = 1\n")
+    assert "nonsense" in refused(tmp_path, "check", text=SCENARIO)
