@@ -260,7 +260,7 @@ class Compilation:
 
     @cached_property
     def xml(self) -> tuple[XmlScenario, ...]:
-        """The scenarios of the file as OpenSCENARIO XML, each with what became of it.
+        """The scenarios of the file as OpenSCENARIO XML, each with its result.
 
         Empty for a library, if there are errors, and if only modules are asked for.
         """

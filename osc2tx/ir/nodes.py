@@ -112,7 +112,7 @@ class Module:
             the file.
         actions: Actions they invoke that are not the library's, in order of use, then the others
             of the file.
-        enums: Enums of the file, and those of imported files that it speaks of.
+        enums: Enums of the file, and those of imported files that it mentions.
         modifiers: Modifiers that are functions of their parameters: those of the file, and those
             of imported files that it applies.
         units: Units of its files that comments tell about.

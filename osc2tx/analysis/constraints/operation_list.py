@@ -272,7 +272,7 @@ class OperationListBuilder:
         if value != value:
             return self._any(
                 operations, node
-            )  # NaN equals nothing; whoever writes it means no contradiction
+            )  # NaN equals nothing, yet it is no contradiction
         kind = kind_of(self._model.type_of(node)) or "choice"
         if isinstance(value, int) and not isinstance(value, bool) and kind == "float":
             value = float(value)

@@ -174,7 +174,7 @@ def _all_names(module: ir.Module, sharing: Sharing) -> NameTable:
 def _explained(
     views: Sequence[DefinitionT], parts: Sequence[Declared], sharing: Sharing
 ) -> tuple[DefinitionT, ...]:
-    """Return views that say of copies why they are some."""
+    """Return views; those of copies state why they are copied."""
     reasons = (sharing.copies.get(key_of(part)) for part in parts)
     return tuple(
         view if reason is None else replace(view, copied=PyComment.of(reason))

@@ -147,7 +147,7 @@ class ConstraintLowering:
                     yield key, setting
 
     def of_instance(self, node: Instance) -> Iterator[tuple[sym.FieldSymbol, Setting]]:
-        """Yield what constraints say of the parameters of an invocation or composition.
+        """Yield the constrained parameters of an invocation or composition.
 
         Arguments are constraints too; a parameter that has one is left to it.
         """
