@@ -244,8 +244,8 @@ class ResultCache:
         if changed:  # found at once the next time
             digests = (each.digest for each in result.dependencies or ())
             entries = zip(record["dependencies"], digests, strict=True)
-            now = [[asked, found, known, detail] for (asked, found, _, detail), known in entries]
-            self._put(self._key(self._kinds[0], job, places, text), {**record, "dependencies": now})
+            new = [[asked, found, known, detail] for (asked, found, _, detail), known in entries]
+            self._put(self._key(self._kinds[0], job, places, text), {**record, "dependencies": new})
         return result
 
     def _present(self, known: Dependency) -> Dependency | None:
