@@ -283,10 +283,10 @@ class Compilation:
         from osc2tx.grading import Source, graded
 
         with room_for_trees():
-            source = Source(self.ir, self.options, self.path.parent, self._whole_module)
+            source = Source(self.ir, self.options, self.path.parent, self.whole_module)
             return graded(self.xml, source, self.sink)
 
-    def _whole_module(self) -> GeneratedModule:
+    def whole_module(self) -> GeneratedModule:
         """Return the Python module, with the declarations of imported files in it."""
         from osc2tx.backends.py_trees import emit
 
