@@ -84,7 +84,7 @@ class Result:
 )
 @click.option("--scenario-name", metavar="NAME", help="Name of the scenario, of a single document.")
 @click.option("--force", is_flag=True, help="Replace scenarios and libraries that were changed.")
-@click.option("--allow-approx", is_flag=True, help="Accept what is said nearly, or left out.")
+@click.option("--allow-approx", is_flag=True, help="Accept approximations and omissions.")
 @click.option(
     "--output-format",
     "form",
@@ -201,7 +201,7 @@ def _sources(paths: Sequence[str]) -> Iterator[Path | None]:
 def _import(
     source: Path | None, name: str, libraries: Libraries, folders: Folders
 ) -> Result | None:
-    """Return what became of a document; nothing of a catalog, which others use.
+    """Return the result of a document; none of a catalog, which others use.
 
     Raises:
         Refused: It is none, or cannot be read.

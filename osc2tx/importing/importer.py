@@ -41,7 +41,7 @@ SIGNS = {
 
 @dataclass(frozen=True, slots=True)
 class Imported:
-    """What became of a document.
+    """The result of a document.
 
     Attributes:
         name: The name of the scenario.
