@@ -6,7 +6,6 @@ anything ran.
 
 from __future__ import annotations
 
-import json
 from itertools import pairwise
 from pathlib import Path
 
@@ -23,10 +22,10 @@ from .test_modifiers_to_the_letter import (
     HERE,
     Case,
     Trace,
+    judge,
     near,
     never,
     steady,
-    text_of,
     within,
 )
 
@@ -210,7 +209,7 @@ CASES = {
         AT + "speed(10mps, at: start); acceleration(1mpss); speed(16mps, at: end)", "fails", never
     ),
     "an acceleration to a speed": Case(
-        AT + "acceleration(1mpss); speed(16mps, at: end)",
+        AT + "speed(12mps, at: start); acceleration(1mpss); speed(16mps, at: end)",
         *("succeeds", lambda t: near(t.all("v")[0], 12) and near(t.end("v"), 16)),
     ),
     # 8.9.14 lane()
@@ -317,7 +316,7 @@ CASES = {
     ),
     "an acceleration": Case(
         "change_acceleration(1mpss)",
-        *("succeeds", lambda t: near(t.end("a"), 1.0, 0.1)),
+        *("succeeds", lambda t: near(t.end("a"), 1.0, 0.15)),  # of a trace: the mean over a step
         how=ALONE,
         before="npc",
     ),
@@ -384,23 +383,14 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("name", CASES)
-def test_a_success_is_what_the_text_demands(
-    name: str, capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+@pytest.fixture
+def shell(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Shell:
     monkeypatch.chdir(tmp_path)
-    shell, case = Shell(capsys, tmp_path), CASES[name]
-    path = shell.write("top.osc", text_of(case))
-    ended = shell("run", "--std", "2.2", "--trace", "t.jsonl", path)
-    assert ended.code in (0, 3, 5), ended.err
-    is_success, is_warned = ended.code == 0, "OSC811" in ended.out + ended.err
-    if case.ends == "warns":
-        assert is_warned or not is_success
-        return
-    if case.ends == "fails":
-        assert not is_success
-        return
-    assert is_success or case.ends == "either", ended.out + ended.err
-    if is_success and not is_warned:
-        lines = [json.loads(line) for line in Path("t.jsonl").read_text("utf-8").splitlines()]
-        assert case.holds(Trace(lines)), ended.out + ended.err
+    return Shell(capsys, tmp_path)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_success_is_what_the_text_demands(name: str, shell: Shell) -> None:
+    judge(CASES[name], shell)
