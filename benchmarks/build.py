@@ -98,7 +98,9 @@ class Repository:
             **os.environ,
             "XDG_CACHE_HOME": str(self.cache),
             "PYTHONPATH": os.pathsep.join([str(ROOT), str(ROOT / "runtime_lib")]),
+            "PYTHONPYCACHEPREFIX": str(self.cache.parent / "bytecode"),
         }
+        environment.pop("PYTHONDONTWRITEBYTECODE", None)  # an installed osc2tx is compiled
         environment.pop("OSC2TX_NO_CACHE", None)
         if is_cold:
             environment["OSC2TX_NO_CACHE"] = "1"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -44,6 +44,10 @@ class Job:
     is_asked: bool
     given: GivenOptions
     run: RunTexts = ()
+
+    def __hash__(self) -> int:
+        """Hash the path, in which jobs differ; the options would take longer."""
+        return hash(self.path)
 
     def compilation(self, memory: Memory | None = None, text: str | None = None) -> Compilation:
         """Return its compilation; no stage has run yet.
@@ -118,6 +122,7 @@ def find_jobs(
         InputError: If a path does not exist or holds no scenario file.
         ConfigError: If a settings file is wrong.
     """
+    follow = cache(real_path)
     jobs: dict[Path, Job] = {}
     for item in find_inputs(paths):
         config = configs.for_source(item.path)
@@ -125,7 +130,7 @@ def find_jobs(
         if place != item.place:
             item = Input(place, place, item.folder, item.is_asked)
         if place not in jobs:
-            jobs[place] = job_for(item, given, config)
+            jobs[place] = job_for(item, given, config, follow)
     return tuple(jobs.values())
 
 
@@ -138,11 +143,20 @@ def real_source(item: Input, config: Config) -> Path:
     return target if innermost(target, sources) else item.place
 
 
-def job_for(item: Input, given: GivenOptions, config: Config) -> Job:
-    """Return the job for a file of a project."""
+def job_for(
+    item: Input, given: GivenOptions, config: Config, follow: Callable[[Path], Path] = real_path
+) -> Job:
+    """Return the job for a file of a project.
+
+    Args:
+        item: The file.
+        given: Options that precede those of settings files.
+        config: The settings of the file.
+        follow: Follows links of a folder.
+    """
     options = config.options_for(item.path, given)
-    libraries = [real_path(Path(folder)) for folder in options.import_paths]
-    asked = real_path(item.folder)
+    libraries = [follow(Path(folder)) for folder in options.import_paths]
+    asked = follow(item.folder)
     roots = Roots(config.source_folders or (asked,), config.folder)
     if innermost(item.place, (*roots.sources, *libraries)) is None:
         roots = Roots((asked, *roots.sources), config.folder)

@@ -74,7 +74,8 @@ class ResultCache:
         self._digests: dict[str, str] = {}
         self._real: dict[str, str] = {}
         self._clean: dict[str, bool] = {}
-        self._options: dict[tuple[object, ...], CompileOptions] = {}
+        self._options: dict[tuple[object, ...], tuple[CompileOptions, str]] = {}
+        self._places: dict[tuple[object, ...], Places] = {}
 
     @property
     def is_kept(self) -> bool:
@@ -86,7 +87,7 @@ class ResultCache:
         text = self._text(str(job.path)) if self._folder else None
         if text is None:
             return None
-        places = Places.of(job)
+        places = self._places_of(job)
         for kind in self._kinds:
             for record in self._records(self._key(kind, job, places, text)):
                 try:
@@ -124,7 +125,7 @@ class ResultCache:
         """Store a result; not being able to is no problem."""
         if self._folder is None or result.dependencies is None or result.source is None:
             return
-        places = Places.of(result.job)
+        places = self._places_of(result.job)
         if any(places.are_in(text) for text in _messages(result)):
             return  # its content is not valid elsewhere
         key = self._key(self._kinds[0], result.job, places, result.source.text.encode())
@@ -219,12 +220,13 @@ class ResultCache:
         imported = []
         for path, name, options, is_needed in record["imported"]:
             place = places.read(path)
-            now = self._options_of(place, job)
-            if places.options(now) != options:
+            now, stated = self._options_of(place, job, places)
+            if stated != options:
                 return None
             imported.append(ImportedFile(place, name, now, is_needed))
         source = SourceFile(job.name, text.decode(), job.path)
-        changed = [each for each in present if each is not None and each not in dependencies]
+        pairs = zip(dependencies, present, strict=True)
+        changed = [now for known, now in pairs if now is not None and now is not known]
         if changed and not self._is_used_alike(job, source, record, changed, present):
             return None
         reader = ReportReader(source, record["sources"], places.read, self._text, self._library)
@@ -306,10 +308,18 @@ class ResultCache:
             self._clean[changed.found] = result.is_complete and is_quiet
         return self._clean[changed.found]
 
-    def _options_of(self, place: str, job: Job) -> CompileOptions:
-        key = place, job.roots.settings, job.given
+    def _places_of(self, job: Job) -> Places:
+        key = job.roots, job.options.import_paths, next(iter(job.roots), job.path.parent)
+        if key not in self._places:
+            self._places[key] = Places.of(job)
+        return self._places[key]
+
+    def _options_of(self, place: str, job: Job, places: Places) -> tuple[CompileOptions, str]:
+        """Return the options of an imported file, and their text in records."""
+        key = place, places.folders, job.roots.settings, job.given
         if key not in self._options:
-            self._options[key] = job.options_of(Path(place), self._configs)
+            options = job.options_of(Path(place), self._configs)
+            self._options[key] = options, places.options(options)
         return self._options[key]
 
     def _library(self, key: str) -> str:
@@ -329,9 +339,8 @@ class ResultCache:
             self._texts[path] = data.removeprefix(BYTE_ORDER_MARK) if data is not None else None
         return self._texts[path]
 
-    def _real_path(self, path: str | Path) -> str:
-        """Return the path with links followed; every folder is looked at once."""
-        path = os.path.abspath(path)
+    def _real_path(self, path: str) -> str:
+        """Return an absolute path with links followed; every folder is looked at once."""
         if path not in self._real:
             folder, name = os.path.split(path)
             is_plain = name and not os.path.islink(path)

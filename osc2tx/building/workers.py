@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -100,14 +101,14 @@ def with_siblings(
         configs: The settings files.
     """
     found = list(results)
-    known = {os.path.realpath(result.job.path) for result in results}
+    real = cache(os.path.realpath)
+    known = {real(result.job.path) for result in results}
     new = found
     while new:
         jobs: dict[str, Job] = {}
         for result in new:
             for each in result.imported:
-                place = os.path.realpath(each.path)
-                if each.is_needed and place not in known:
+                if each.is_needed and (place := real(each.path)) not in known:
                     jobs[place] = result.job.for_module_of(Path(each.path), each.name, configs)
         known |= jobs.keys()
         new = compile(list(jobs.values())) if jobs else []

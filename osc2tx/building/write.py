@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
 
@@ -246,6 +245,8 @@ def sync(paths: Collection[Path]) -> None:
     A disk writes many files in nearly the time of one if it is asked for all of them at once.
     """
     if len(paths) > 1:
+        from concurrent.futures import ThreadPoolExecutor  # a build mostly writes nothing
+
         with ThreadPoolExecutor(SYNCS_AT_ONCE) as pool:
             list(pool.map(_sync, paths))
     else:

@@ -23,8 +23,6 @@ from osc2tx.cli.options import (
 )
 from osc2tx.cli.progress import progress_bar
 from osc2tx.cli.reporting import Exit, Reporter, count_of, found, report_options
-from osc2tx.compilation.driver import Compilation
-from osc2tx.compilation.dump import dump_product
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import Config, ConfigError, ConfigFiles, GivenOptions
 from osc2tx.diagnostics.report import FileFault
@@ -38,6 +36,7 @@ from osc2tx_shared.text import complain, put, visible
 if TYPE_CHECKING:
     from osc2tx.building.build import BuildOptions, BuildResult, Change
     from osc2tx.building.results import FileResult
+    from osc2tx.compilation.driver import Compilation
 
 POLL_SECONDS = 0.3  # between two looks of --watch
 
@@ -321,6 +320,8 @@ def _print_product(
         raise click.UsageError("nothing to compile: name a file or folder")
     if emit == "xosc" and given.target is None:
         given = replace(given, target="xosc")
+    from osc2tx.compilation.dump import dump_product
+
     compilations = compile_all(paths, given)
 
     texts: list[str] = []

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import click
 
-from osc2tx.building.compare import diff_lines
 from osc2tx.cli.reporting import wants_color
 from osc2tx_shared.text import put, visible
 
@@ -15,6 +14,8 @@ _STYLES = {"+": "green", "-": "red", "@": "cyan"}
 
 def print_diff(path: str, old: str | None, new: str | None) -> None:
     """Print how an output changes."""
+    from osc2tx.building.compare import diff_lines  # loads what lays out revisions
+
     color = wants_color()
     for line in diff_lines(visible(path), old, new):
         put(_painted(line) if color else line, colored=color)

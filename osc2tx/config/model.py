@@ -164,10 +164,11 @@ class Config:
 
     def tables_for(self, source: Path) -> list[tuple[str, ScenarioConfig]]:
         """Return the tables of a file with their names, the one that goes before all first."""
+        names = self._names_of(source) if self.files else ()
         found = [
             (f'files."{pattern}"', table)
             for pattern, table in reversed(list(self.files.items()))
-            if self.matches(pattern, source)
+            if any(_pattern(pattern).fullmatch(name) for name in names)
         ]
         if source.stem in self.scenarios:
             found.insert(0, (f"scenarios.{source.stem}", self.scenarios[source.stem]))
@@ -179,10 +180,14 @@ class Config:
         Its path counts from the folder of sources that holds it, or from the settings file; `*` is
         any part of a name, `**` any number of folders.
         """
+        return any(_pattern(pattern).fullmatch(name) for name in self._names_of(source))
+
+    def _names_of(self, source: Path) -> Sequence[str]:
         place = real_path(source.parent) / source.name
         folders = (*self.source_folders, *(() if self.folder is None else (self.folder,)))
-        names = (place.relative_to(each) for each in folders if place.is_relative_to(each))
-        return any(_pattern(pattern).fullmatch(name.as_posix()) for name in names)
+        return [
+            place.relative_to(each).as_posix() for each in folders if place.is_relative_to(each)
+        ]
 
     def options_for(self, source: Path, given: GivenOptions) -> CompileOptions:
         """Return the options for a file: the command line, then its tables, then the file's."""

@@ -19,7 +19,9 @@ from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_shared.classes import dataclass
 
 MAPS_KEPT = 8
-OVER = 1.0  # s: a player gets so much more time than the run in the world took, and twice of it
+OVER = 1.0
+"""Seconds that count behind the last action of a run that never ends; a player gets so much more
+time than a run took, and twice of it."""
 
 
 _LINES = re.compile(r"\S+\.osc:\d+: | \(\S+\.osc:\d+\)")
@@ -75,17 +77,24 @@ def run_in_world(scenario: type[Scenario], settings: RunSettings) -> WorldRun:
     starts: dict[str, float] = {}
     track: dict[str, list[Row]] = {}
     choices: dict[str, str] = {}
+    acted = 0.0
     for line in map(json.loads, result.trace_lines):
         match line["kind"]:
             case "state":
                 row = (line["t"], line["x"], line["y"], line["v"])
                 track.setdefault(line["actor"], []).append(row)
-            case "action" if line["status"] == "start":
-                starts.setdefault(line["source"], line["t"])
+            case "action":
+                acted = line["t"]
+                if line["status"] == "start":
+                    starts.setdefault(line["source"], line["t"])
             case "choice":
                 choices[line["name"]] = line["chosen"]
     is_whole = result.status == "success"
     end = result.time if is_whole else math.inf
+    if not is_whole:  # what it awaits never happens, and its actors stop where their road ends
+        track = {
+            who: [row for row in rows if row[0] <= acted + OVER] for who, rows in track.items()
+        }
     return WorldRun(Recording(end, starts, track, choices), is_whole)
 
 

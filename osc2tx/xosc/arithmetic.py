@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping
-from typing import TypeAlias
+from collections.abc import Callable, Mapping, Sequence
+from typing import Generic, NamedTuple, TypeAlias, TypeVar
 
 Shown: TypeAlias = Mapping[str, float]
 """Values of the parameters of a document, by their names there."""
@@ -37,13 +37,55 @@ def evaluated(text: str, shown: Shown) -> float | None:
     """Return the number that an attribute says for values of parameters; `None` if it is none."""
     try:
         if text.startswith("${") and text.endswith("}"):
-            return _Evaluation(text[2:-1], shown).run()
+            return float(_Numbers(text[2:-1], shown).run())
         return shown[text[1:]] if text.startswith("$") else float(text)
     except (ArithmeticError, KeyError, ValueError):
         return None
 
 
-class _Evaluation:
+class Range(NamedTuple):
+    """Between which numbers a value lies; arithmetic may give more, never less than there is."""
+
+    low: float
+    high: float
+
+    def __add__(self, other: Range) -> Range:  # type: ignore[override]
+        return Range(self.low + other.low, self.high + other.high)
+
+    def __sub__(self, other: Range) -> Range:
+        return Range(self.low - other.high, self.high - other.low)
+
+    def __neg__(self) -> Range:
+        return Range(-self.high, -self.low)
+
+    def __mul__(self, other: Range) -> Range:  # type: ignore[override]
+        ends = [a * b for a in self for b in other]
+        return Range(min(ends), max(ends))
+
+    def __truediv__(self, other: Range) -> Range:
+        if other.low <= 0.0 <= other.high:
+            raise ZeroDivisionError
+        return self * Range(1.0 / other.high, 1.0 / other.low)
+
+
+def range_of(text: str, ranges: Mapping[str, Range]) -> Range | None:
+    """Return between which numbers an attribute is where the parameters are in their ranges.
+
+    `None`: it may have no value. A divisor that might be 0 counts as one that is, and parameters
+    without a range are no numbers.
+    """
+    try:
+        if text.startswith("${") and text.endswith("}"):
+            return _Ranges(text[2:-1], ranges).run()
+        return ranges[text[1:]] if text.startswith("$") else Range(float(text), float(text))
+    except (ArithmeticError, KeyError, ValueError):
+        return None
+
+
+N = TypeVar("N", float, Range)
+
+
+class _Evaluation(Generic[N]):
     """Computes an expression, by recursive descent.
 
     Raises:
@@ -52,19 +94,29 @@ class _Evaluation:
         ArithmeticError: It has no value.
     """
 
-    def __init__(self, text: str, shown: Shown) -> None:
+    def __init__(self, text: str, shown: Mapping[str, N]) -> None:
         self._tokens = _TOKEN.findall(text)
         if "".join(self._tokens) != re.sub(r"\s", "", text):
             raise ValueError(text)
         self._at = 0
         self._depth = 0
-        self._shown = shown
+        self._shown: Mapping[str, N] = shown
 
-    def run(self) -> float:
+    def _literal(self, token: str) -> N:
+        """Return what a number stands for."""
+        raise NotImplementedError
+
+    def _remainder(self, value: N, other: N) -> N:
+        raise NotImplementedError
+
+    def _result(self, function: str, operands: Sequence[N]) -> N:
+        raise NotImplementedError
+
+    def run(self) -> N:
         value = self._sum()
         if self._at < len(self._tokens):
             raise ValueError(self._next)
-        return float(value)
+        return value
 
     @property
     def _next(self) -> str:
@@ -77,7 +129,7 @@ class _Evaluation:
         self._at += 1
         return token
 
-    def _sum(self) -> float:
+    def _sum(self) -> N:
         value = self._product()
         while self._next in ("+", "-"):
             sign = self._take()
@@ -85,18 +137,18 @@ class _Evaluation:
             value = value + other if sign == "+" else value - other
         return value
 
-    def _product(self) -> float:
+    def _product(self) -> N:
         value = self._atom()
         while self._next in ("*", "/", "%"):
             sign = self._take()
             other = self._atom()
             if sign == "*":
-                value *= other
+                value = value * other
             else:
-                value = value / other if sign == "/" else math.fmod(value, other)
+                value = value / other if sign == "/" else self._remainder(value, other)
         return value
 
-    def _atom(self) -> float:
+    def _atom(self) -> N:
         self._depth += 1
         if self._depth > DEEPEST:
             raise ValueError("too deep")
@@ -105,7 +157,7 @@ class _Evaluation:
         finally:
             self._depth -= 1
 
-    def _operand(self, token: str) -> float:
+    def _operand(self, token: str) -> N:
         if token in ("-", "+"):
             value = self._atom()
             return -value if token == "-" else value
@@ -114,16 +166,40 @@ class _Evaluation:
             self._take(")")
             return value
         if token in _FUNCTIONS:
-            count, compute = _FUNCTIONS[token]
+            count, _ = _FUNCTIONS[token]
             self._take("(")
             operands = [self._sum()]
             for _ in range(count - 1):
                 self._take(",")
                 operands.append(self._sum())
             self._take(")")
-            return compute(*operands)
+            return self._result(token, operands)
         if token.startswith("$"):
             return self._shown[token[1:]]
         if token[:1].isalpha():  # `inf` is a number to Python alone
             raise ValueError(token)
+        return self._literal(token)
+
+
+class _Numbers(_Evaluation[float]):
+    def _literal(self, token: str) -> float:
         return float(token)
+
+    def _remainder(self, value: float, other: float) -> float:
+        return math.fmod(value, other)
+
+    def _result(self, function: str, operands: Sequence[float]) -> float:
+        return float(_FUNCTIONS[function][1](*operands))
+
+
+class _Ranges(_Evaluation[Range]):
+    """What osc2tx writes: sums, products and quotients."""
+
+    def _literal(self, token: str) -> Range:
+        return Range(float(token), float(token))
+
+    def _remainder(self, value: Range, other: Range) -> Range:
+        raise ValueError("%")
+
+    def _result(self, function: str, operands: Sequence[Range]) -> Range:
+        raise ValueError(function)

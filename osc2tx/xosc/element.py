@@ -13,7 +13,7 @@ from math import isfinite
 from typing import Any, NamedTuple, Self, TypeAlias, TypeVar
 
 from osc2tx.xosc.expressions import Symbol
-from osc2tx.xosc.numbers import number_text
+from osc2tx.xosc.numbers import Noted, number_text
 from osc2tx.xosc.schema import Part
 
 Value: TypeAlias = str | int | float | bool
@@ -66,13 +66,15 @@ class Element:
         children: In any order where the schema gives one; elements of one tag keep theirs.
         text: What stands in it.
         place: Where it stands; it makes no difference between elements.
+        notes: What gives its numbers, for readers; that makes no difference either.
     """
 
-    __slots__ = ("attributes", "children", "place", "text")
+    __slots__ = ("attributes", "children", "notes", "place", "text")
     attributes: tuple[tuple[str, str], ...]
     children: tuple[Element, ...]
     text: str | None
     place: Place | None
+    notes: tuple[str, ...]
 
     def __init__(
         self, *children: Element | None, text: str | None = None, **attributes: Value | None
@@ -91,7 +93,9 @@ class Element:
                 if value is not None
             ]
         )
-        self._fill(texts, tuple([each for each in children if each is not None]), text, None)
+        given = [value.note for value in attributes.values() if isinstance(value, Noted)]
+        parts = tuple([each for each in children if each is not None])
+        self._fill(texts, parts, text, None, tuple(dict.fromkeys(given)))
 
     def _fill(
         self,
@@ -99,12 +103,14 @@ class Element:
         children: tuple[Element, ...],
         text: str | None,
         place: Place | None,
+        notes: tuple[str, ...],
     ) -> None:
         fill = object.__setattr__
         fill(self, "attributes", attributes)
         fill(self, "children", children)
         fill(self, "text", text)
         fill(self, "place", place)
+        fill(self, "notes", notes)
 
     @classmethod
     def of(
@@ -113,10 +119,11 @@ class Element:
         children: tuple[Element, ...] = (),
         text: str | None = None,
         place: Place | None = None,
+        notes: tuple[str, ...] = (),
     ) -> Self:
         """Return an element with texts as they stand in a document."""
         made = cls.__new__(cls)
-        made._fill(attributes, children, text, place)
+        made._fill(attributes, children, text, place, notes)
         return made
 
     @property
@@ -191,7 +198,7 @@ class Element:
         return self._like(self.attributes, children)
 
     def _like(self, attributes: tuple[tuple[str, str], ...], children: tuple[Element, ...]) -> Self:
-        return self.of(attributes, children, self.text, self.place)
+        return self.of(attributes, children, self.text, self.place, self.notes)
 
     # --- a value ----------------------------------------------------------------------------------
 

@@ -2,6 +2,42 @@
 
 from __future__ import annotations
 
+LONGEST_NOTE = 60
+"""Characters of a note."""
+
+
+class Noted(float):
+    """A number with what gives it, for readers of the document; results of arithmetic are plain.
+
+    Attributes:
+        note: An expression of the source.
+    """
+
+    __slots__ = ("note",)
+
+    note: str
+
+    def __new__(cls, value: float, note: str) -> Noted:
+        """Take the number, and the text of any length that gives it."""
+        made = super().__new__(cls, value)
+        short = " ".join(note.split())
+        made.note = short if len(short) <= LONGEST_NOTE else f"{short[: LONGEST_NOTE - 1]}…"
+        return made
+
+    # Of other kinds of numbers Python asks first only those that derive from this one.
+
+    def __add__(self, other: float) -> float:
+        return float(self) + other
+
+    def __sub__(self, other: float) -> float:
+        return float(self) - other
+
+    def __mul__(self, other: float) -> float:
+        return float(self) * other
+
+    def __truediv__(self, other: float) -> float:
+        return float(self) / other
+
 
 def number_text(value: float) -> str:
     """Return the shortest plain decimal that reads back as nearly this number.

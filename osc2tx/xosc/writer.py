@@ -5,7 +5,8 @@ A document that its version does not allow is a mistake of osc2tx, never one of 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator
 
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.options import XmlVersion
@@ -62,8 +63,32 @@ def serialize(root: Element, version: XmlVersion) -> str:
 
 def written(root: Element) -> str:
     """Return a document as text, whatever it says."""
-    body = "".join(_element(root, type_below(ROOT_TYPE, root.tag), "\n"))
-    return f'<?xml version="1.0" encoding="UTF-8"?>\n{in_xml(body)}\n'
+    body = "".join(_with_notes(_element(root, type_below(ROOT_TYPE, root.tag), "\n")))
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{in_xml(body)}'
+
+
+class _Note(str):
+    """What gives a number of the line."""
+
+    __slots__ = ()
+
+
+def _with_notes(parts: Iterable[str]) -> Iterator[str]:
+    """Yield parts of the text, and the notes of a line as a comment at its end."""
+    notes: dict[str, None] = {}
+    for part in (*parts, "\n"):
+        if isinstance(part, _Note):
+            notes[part] = None
+            continue
+        if part.startswith("\n") and notes:
+            yield f"  <!-- {_uncommented('; '.join(notes))} -->"
+            notes = {}
+        yield part
+
+
+def _uncommented(text: str) -> str:
+    """Return a text as a comment may have it: without two dashes."""
+    return re.sub("-(?=-)", "- ", text)
 
 
 def _element(node: Element, type_: str, line: str | None) -> Iterator[str]:
@@ -80,6 +105,7 @@ def _element(node: Element, type_: str, line: str | None) -> Iterator[str]:
     given = dict(node.attributes)
     known = [name for name in attribute_order(type_) if name in given]
     names = dict.fromkeys((*known, *given))
+    yield from map(_Note, node.notes)
     start = "".join((node.tag, *(f' {name}="{_quoted(given[name])}"' for name in names)))
     if not node.children and node.text is None:
         yield f"<{start}/>"

@@ -31,7 +31,7 @@ from .stand_in.process import StandInProcess
 SCENARIO = REPOSITORY / "scenarios" / "cut_in.osc"
 PAGE = REPOSITORY / "docs" / "how-to" / "carla.md"
 PORT = "2000"
-SIZE = (1400, 735)
+WIDTH = 1400
 Seen = dict[float, dict[str, list[float]]]
 
 
@@ -42,19 +42,21 @@ class Picture(NamedTuple):
         name: Of its file.
         options: Of the run.
         shown: Time (s) of the run.
+        height: Of the picture: what is below the view from above is left out.
         has_stack: The stack of the page controls the ego.
     """
 
     name: str
     options: tuple[str, ...]
     shown: float
+    height: int
     has_stack: bool = False
 
 
 UNDER_TEST = ("--control", "ego=external", "--wait-control", "30s", "--expect")
 PICTURES = (
-    Picture("carla_cut_in", (), 14.5),
-    Picture("carla_under_test", UNDER_TEST, 14.5, has_stack=True),
+    Picture("carla_cut_in", (), 14.5, 698),
+    Picture("carla_under_test", UNDER_TEST, 14.5, 742, has_stack=True),
 )
 
 
@@ -66,9 +68,8 @@ def main() -> int:
         browser = shutil.which("chromium")
         if browser is not None:
             file = REPOSITORY / "docs" / "images" / f"{picture.name}.png"
-            size = ",".join(map(str, SIZE))
             shot = [browser, "--headless", "--no-sandbox", "--hide-scrollbars"]
-            shot += [f"--window-size={size}", f"--screenshot={file}"]
+            shot += [f"--window-size={WIDTH},{picture.height}", f"--screenshot={file}"]
             command = [*shot, f"{page.as_uri()}#t={picture.shown}"]
             subprocess.run(command, check=True, stderr=subprocess.DEVNULL)
             say(str(file))

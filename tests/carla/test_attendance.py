@@ -129,6 +129,13 @@ def test_options_are_read() -> None:
     known = {each.name: each for each in OPTIONS}
     assert known["realtime"].read(["2"]) == 2.0
     assert known["carla-tm-port"].read(["8001"]) == 8001
+    assert known["carla-gains"].read(["throttle=0.25", "brake=0.2"]) == {
+        "throttle": 0.25,
+        "brake": 0.2,
+    }
+    for name, wrong in (("carla-gains", "steering=1"), ("carla-gains", "brake=0")):
+        with pytest.raises(SettingsError, match=f"--{name} {wrong}"):
+            known[name].read([wrong])
     for name, wrong in (("realtime", "0"), ("realtime", "nan"), ("carla-tm-port", "0")):
         with pytest.raises(SettingsError, match=f"--{name} {wrong}"):
             known[name].read([wrong])

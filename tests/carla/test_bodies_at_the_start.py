@@ -82,6 +82,12 @@ def test_a_mesh_that_is_not_where_the_lanes_are() -> None:
     assert "ego floats: the ground of CARLA is 0.50 m below the lane where it starts" in said, said
 
 
+def test_a_mesh_of_which_nobody_tells() -> None:
+    with StandInProcess([OWN_MAPS], "highway", "--fault", "unknown-mesh") as server:
+        result = run(in_carla(RunSettings(max_time=0.5), server.port))
+    assert [each for each in result.warnings if each.startswith("whether actors float is unknown")]
+
+
 def test_a_mesh_that_rises_above_the_lanes() -> None:
     """Who falls on its feet is spawned higher, unless somebody stands there."""
     with StandInProcess([OWN_MAPS], "highway", "--fault", "rising-mesh") as server:

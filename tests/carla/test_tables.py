@@ -109,6 +109,12 @@ def test_a_wheelbase_is_from_the_wheels_that_steer_to_the_others() -> None:
         assert member(wheels=unknown).steering.wheelbase == usual
 
 
+def test_gains_of_a_run_replace_those_of_the_category() -> None:
+    found = {"id": 7, "type": "vehicle.any", "box": [0.0, 2.3, 0.9, 0.7]}
+    gains = member_of(spec(), found, "driven", {"brake": 0.3}).speed.gains
+    assert gains == CAR._replace(brake=0.3)
+
+
 def test_a_box_without_size_is_that_of_the_scenario() -> None:
     shape = spec().shape
     found = member(box=[0.0, 0.0, 0.0, 0.0])

@@ -245,6 +245,15 @@ def test_what_has_to_be_tried(number: int, fault: str, says: str) -> None:
     assert says in rows[number]["found"]
 
 
+@pytest.mark.slow
+def test_the_proposed_gains_are_the_remedy() -> None:
+    """Brakes are half as strong as the gains of runs expect."""
+    with StandInProcess([OWN_MAPS], "highway", "--fault", "soft-brakes") as server:
+        proposed = checked(server.port, "--drive")[17]["meaning"].partition(" has driven cars")[0]
+        assert proposed == "--carla-gains brake=0.24"
+        assert checked(server.port, "--drive", *proposed.split())[17]["status"] == "ok"
+
+
 def test_every_line_is_broken_once() -> None:
     """The numbers in this file are those of all lines."""
     text = Path(__file__).read_text(encoding="utf-8")

@@ -23,7 +23,15 @@ WORD = re.compile(r"[a-z0-9]+(?:_[a-z0-9]+)*")
 KINDS = ("above", "apart", "behind", "below")
 
 OURS = ("cut_in", "cut_in_and_evade", "follow_leader", "hello_world", "pedestrian_crossing")
-CASES = (*OURS, "own_events", "own_objects", "own_modifiers", "fields", "reactions", "coverage")
+CAPABILITIES = tuple(sorted(path.stem for path in SCENARIOS.glob("capabilities/*.osc")))
+CASES = (
+    *OURS,
+    *(pytest.param(each, marks=pytest.mark.slow) for each in CAPABILITIES),
+    *("own_events", "own_objects", "own_modifiers", "fields", "reactions", "coverage"),
+)
+
+IN_A_LINE_OF_OTHERS = ("keep(", "until", "modifier", "extend")
+"""Statements that say something of what the line of another one makes."""
 
 WITHOUT_CODE = {
     r"type \w+ is SI": "a module has units, and no physical types",
@@ -31,12 +39,15 @@ WITHOUT_CODE = {
     r"action vehicle.\w+ inherits": "an action of the library has its class in the runtime",
     r"modifier vehicle.careful": "places an actor, so that it is written out where it is applied",
     r"(limit: speed|in_lane: int = 2|speed\(limit\)|lane\(in_lane)": "parts of that modifier",
+    r"mode: string$": "a parameter of an action that the runtime has",
     r"with:": "not a statement: its comments are those of the first line below",
 }
 """Lines whose comments a module does not have, and why."""
 
 
 def path_of(case: str) -> Path:
+    if case in CAPABILITIES:
+        return SCENARIOS / "capabilities" / f"{case}.osc"
     return SCENARIOS / f"{case}.osc" if case in OURS else GOLDEN / "py_trees" / case / "input.osc"
 
 
@@ -90,6 +101,15 @@ def around(python: list[str], place: int) -> str:
     return "\n".join(code[max(before - 8, 0) : before + 3])
 
 
+def is_behind(python: list[str], place: int) -> bool:
+    """Whether a comment is behind code, or above what has several lines, parts or no room."""
+    line = python[place].split("#")[0].strip()
+    below = next((x for x in python[place + 1 :] if x.strip() and x.strip()[0] != "#"), "")
+    is_long = below.endswith(("(", "[", "{", ":")) or len(below) + len("  # <10>") > 100
+    is_gathered = "#" in below or "self.place(" in below or "self.require(" in below
+    return bool(line) or is_long or is_gathered
+
+
 def said_by(source: Source, line: Line) -> str:
     """Return a statement, what it is in, and its first member, which tells of a composition."""
     above = [x for x in source.lines if x.first < line.first and x.column < line.column]
@@ -105,7 +125,7 @@ def test_each_line(case: str, kind: str) -> None:
     text, lines = with_comments(source, kind)
     options = (
         ConfigFiles().for_source(path).options_for(path, GivenOptions())
-        if case in OURS
+        if case in (*OURS, *CAPABILITIES)
         else options_for(path.parent)
     )
     module = Compilation(path, path.name, options, text=text).module
@@ -125,6 +145,9 @@ def test_each_line(case: str, kind: str) -> None:
             wrong.append((len(found), statement))
         elif (beside := around(python, found[0])) != "module":
             is_body = statement.startswith("do ") and "def behavior" in beside
+            is_block = statement.endswith(":") or statement.startswith(IN_A_LINE_OF_OTHERS)
+            if kind == "behind" and not (is_block or is_behind(python, found[0])):
+                wrong.append(("not behind", statement))
             if not is_body and not words(said_by(source, line)) & words(beside):
                 wrong.append((statement, beside))
     assert wrong == []

@@ -43,6 +43,18 @@ def test_a_project_of_a_hundred_scenarios(tmp_path: Path) -> None:
     assert errors_in(tmp_path / "generated", tmp_path / "cache") == ""
 
 
+def test_a_repository_of_a_hundred_scenarios(test_data: Path, tmp_path: Path) -> None:
+    """Eight families in 32 folders with libraries beside them and on an import path."""
+    maker = test_data / "project" / "make_repository.py"
+    subprocess.run([sys.executable, str(maker), str(tmp_path / "made"), "100"], check=True)
+    settings = 'sources = ["scenarios"]\nimport_paths = ["shared"]\nmap_paths = ["maps"]\n'
+    (tmp_path / "made" / "osc2tx.toml").write_text(settings, encoding="utf-8")
+    generated = tmp_path / "made" / "generated"
+    build([tmp_path / "made" / "scenarios"], generated, GivenOptions(target="py"))
+    assert len(list(generated.rglob("*.py"))) >= 100
+    assert errors_in(generated, tmp_path / "cache") == ""
+
+
 def test_the_scenarios_of_the_repository(tmp_path: Path) -> None:
     assert errors_in(REPOSITORY / "generated", tmp_path) == ""
 

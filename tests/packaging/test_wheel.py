@@ -129,7 +129,10 @@ def test_the_wheel_of_the_runtime_holds_its_packages(wheels: Path) -> None:
 
 def test_the_wheel_of_the_compiler_holds_its_package_and_its_data(wheels: Path) -> None:
     data = files_of(REPOSITORY / "templates") | files_of(REPOSITORY / "grammar")
-    expected = files_of(REPOSITORY / "osc2tx") | {f"osc2tx/{name}" for name in data}
+    schemas = {
+        f"osc2tx/schemas/{path.name}" for path in (REPOSITORY / "docs").glob("*.schema.json")
+    }
+    expected = files_of(REPOSITORY / "osc2tx") | {f"osc2tx/{name}" for name in data} | schemas
     assert contents(wheel_of(wheels, "osc2tx")) == expected
 
 

@@ -142,8 +142,9 @@ LONGER = {
     "slower_and_aside": "change_speed(target: 19mps) with:\n    lateral(0.6m)",
     "covering": "drive(duration: 3s) with:\n    distance(75m)",
     "covering_less": "drive(duration: 3s) with:\n    distance(40m)",
+    "not_changing": "change_speed(target: 20mps, duration: 1.2s)",
 }
-"""Actions that are over while a modifier or the acceleration of the vehicle still goes on."""
+"""Actions that are over while a modifier or the acceleration goes on, or that change nothing."""
 
 NEXT = {
     "rate": "ego.change_acceleration(target: 1mpss, duration: 2s)",

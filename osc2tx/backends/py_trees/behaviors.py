@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import assert_never
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.calls import CallWriter, around, code, comments
+from osc2tx.backends.py_trees.calls import CallWriter, code
 from osc2tx.backends.py_trees.code import (
     Level,
     PyDocLine,
@@ -20,6 +20,7 @@ from osc2tx.backends.py_trees.code import (
     name_expression,
     self_attribute,
 )
+from osc2tx.backends.py_trees.comments import around, comments
 from osc2tx.backends.py_trees.formatting import INDENT, LINE_LENGTH
 from osc2tx.backends.py_trees.naming import (
     InvocationName,

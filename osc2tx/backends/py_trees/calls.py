@@ -3,54 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import TypedDict
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.code import (
     Level,
-    PyComment,
     PyExpr,
     PyName,
     literal,
     name_expression,
 )
+from osc2tx.backends.py_trees.comments import around, comments
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
 from osc2tx.backends.py_trees.naming import event_parameter, identifier
 from osc2tx.backends.py_trees.view import ArgumentView, CallView
 from osc2tx_shared.classes import replace
-
-
-def comments(lines: tuple[str, ...]) -> tuple[PyComment, ...]:
-    """Return comment lines of the source as those right above something in the module."""
-    return tuple(PyComment.of(line) for line in _without_end(lines))
-
-
-def _without_end(lines: tuple[str, ...]) -> tuple[str, ...]:
-    """Return comment lines without the empty one that parts them from what is below."""
-    return lines[:-1] if lines and not lines[-1] else lines
-
-
-class Around(TypedDict):
-    """The comments around something."""
-
-    comments: tuple[PyComment, ...]
-    trailing: PyComment | None
-    below: tuple[PyComment, ...]
-
-
-def around(lines: tuple[str, ...]) -> Around:
-    """Return comment lines of a statement as those above, behind and below what it becomes."""
-    below = [line for line in lines if isinstance(line, ir.CommentBelow)]
-    others = [line for line in lines if not isinstance(line, ir.CommentBelow)]
-    trailing = None
-    if others and isinstance(others[-1], ir.TrailingComment):
-        trailing = PyComment.of(others.pop())
-    return {
-        "comments": tuple(map(PyComment.of, others)),
-        "trailing": trailing,
-        "below": tuple(map(PyComment.of, below)),
-    }
 
 
 def code(expression: PyExpr, keyword: str | None = None) -> ArgumentView:

@@ -89,17 +89,30 @@ FORMAT = 1
 
 
 def render_coverage_model(source: str, scenarios: Sequence[ir.Scenario]) -> str | None:
-    """Return the model as JSON, a line for each item; None if nothing is sampled."""
+    """Return the model as JSON, a line for each entry and bucket; None if nothing is sampled."""
     sampling = [scenario for scenario in scenarios if scenario.coverage]
     if not sampling:
         return None
     parts = []
     for scenario in sampling:
-        items = ",\n".join(f"   {json.dumps(_item(each))}" for each in scenario.coverage)
+        items = ",\n".join(f"   {_written(_item(each))}" for each in scenario.coverage)
         parts.append(f"  {json.dumps(scenario.name)}: [\n{items}\n  ]")
     body = ",\n".join(parts)
     head = f' "format": {FORMAT},\n "source": {json.dumps(source)},'
     return f'{{\n{head}\n "scenarios": {{\n{body}\n }}\n}}\n'
+
+
+def _written(entries: dict[str, Any]) -> str:
+    """Return the entries of an item, a line for each, and for each bucket."""
+    lines = []
+    for key, value in entries.items():
+        text = json.dumps(value)
+        if key in ("buckets", "impossible"):
+            rows = ",\n".join(f"     {json.dumps(each)}" for each in value)
+            text = f"[\n{rows}\n    ]"
+        lines.append(f"    {json.dumps(key)}: {text}")
+    body = ",\n".join(lines)
+    return f"{{\n{body}\n   }}"
 
 
 def _item(item: ir.Coverage) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.calls import CallWriter, around, code, comments
+from osc2tx.backends.py_trees.calls import CallWriter, code
 from osc2tx.backends.py_trees.code import (
     Level,
     PyDocLine,
@@ -15,6 +15,7 @@ from osc2tx.backends.py_trees.code import (
     name_expression,
     self_attribute,
 )
+from osc2tx.backends.py_trees.comments import around, comments
 from osc2tx.backends.py_trees.coverage import written_unit
 from osc2tx.backends.py_trees.members import Members, event_class_key
 from osc2tx.backends.py_trees.naming import event_parameter

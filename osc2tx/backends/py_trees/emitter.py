@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from typing import TypeVar
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.calls import comments
 from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr, PyName, literal
+from osc2tx.backends.py_trees.comments import beside
 from osc2tx.backends.py_trees.coverage import render_coverage_model
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.formatting import format_module
@@ -200,16 +200,21 @@ def _told_enum(view: EnumView, declared: ir.UserEnum | None) -> EnumView:
         return view
     told = dict(declared.told)
     members = tuple(
-        EnumMemberView(literal(member), comments(told.get(member, ())))
-        for member in declared.members
+        EnumMemberView(literal(each), **beside(told.get(each, ()), f"    {literal(each)},"))
+        for each in declared.members
     )
-    return replace(view, comments=comments(declared.comments), members=members, is_long=bool(told))
+    line = f"{view.name}: TypeAlias = Literal[{', '.join(str(each.value) for each in members)}]"
+    about = beside(declared.comments, "" if told else line)
+    return replace(view, **about, members=members, is_long=bool(told))
 
 
 def _told_units(views: Sequence[UnitView], module: ir.Module) -> tuple[UnitView, ...]:
     """Return units with the comments of their declarations."""
-    told = {identifier(each.name): comments(each.comments) for each in module.units}
-    return tuple(replace(view, comments=told.get(view.name.text, ())) for view in views)
+    told = {identifier(each.name): each.comments for each in module.units}
+    return tuple(
+        replace(view, **beside(told.get(view.name.text, ()), f"{view.name} = {view.factor}"))
+        for view in views
+    )
 
 
 def _root(module: ir.Module) -> PyExpr | None:

@@ -14,15 +14,16 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.calls import CallWriter, comments
+from osc2tx.backends.py_trees.calls import CallWriter
 from osc2tx.backends.py_trees.code import Level, PyDocLine, PyExpr
+from osc2tx.backends.py_trees.comments import beside, comments
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.modifier_calls import ModifierCalls
 from osc2tx.backends.py_trees.naming import NameTable, identifier
 from osc2tx.backends.py_trees.type_methods import TypeMethods
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.uses import Uses
-from osc2tx.backends.py_trees.view import ArgumentView, CallView, UserModifierView
+from osc2tx.backends.py_trees.view import ArgumentView, CallView, ParameterView, UserModifierView
 
 
 def write_modifiers(
@@ -56,7 +57,7 @@ def write_modifiers(
         )
         calls = CallWriter(expressions, uses.name, uses.modifier, functions)
         parameters = tuple(
-            (comments(p.comments), _parameter(p, expressions, types)) for p in modifier.parameters
+            _commented(p, _parameter(p, expressions, types)) for p in modifier.parameters
         )
         about = ("", *modifier.comments) if modifier.comments else ()
         written = tuple(calls.modifiers(modifier.calls))
@@ -71,6 +72,10 @@ def write_modifiers(
         )
 
     return tuple(map(write, modifiers))
+
+
+def _commented(parameter: ir.MethodParameter, written: PyExpr) -> ParameterView:
+    return ParameterView(written, **beside(parameter.comments, f"    {written},"))
 
 
 def _parameter(

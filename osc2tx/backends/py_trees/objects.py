@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.calls import comments
 from osc2tx.backends.py_trees.code import Level, PyExpr, PyName, name_expression
+from osc2tx.backends.py_trees.comments import comments
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.naming import identifier
 from osc2tx.backends.py_trees.runtime_api import (

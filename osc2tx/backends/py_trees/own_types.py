@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.calls import comments
 from osc2tx.backends.py_trees.code import PyDocLine, PyName, literal, name_expression
+from osc2tx.backends.py_trees.comments import beside, comments
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
 from osc2tx.backends.py_trees.naming import NameTable
 from osc2tx.backends.py_trees.type_methods import TypeMethods
@@ -94,11 +94,11 @@ class _TypeWriter:
         default = None if field.default is None else self._writer().write(field.default)
         if default is None and field.is_optional:
             default = name_expression(self._uses.name("not_given"))
+        name = self._table.member(owner or self._own.name, field.name)
+        annotation = self._table.annotation(field.type, self._later)
+        line = f"        self.{name} = {name}  {annotation} = {default}"  # the longer one of both
         return FieldView(
-            name=self._table.member(owner or self._own.name, field.name),
-            annotation=self._table.annotation(field.type, self._later),
-            default=default,
-            comments=comments(field.comments),
+            name=name, annotation=annotation, default=default, **beside(field.comments, line)
         )
 
     def _method(self, name: str, method: ir.Method) -> FunctionView:

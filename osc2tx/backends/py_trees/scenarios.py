@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from osc2tx import ir
 from osc2tx.backends.py_trees.behaviors import BehaviorTreeBuilder
-from osc2tx.backends.py_trees.calls import CallWriter, around, code, comments
+from osc2tx.backends.py_trees.calls import CallWriter, code
 from osc2tx.backends.py_trees.code import (
     Level,
     PyDocLine,
@@ -16,6 +16,7 @@ from osc2tx.backends.py_trees.code import (
     name_expression,
     self_attribute,
 )
+from osc2tx.backends.py_trees.comments import around, comments
 from osc2tx.backends.py_trees.coverage import CoverageWriter
 from osc2tx.backends.py_trees.declarations import DeclarationWriter
 from osc2tx.backends.py_trees.expressions import ExpressionWriter
@@ -205,7 +206,7 @@ class ScenarioWriter:
             StatementView(
                 target=None,
                 value=ArgumentView(call=writer.write(item)),
-                comments=comments(item.comments),
+                **around(item.comments),
                 blank_before=index == 0 or bool(item.comments),
             )
             for index, item in enumerate(self._own.coverage)

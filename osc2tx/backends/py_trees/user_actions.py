@@ -6,14 +6,15 @@ error of types; the class that carries the action out is found by name when the 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 
 from osc2tx import ir
-from osc2tx.backends.py_trees.code import Level, PyComment, PyDocLine, PyExpr, literal
+from osc2tx.backends.py_trees.code import Level, PyDocLine, PyExpr, literal
+from osc2tx.backends.py_trees.comments import beside
 from osc2tx.backends.py_trees.naming import NameTable, identifier
 from osc2tx.backends.py_trees.type_table import TypeTable
 from osc2tx.backends.py_trees.uses import Uses
-from osc2tx.backends.py_trees.view import UserActionView
+from osc2tx.backends.py_trees.view import ParameterView, UserActionView
 from osc2tx.catalogue import catalogue
 
 
@@ -84,15 +85,15 @@ def _parameters(
     types: TypeTable,
     uses: Uses,
     write: Callable[[ir.Expression], PyExpr],
-) -> Iterable[tuple[tuple[PyComment, ...], PyExpr]]:
+) -> Iterator[ParameterView]:
     if action.takes_modifiers:
         modifier = uses.name("Modifier")
         label = (f"label: str | {modifier} | None = None", "/", f"*modifiers: {modifier}")
     else:
         label = ("label: str | None = None", "/", "*")
     actor = () if action.owner is None else (f"actor: {types.class_or_object(action.owner)}",)
-    written: list[tuple[tuple[PyComment, ...], str]]
-    written = [((), text) for text in (*actor, *label)]
+    for each in (*actor, *label):
+        yield ParameterView(PyExpr(each, Level.ATOM))
     for parameter in action.parameters:
         annotation = str(types.annotation(parameter.type))
         if parameter.type.kind is not ir.Kind.ACTOR:
@@ -101,6 +102,7 @@ def _parameters(
         if parameter.default is not None:
             default = f" = {write(parameter.default)}"
         text = f"{identifier(parameter.name)}: {annotation}{default}"
-        written.append((tuple(map(PyComment.of, parameter.comments)), text))
-    written.append(((), f"duration: {uses.name('Duration')} | None = None"))
-    return ((above, PyExpr(text, Level.ATOM)) for above, text in written)
+        yield ParameterView(
+            PyExpr(text, Level.ATOM), **beside(parameter.comments, f"        {text},")
+        )
+    yield ParameterView(PyExpr(f"duration: {uses.name('Duration')} | None = None", Level.ATOM))

@@ -98,6 +98,7 @@ class UnitView:
     name: PyName
     factor: PyExpr
     comments: tuple[PyComment, ...] = ()
+    trailing: PyComment | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,10 +108,12 @@ class EnumMemberView:
     Attributes:
         value: Its literal.
         comments: Those above it.
+        trailing: The one behind it.
     """
 
     value: PyExpr
     comments: tuple[PyComment, ...] = ()
+    trailing: PyComment | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,6 +130,7 @@ class EnumView:
     name: PyName
     members: tuple[EnumMemberView, ...]
     comments: tuple[PyComment, ...] = ()
+    trailing: PyComment | None = None
     is_long: bool = False
     copied: PyComment | None = None
 
@@ -139,6 +143,16 @@ class FieldView:
     annotation: PyExpr
     default: PyExpr | None = None
     comments: tuple[PyComment, ...] = ()
+    trailing: PyComment | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterView:
+    """A parameter of a function, with the comments above and behind it."""
+
+    code: PyExpr
+    comments: tuple[PyComment, ...] = ()
+    trailing: PyComment | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,7 +209,7 @@ class UserActionView:
         action: Its name in the registry.
         binder: What makes the function.
         docstring: Lines of its docstring.
-        parameters: As they are written, the actor first, each below its comments.
+        parameters: As they are written, the actor first.
         copied: Why it is a copy, if it is one.
     """
 
@@ -204,7 +218,7 @@ class UserActionView:
     action: PyExpr
     binder: PyName
     docstring: tuple[PyDocLine, ...]
-    parameters: tuple[tuple[tuple[PyComment, ...], PyExpr], ...]
+    parameters: tuple[ParameterView, ...]
     copied: PyComment | None = None
 
 
@@ -214,14 +228,14 @@ class UserModifierView:
 
     Attributes:
         name: Its name.
-        parameters: As they are written, each below its comments.
+        parameters: As they are written.
         result: Type of its result.
         keeps: Its constraints, as comments.
         copied: Why it is a copy, if it is one.
     """
 
     name: PyName
-    parameters: tuple[tuple[tuple[PyComment, ...], PyExpr], ...]
+    parameters: tuple[ParameterView, ...]
     result: PyExpr
     keeps: tuple[PyComment, ...]
     docstring: tuple[PyDocLine, ...]
@@ -231,7 +245,7 @@ class UserModifierView:
     @property
     def is_long(self) -> bool:
         """Whether each parameter has a line, since some have comments."""
-        return any(above for above, _ in self.parameters)
+        return any(each.comments or each.trailing for each in self.parameters)
 
 
 @dataclass(frozen=True, slots=True)

@@ -64,12 +64,13 @@ def _user_enums(model: SemanticModel) -> Iterator[sym.EnumSymbol]:
 def _lower_enum(symbol: sym.EnumSymbol, nodes: Sequence[EnumNode]) -> ir.UserEnum:
     """Lower an enum; what its declaration and its extensions tell is together."""
     type_ = lower_type(types.EnumType(symbol))
+    lines = tuple(line for each in nodes for line in statement_comments(each))
     told = ((m.name.text, statement_comments(m)) for node in nodes for m in node.members)
     return ir.UserEnum(
         name=type_.name,
         span=symbol.span,
         members=type_.members,
-        comments=tuple(map(str, (line for each in nodes for line in statement_comments(each)))),
+        comments=lines if len(nodes) == 1 else tuple(map(str, lines)),
         told=tuple((name, lines) for name, lines in told if lines),
     )
 

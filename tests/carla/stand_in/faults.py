@@ -52,6 +52,11 @@ def sunk_mesh(simulation: Simulation, calls: Calls) -> None:
     calls["project_point"] = below
 
 
+def unknown_mesh(simulation: Simulation, calls: Calls) -> None:
+    """Nobody tells where the ground is."""
+    del calls["project_point"]
+
+
 def no_boxes(simulation: Simulation, calls: Calls) -> None:
     """Boxes have no size (carla issues 3670, 5841, 7596)."""
     calls["get_actor_bounding_box"] = lambda actor: [[0.0] * 3, [0.0] * 3, [0.0] * 3, actor]
@@ -284,6 +289,7 @@ FAULTS: Mapping[str, Callable[[Simulation, Calls], None]] = {
         long_steps,
         slow,
         sunk_mesh,
+        unknown_mesh,
         no_boxes,
         no_wheels,
         frozen_lights,

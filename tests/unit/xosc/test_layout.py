@@ -5,6 +5,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from osc2tx.xosc import Element, read
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.numbers import Noted
 from osc2tx.xosc.writer import written
 
 GENERATED = Path(__file__).parents[3] / "generated"
@@ -96,3 +98,25 @@ def test_an_only_child_stands_on_the_line_of_its_parent() -> None:
         "  <E/>",
         "</C></B></A>",
     ]
+
+
+def test_notes_stand_at_the_end_of_the_line() -> None:
+    """Whatever a source says, a note is one comment, and no part of the document."""
+    notes = {"v_ego": "v_ego", "a --> b": "a - -> b", "x ---\n y": "x - - - y"}
+    line = '<SpeedActionTarget><AbsoluteTargetSpeed value="19.5"/></SpeedActionTarget>'
+    for note, text in notes.items():
+        target = xml.AbsoluteTargetSpeed(value=Noted(19.5, note))
+        document = xml.SpeedActionTarget(target)
+        assert laid_out(xml.Private(document, document, entityRef="ego")) == [
+            '<Private entityRef="ego">',
+            f"  {line}  <!-- {text} -->",
+            f"  {line}  <!-- {text} -->",
+            "</Private>",
+        ]
+        assert read(written(document)) == document
+        assert target == xml.AbsoluteTargetSpeed(value=19.5)
+
+
+def test_long_notes_are_cut() -> None:
+    (line,) = laid_out(xml.AbsoluteTargetSpeed(value=Noted(1.0, "v + " * 100)))
+    assert len(line) < 120 and line.endswith("… -->")

@@ -1,6 +1,7 @@
 """Documents are read as they stand, with places; what asks for too much is refused."""
 
 import os
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -44,7 +45,7 @@ def test_documents_of_the_repository_are_written_as_they_were_read() -> None:
     assert len(found) > 60
     for data in found:
         root = read(data)
-        assert written(root).encode() == data
+        assert written(root).encode() == re.sub(rb"  <!-- .* -->", b"", data)  # without notes
         assert list(problems(root, version_of(root))) == []
 
 

@@ -206,9 +206,9 @@ class Leaf:
         """What the actor can do on roads that the weather has wetted."""
         return held_by(self.member.limits, road_condition(self.ctx.weather))
 
-    def demand(self, rate: float) -> None:
-        """Note an acceleration (m/s^2), either way, that the actor has to be able to."""
-        self.ctx.demand(self.member.name, Demand(0.0, rate, rate))
+    def demand(self, faster: float, slower: float) -> None:
+        """Note an acceleration and a deceleration (m/s^2) that the actor has to be able to."""
+        self.ctx.demand(self.member.name, Demand(0.0, faster, slower))
 
     def follow(self, reference: CastMember, *, rigid: bool) -> None:
         """Note that the speed depends on that of another actor: within limits, or at once."""

@@ -80,6 +80,8 @@ def _change_speed(leaf: Leaf) -> Performance:
         walk = change_pace(leaf, target, course)
         return Performance((walk, *apply_modifiers(leaf)), "goal", course.duration)
     change = change_speed(leaf, target, profile, peak, leaf.duration)
+    if not change.actions:  # it has that speed, which stays for the duration
+        return Performance((change, *apply_modifiers(leaf)), "goal", leaf.duration)
     return to_goal(leaf, change)
 
 

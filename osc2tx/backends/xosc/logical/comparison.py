@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping
 from math import isclose
 from typing import NamedTuple
 
-from osc2tx.xosc.arithmetic import Shown, evaluated
+from osc2tx.xosc.arithmetic import Range, Shown, evaluated, range_of
 from osc2tx.xosc.element import Element
 
 SAID_BESIDE = frozenset({"FileHeader", "ParameterDeclarations"})
@@ -48,6 +49,22 @@ def differences(document: Element, other: Element, shown: Shown) -> frozenset[Pl
         return None
 
 
+def undefined(document: Element, name: str, ranges: Mapping[str, Range]) -> frozenset[Place]:
+    """Return the attributes with a parameter that divide by what may be 0 within the ranges."""
+    mention = re.compile(rf"\${re.escape(name)}\b")
+    return frozenset(_undefined(story_of(document), mention, ranges, ()))
+
+
+def _undefined(
+    node: Element, mention: re.Pattern[str], ranges: Mapping[str, Range], path: tuple[int, ...]
+) -> Iterator[Place]:
+    for key, text in node.attributes:
+        if "/" in text and mention.search(text) and range_of(text, ranges) is None:
+            yield Place(path, key)
+    for index, child in enumerate(node.children):
+        yield from _undefined(child, mention, ranges, (*path, index))
+
+
 def _unlike(a: Element, b: Element, shown: Shown, path: tuple[int, ...]) -> Iterator[Place]:
     if a.tag != b.tag or len(a.children) != len(b.children) or a.text != b.text:
         raise _OtherShape
@@ -75,3 +92,18 @@ def _is_same(a: str, b: str, shown: Shown) -> bool:
     if value is None or expected is None:
         return False
     return isclose(value, expected, rel_tol=1e-6, abs_tol=2e-6)
+
+
+def with_texts(document: Element, texts: Mapping[Place, str]) -> Element:
+    """Return a document with other texts of attributes of its story."""
+    beside = (part for part in document.children if part.tag in SAID_BESIDE)
+    story = _with_texts(story_of(document), texts, ())
+    return document.with_children(*beside, *story.children)
+
+
+def _with_texts(node: Element, texts: Mapping[Place, str], path: tuple[int, ...]) -> Element:
+    attributes = {key: texts.get(Place(path, key), text) for key, text in node.attributes}
+    children = (
+        _with_texts(child, texts, (*path, index)) for index, child in enumerate(node.children)
+    )
+    return node.with_attributes(attributes).with_children(*children)

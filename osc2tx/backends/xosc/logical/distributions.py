@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from math import floor, prod
 from typing import TypeAlias
 
-from osc2tx.backends.xosc.logical.comparison import SAID_BESIDE, Place, story_of
+from osc2tx.backends.xosc.logical.comparison import Place, story_of, with_texts
 from osc2tx.backends.xosc.logical.parameters import STEPS, OpenParameter, declared, value_text
 from osc2tx.backends.xosc.logical.sampling import Domain, Row
 from osc2tx.backends.xosc.names import Names
@@ -128,8 +128,8 @@ class Column:
 
 def columns_of(
     places: Sequence[Place], documents: Sequence[Element], known: Mapping[Texts, str], names: Names
-) -> list[Column]:
-    """Return the columns for attributes of documents of one shape.
+) -> tuple[list[Column], dict[Place, str]]:
+    """Return the columns for attributes of documents of one shape, and texts that never differ.
 
     Args:
         places: The attributes.
@@ -142,12 +142,16 @@ def columns_of(
     for place in sorted(places):
         texts = tuple(_text(story, place) for story in stories)
         by_texts.setdefault(texts, []).append(place)
-    found = []
+    found: list[Column] = []
+    same: dict[Place, str] = {}
     for texts, alike in by_texts.items():
+        if len(set(texts)) == 1:
+            same.update((place, texts[0]) for place in alike)
+            continue
         type_, preferred = _type_and_name(stories[0], alike[0])
         name = known.get(texts) if type_ == "string" else None
         found.append(Column(name or names.new(preferred), type_, texts, tuple(alike)))
-    return found
+    return found, same
 
 
 def _text(node: Element, place: Place) -> str:
@@ -169,25 +173,16 @@ def _type_and_name(story: Element, place: Place) -> tuple[ParameterType, str]:
     return _TYPES.get(attribute.type, "string"), f"{owner or node.tag}_{place.attribute}"
 
 
-def with_columns(document: Element, columns: Sequence[Column], version: XmlVersion) -> Element:
-    """Return a document whose attributes refer to columns, which it declares."""
-    names = {place: column.name for column in columns for place in column.places}
-    story = _referring(story_of(document), names, ())
-    beside = [part for part in document.children if part.tag in SAID_BESIDE]
+def with_columns(
+    document: Element, columns: Sequence[Column], same: Mapping[Place, str], version: XmlVersion
+) -> Element:
+    """Return a document whose attributes refer to columns, which it declares, or never differ."""
+    texts = dict(same)
+    texts.update((place, f"${column.name}") for column in columns for place in column.places)
+    document = with_texts(document, texts)
     declarations = document.find(xml.ParameterDeclarations) or xml.ParameterDeclarations()
     known = {node.name for node in declarations.all(xml.ParameterDeclaration)}
     added = [column.declaration(version) for column in columns if column.name not in known]
-    parts = [part for part in beside if part.tag != "ParameterDeclarations"]
     declarations = declarations.with_children(*declarations.children, *added)
-    return document.with_children(*parts, declarations, *story.children)
-
-
-def _referring(node: Element, names: Mapping[Place, str], path: tuple[int, ...]) -> Element:
-    attributes = {
-        key: f"${names[Place(path, key)]}" if Place(path, key) in names else text
-        for key, text in node.attributes
-    }
-    children = (
-        _referring(child, names, (*path, index)) for index, child in enumerate(node.children)
-    )
-    return node.with_attributes(attributes).with_children(*children)
+    parts = [part for part in document.children if part.tag != "ParameterDeclarations"]
+    return document.with_children(declarations, *parts)

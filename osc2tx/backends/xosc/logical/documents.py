@@ -15,7 +15,7 @@ from typing import TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.logical.comparison import Place, differences
+from osc2tx.backends.xosc.logical.comparison import Place, differences, undefined
 from osc2tx.backends.xosc.logical.distributions import (
     MOST_COLUMNS,
     Column,
@@ -33,6 +33,7 @@ from osc2tx.backends.xosc.logical.parameters import (
     open_parameters,
     value_text,
 )
+from osc2tx.backends.xosc.logical.performance import Limits, with_covering_limits
 from osc2tx.backends.xosc.logical.sampling import Domain, Row, inward
 from osc2tx.options import XmlVersion
 from osc2tx.xosc import elements as xml
@@ -118,6 +119,8 @@ class LogicalWriter:
             folded = {p.key: nominal[p.key] for p in self.parameters if p not in kept}
             domain = self.domain.narrowed(kept, folded)
             ctx, document = self._write(Choosing(self.parameters, kept, nominal))
+            if document is not None:
+                document = with_covering_limits(document, domain.ranges())
             found = Logical(ctx, document, domain)
             if document is None or not ctx.report.is_expressible or not kept:
                 return found
@@ -125,8 +128,8 @@ class LogicalWriter:
             wrong = trial.wrong(has_columns=self._version >= "1.1")
             if not wrong:
                 listed = self._listed(found, trial)
-                if listed is not None:
-                    return listed
+                if listed is not None and listed.document is not None:
+                    return replace(listed, document=trial.limits.raised(listed.document))
                 wrong = [p for p in kept if p.node is None]
                 if not wrong:
                     return found
@@ -167,12 +170,12 @@ def _with_columns(
     points = [trial.nominal, *(row.point for row in rows)]
     known = {tuple(value_text(point[p.key]) for point in points): p.name for p in found.kept}
     ctx = found.ctx
-    columns = columns_of(sorted(unlike), made, known, ctx.names)
+    columns, same = columns_of(sorted(unlike), made, known, ctx.names)
     causes = {
         key: tuple(c.name for c in columns if not places.isdisjoint(c.places))
         for key, places in trial.causes.items()
     }
-    document = with_columns(trial.document, columns, ctx.version)
+    document = with_columns(trial.document, columns, same, ctx.version)
     return replace(
         found, document=document, columns=tuple(columns), causes=causes, rows=tuple(rows)
     )
@@ -186,6 +189,7 @@ class _Trial:
         nominal: Values in its declarations.
         causes: Attributes that differ for other values of a parameter, by its key.
         has_special: There are single values with other elements.
+        limits: Of vehicles, which cover all documents that were compared.
     """
 
     def __init__(
@@ -199,16 +203,18 @@ class _Trial:
         self.nominal = nominal
         self.causes: dict[str, Unlike] = {}
         self.has_special = False
+        self.limits = Limits(document)
         self._domain = domain
         self._concrete = concrete
 
     def wrong(self, *, has_columns: bool) -> list[OpenParameter]:
         """Return the parameters for whose other values there are other elements or attributes."""
         found = []
+        ranges = self._domain.ranges()
         for parameter in self._domain.parameters:
             if parameter.node is not None:  # all its members are in the document
                 continue
-            places: Unlike | None = SAME
+            places: Unlike | None = undefined(self.document, parameter.name, ranges)
             for share in parameter.probes():
                 differing = self._unlike(self._with(parameter, share))
                 if differing is None and not parameter.choices:  # it may be a special value
@@ -263,4 +269,5 @@ class _Trial:
             for p in self._domain.parameters
             if isinstance(value := point[p.key], (int, float))
         }
-        return document, differences(self.document, document, shown)
+        places = differences(self.document, document, shown)
+        return document, places if places is None else self.limits.taken_from(places, document)

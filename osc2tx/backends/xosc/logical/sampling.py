@@ -23,6 +23,7 @@ from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
 from osc2tx.backends.xosc.values.constants import Constant
 from osc2tx.backends.xosc.values.folding import Values
+from osc2tx.xosc.arithmetic import Range
 
 RUNS_EACH = 10
 """Steps of a table for each parameter."""
@@ -108,6 +109,16 @@ class Domain:
         for parameter, share in zip(self.parameters, shares, strict=True):
             point[parameter.key] = parameter.at(share, self.values(parameter, point))
         return point
+
+    def ranges(self) -> dict[str, Range]:
+        """Return between which numbers the parameters are, by their names in the document."""
+        found: dict[str, Range] = {}
+        ends = [self.at([share] * len(self.parameters)) for share in (0.0, 1.0)]
+        for parameter in self.parameters:
+            if parameter.is_number:
+                each = [parameter.limits(self.values(parameter, point)) for point in ends]
+                found[parameter.name] = Range(min(e[0] for e in each), max(e[1] for e in each))
+        return found
 
     def allows(self, point: Point) -> bool:
         """Whether values are within their bounds and agree with the constraints between them."""

@@ -21,6 +21,7 @@ from osc2tx.backends.xosc.values.constants import (
     UserTypes,
 )
 from osc2tx.xosc.expressions import Symbol
+from osc2tx.xosc.numbers import Noted
 
 MAKERS = frozenset(
     {
@@ -59,6 +60,8 @@ _COMPARISONS: Mapping[str, Callable[[float, float], bool]] = {
     ">": operator.gt,
     ">=": operator.ge,
 }
+
+_NAMES = (ir.FieldRef, ir.ParameterRef)
 
 LARGEST = 1e15
 """What is computed may not be larger, in SI units, as what is written."""
@@ -101,7 +104,7 @@ class Values:
         return name in self._given or name in self._hidden
 
     def number(self, expression: ir.Expression) -> float:
-        """Return a number, in SI units.
+        """Return a number, in SI units, with the names in the expression as a note.
 
         Raises:
             Inexpressible: It is none, or is only known during the run.
@@ -116,7 +119,8 @@ class Values:
         if not isinstance(expression, ir.Literal) and not abs(value) <= LARGEST:
             reason = f"`{expression.span.text}` is {value:g}, which no world has"
             raise Inexpressible(reason, expression.span)
-        return float(value)
+        is_named = any(isinstance(part, _NAMES) for part in ir.walk(expression))
+        return Noted(value, expression.span.text) if is_named else float(value)
 
     def actor(self, expression: ir.Expression) -> str:
         """Return the name of an actor.

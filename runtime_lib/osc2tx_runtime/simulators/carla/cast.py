@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 from osc2tx_runtime.opendrive import Pose
@@ -243,8 +244,20 @@ class CastMember:
         return ("control", self.actor, throttle, steer, brake, standing, reverse)
 
 
-def member_of(spec: ActorSpec, found: Mapping[str, Any], control: ControlMode) -> CastMember:
-    """Return the member for an actor as the session describes it."""
+def member_of(
+    spec: ActorSpec,
+    found: Mapping[str, Any],
+    control: ControlMode,
+    own_gains: Mapping[str, float] = MappingProxyType({}),
+) -> CastMember:
+    """Return the member for an actor as the session describes it.
+
+    Args:
+        spec: Its description in the scenario.
+        found: Its description by the session.
+        control: Its control mode.
+        own_gains: Gains that replace those of its category.
+    """
     shape = spec.shape
     middle, half_length, half_width, half_height = found["box"]
     if half_length < 0.5 * LEAST_SIZE:  # some blueprints have boxes without size
@@ -252,7 +265,7 @@ def member_of(spec: ActorSpec, found: Mapping[str, Any], control: ControlMode) -
         half_width, half_height = 0.5 * shape.width, 0.5 * shape.height
     # The boxes of both worlds lie one upon the other, from the rear end on.
     ahead = middle - half_length + shape.rear if shape.wheelbase > 0.0 else 0.0
-    gains = GAINS.get(_category(spec), CAR)
+    gains = GAINS.get(_category(spec), CAR)._replace(**own_gains)
     wheels = found.get("wheels", ())
     largest = math.radians(max((angle for *_, angle in wheels), default=0.0)) or shape.steering
     curve = [(speed / KPH, share) for speed, share in found.get("steering_curve", ())]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
+from osc2tx_runtime.errors import SimulatorError
 from osc2tx_runtime.opendrive import Pose, RoadMap
 from osc2tx_runtime.world.plant.scene import Setpoint
 
@@ -38,7 +39,11 @@ def floating(
         for actor, setpoint in setpoints.items()
         if setpoint.state.lane_position is not None
     }
-    heights = heights_of(client, [road_map.pose(place) for place in places.values()])
+    try:
+        heights = heights_of(client, [road_map.pose(place) for place in places.values()])
+    except SimulatorError as error:  # no reason to end a run
+        yield f"whether actors float is unknown: {error.message}"
+        return
     for actor, height in zip(places, heights, strict=True):
         if height is not None and abs(height) > FLOATS:
             does, where = ("sinks", "above") if height > 0.0 else ("floats", "below")

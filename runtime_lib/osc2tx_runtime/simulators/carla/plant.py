@@ -43,6 +43,7 @@ class CarlaPlant:
         dt: Length of a step (s).
         seed: Of the Traffic Manager.
         manager_port: Of the Traffic Manager; None takes a free one.
+        gains: Of the controllers of driven vehicles, where they are not those of the category.
         attendance: The attendance of the run.
     """
 
@@ -58,11 +59,12 @@ class CarlaPlant:
         dt: float,
         seed: int,
         manager_port: int | None,
+        gains: Mapping[str, float],
         attendance: Attendance,
     ) -> None:
         self.name = f"carla {version}"
         self._client, self._wanted, self._sensors = client, control, sensors
-        self._spawning = Spawning(client, waiting)
+        self._spawning = Spawning(client, waiting, gains)
         self._ticks, self._dt, self._seed = ticks, dt, seed
         self._manager_port, self._attendance = manager_port, attendance
         self._specs: dict[str, ActorSpec] = {}

@@ -31,10 +31,13 @@ class Spawning:
     Args:
         client: A connected one.
         waiting: Seconds to wait for actors of other clients, by id.
+        gains: Of the controllers of driven vehicles, where they are not those of the category.
     """
 
-    def __init__(self, client: ClientProcess, waiting: Mapping[str, float]) -> None:
-        self._client, self._waiting = client, waiting
+    def __init__(
+        self, client: ClientProcess, waiting: Mapping[str, float], gains: Mapping[str, float]
+    ) -> None:
+        self._client, self._waiting, self._gains = client, waiting, gains
         self._library = client.ask("blueprints")
         self._count = 0
         self.problems: list[str] = []
@@ -68,7 +71,7 @@ class Spawning:
                 f"--wait-for {spec.id}: several actors have the role_name {role}: {names}"
             )
         self._client.ask("borrow", found[0]["id"])
-        member = member_of(spec, found[0], control)
+        member = member_of(spec, found[0], control, self._gains)
         member.foreign = True
         return member
 
@@ -101,7 +104,7 @@ class Spawning:
                     raise _refused(setpoint, blueprint, error, others) from None
             else:
                 break
-        member = member_of(spec, found, control)
+        member = member_of(spec, found, control, self._gains)
         member.above = up
         return member
 

@@ -15,6 +15,7 @@ from .attendance import Attendance
 from .checks import check
 from .client_process import ClientProcess
 from .connection import DEFAULT_ADDRESS, TIMEOUT, connect
+from .gains import Gains
 from .level import map_of
 from .plant import CarlaPlant
 from .sensors import SensorStacks
@@ -73,6 +74,20 @@ def parse_sensors(text: str) -> tuple[str, Path]:
     return actor, Path(file)
 
 
+def parse_gain(text: str) -> tuple[str, float]:
+    """Read `throttle=0.25`."""
+    name, value = parse_pair(text, "--carla-gains", "NAME=NUMBER", "throttle=0.25")
+    if name not in Gains._fields:
+        raise SettingsError(f"--carla-gains {text}: write one of {', '.join(Gains._fields)}")
+    try:
+        gain = to_float(value)
+    except ValueError:
+        gain = 0.0
+    if not 0.0 < gain < math.inf:
+        raise SettingsError(f"--carla-gains {text}: write a number above 0")
+    return name, gain
+
+
 OPTIONS: tuple[Option, ...] = (
     Option("carla", "HOST:PORT", "where the server is", parse_address, default="localhost:2000"),
     Option.flag("carla-load", "load the scenario's map if the server has another one"),
@@ -109,6 +124,13 @@ OPTIONS: tuple[Option, ...] = (
         parse_factor,
     ),
     Option(
+        "carla-gains",
+        "NAME=NUMBER",
+        "a gain of the controllers of all driven vehicles, as `osc2tx world check` proposes it",
+        parse_gain,
+        dict,
+    ),
+    Option(
         "carla-tm-port",
         "PORT",
         "port of the Traffic Manager (the first free one from 8000 on)",
@@ -140,6 +162,7 @@ def make(request: WorldRequest) -> EmbeddedWorld:
             dt=request.dt,
             seed=request.seed,
             manager_port=options.get("carla_tm_port"),
+            gains=options.get("carla_gains", {}),
             attendance=Attendance(
                 options.get("wait_control"), options.get("realtime"), options.get("carla_view")
             ),

@@ -86,17 +86,19 @@ def change_speed(
         action = _from_known(leaf, course, target, profile, peak, lasting)
         return Change(LONGITUDINAL, (action,), course.duration, during, after)
     if peak is not None:
-        leaf.demand(peak)
+        slowest, fastest = state.speed or (0.0, TOP_SPEED)
+        leaf.demand(peak if slowest < target else 0.0, peak if fastest > target else 0.0)
     elif duration is not None and profile != "asap":
-        leaf.demand(_steepest(leaf, target, duration))
+        leaf.demand(*_steepest(leaf, target, duration))
     action = _from_unknown(leaf, target, profile, peak, duration)
     return Change(LONGITUDINAL, (action,), duration, during, after)
 
 
-def _steepest(leaf: Leaf, target: float, duration: float) -> float:
-    """Return the greatest acceleration of a change in a time, from any speed it may have."""
-    speeds = leaf.state.speed or (0.0, TOP_SPEED)
-    return COSINE_PEAK * max(abs(target - speed) for speed in speeds) / duration
+def _steepest(leaf: Leaf, target: float, duration: float) -> tuple[float, float]:
+    """Return the greatest acceleration and deceleration of a change in a time, from any speed."""
+    slowest, fastest = leaf.state.speed or (0.0, TOP_SPEED)
+    faster, slower = max(target - slowest, 0.0), max(fastest - target, 0.0)
+    return COSINE_PEAK * faster / duration, COSINE_PEAK * slower / duration
 
 
 def jump_to(leaf: Leaf, target: float) -> Change:

@@ -6,14 +6,14 @@ A run of our own, with the controllers of runs, on a straight and on a curved st
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.opendrive.geometry import wrap
 from osc2tx_runtime.simulators.carla.attendance import Attendance
 from osc2tx_runtime.simulators.carla.client_process import ClientProcess
-from osc2tx_runtime.simulators.carla.gains import CAR as GAINS
+from osc2tx_runtime.simulators.carla.gains import CAR as CAR_GAINS
 from osc2tx_runtime.simulators.carla.level import with_spawn_points
 from osc2tx_runtime.simulators.carla.plant import CarlaPlant
 from osc2tx_runtime.simulators.carla.sensors import SensorStacks
@@ -49,13 +49,23 @@ def gains(probe: Probe) -> Finding:
         found += f", {more[1]:.2f} m in a curve"
     throttle, brake = _pedals(probe)
     found += f"; a pedal per m/s^2: throttle {throttle:.2f}, brake {brake:.3f}"
-    used = f"runs use throttle {GAINS.throttle:g}, brake {GAINS.brake:g}"
     if slow > SPEED_OFF or aside > PLACE_OFF:
-        return differs(found, f"driven actors follow their references no better than that; {used}")
-    pairs = ((throttle, GAINS.throttle), (brake, GAINS.brake))
-    if any(abs(one / other - 1.0) > ALIKE for one, other in pairs):
-        return differs(found, f"driven actors reach their accelerations late; {used}")
+        return differs(found, "driven actors follow their references no better than that")
+    used = CAR_GAINS._replace(**_own_gains(probe))
+    measured = {"throttle": throttle, "brake": brake}
+    proposed = [
+        f"--carla-gains {name}={value:.2g}"
+        for name, value in measured.items()
+        if abs(value / getattr(used, name) - 1.0) > ALIKE
+    ]
+    if proposed:
+        return differs(found, f"{' '.join(proposed)} has driven cars accelerate as they are told")
     return ok(found)
+
+
+def _own_gains(probe: Probe) -> Mapping[str, float]:
+    found: Mapping[str, float] = probe.request.world.options.get("carla_gains", {})
+    return found
 
 
 def stretches(road_map: RoadMap) -> tuple[LanePosition, LanePosition | None]:
@@ -92,6 +102,7 @@ def _deviations(probe: Probe, road_map: RoadMap, place: LanePosition) -> tuple[f
         dt=dt,
         seed=0,
         manager_port=None,
+        gains=_own_gains(probe),
         attendance=Attendance(),
     )
     world = EmbeddedWorld(road_map, dt, plant)
