@@ -9,7 +9,7 @@ ifneq ($(wildcard ../shared),)
 export OSC2TX_TEST_DATA ?= $(abspath ../shared)
 endif
 
-.PHONY: coverage docs docs-diagnostics docs-config demo demo-carla dist compiled fuzz test test-carla test-cluster test-slow lint goldens parser tables vscode clean
+.PHONY: coverage docs docs-diagnostics docs-config demo demo-carla dist compiled fuzz test test-carla test-cluster test-slow lint goldens parser tables vscode playground clean
 
 demo: $(STAMP)
 	$(BIN)/osc2tx build scenarios/ -o generated/ --quiet
@@ -131,6 +131,11 @@ vscode: $(STAMP)
 	cd editors/vscode && npx vsce package $$(../../$(BIN)/python -c "import osc2tx; print(osc2tx.__version__)") \
 	  --no-git-tag-version --no-update-package-json --no-dependencies --allow-missing-repository --skip-license \
 	  -o ../../dist/osc2tx.vsix
+
+# The page that checks and runs scenarios in a browser, beside the site, whose folder `make docs` empties.
+playground: $(STAMP)
+	npm install --prefix out/npm --no-save --no-package-lock --no-audit --no-fund --silent pyodide@314.0.7
+	$(BIN)/python tools/make_playground.py out/npm/node_modules/pyodide out/site/playground
 
 $(STAMP): pyproject.toml runtime_lib/pyproject.toml
 	$(PYTHON) -m venv $(VENV)

@@ -68,6 +68,19 @@ def picture(entry: Entry) -> str | None:
     return _svg(chart) if is_seen else None
 
 
+def chart_of_run(file: Path, kind: str) -> str:
+    """Return the picture of a run as SVG.
+
+    Args:
+        file: The scenario.
+        kind: `above`, `lanes` or `speeds`.
+    """
+    run = _run(str(file))
+    if kind == "above":
+        return _svg(_from_above(run, _actors(run)))
+    return _svg(_across_lanes(run) if kind == "lanes" else _speeds(run))
+
+
 def _controls(entry: Entry) -> tuple[str, ...]:
     """The slots that it controls of an actor, and `lanes` if it needs them."""
     known, name = catalogue(), entry.declaration.name
@@ -88,6 +101,10 @@ def _run(file: str) -> Run:
     return run_scenario(REPOSITORY / file)
 
 
+def _actors(run: Run) -> list[str]:
+    return list(dict.fromkeys(str(line["actor"]) for line in run.of_kind("state")))[:MANY]
+
+
 def _moving(run: Run) -> list[str]:
     actors = dict.fromkeys(str(line["actor"]) for line in run.of_kind("state"))
     return [actor for actor in actors if _way(_places(run, actor)) > MOVED][:MANY]
@@ -101,14 +118,14 @@ def _way(points: Points) -> float:
     return sum(hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(points))
 
 
-def _from_above(run: Run) -> Chart:
-    curves = {actor: _places(run, actor) for actor in _moving(run)}
+def _from_above(run: Run, actors: Sequence[str] = ()) -> Chart:
+    curves = {actor: _places(run, actor) for actor in actors or _moving(run)}
     return Chart("x (m)", "y (m), on its own scale", curves)
 
 
-def _across_lanes(run: Run, entry: Entry) -> Chart:
+def _across_lanes(run: Run, entry: Entry | None = None) -> Chart:
     curves = {actor: _to_the_left(run, actor) for actor in _moving(run)}
-    spans = _spans(run, entry.own_name)
+    spans = _spans(run, entry.own_name) if entry is not None else ()
     return Chart("time (s)", "to the left (m)", curves, spans)
 
 
@@ -125,12 +142,12 @@ def _to_the_left(run: Run, actor: str) -> Points:
     return points
 
 
-def _speeds(run: Run, entry: Entry) -> Chart:
+def _speeds(run: Run, entry: Entry | None = None) -> Chart:
     curves = {
         actor: [(line["t"], line["v"] * KPH) for line in run.states(actor)]
         for actor in _moving(run)
     }
-    spans = _spans(run, entry.own_name)
+    spans = _spans(run, entry.own_name) if entry is not None else ()
     return Chart("time (s)", "speed (km/h)", curves, spans, shown=(0.0,))
 
 
@@ -197,6 +214,9 @@ def _svg(chart: Chart) -> str:
         shown = " ".join(f"{across(x):.1f},{up(y):.1f}" for x, y in _fewer(curve))
         color = COLORS[number]
         _add(root, "polyline", points=shown, fill="none", stroke=color, stroke_width=2)
+        if _way(curve) < MOVED:  # it stands
+            x, y = curve[0]
+            _add(root, "circle", cx=f"{across(x):.1f}", cy=f"{up(y):.1f}", r=5, fill=color)
         _add(root, "text", actor, x=LEFT + 110 * number, y=18, fill=color, font_weight="bold")
     for start, end in chart.spans:
         wide = max(across(end) - across(start), 3)

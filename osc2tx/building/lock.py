@@ -26,7 +26,7 @@ else:
         fcntl.flock(file, fcntl.LOCK_EX if wait else fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
-_NO_LINK = getattr(os, "O_NOFOLLOW", 0)  # anybody can put one among temporary files
+_NO_LINK = getattr(os, "O_NOFOLLOW", 0)  # any user can create one among temporary files
 
 
 @contextmanager

@@ -60,7 +60,7 @@ def _calls_own_code(compilation: Compilation) -> bool:
 
 def _can_start(compilation: Compilation, scenario: ir.Scenario, folders: Sequence[Path]) -> bool:
     """Whether a scenario is one to run, whose maps are found; notes what it reads."""
-    if scenario.is_invoked or scenario.is_imported or scenario.is_action:
+    if not scenario.is_runnable:
         return False
     names = {each.name for each in named_maps(scenario)}
     is_found = bool(names)

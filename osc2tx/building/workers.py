@@ -1,7 +1,7 @@
 """Compiles or checks many files, in several processes if that is worth it.
 
-Results come in the order of the jobs, whoever makes them. A process that dies, as by an overflow of
-its stack, costs the file that killed it and no other. What starts processes is imported only then:
+Results come in the order of the jobs. A process that dies, as by an overflow of its stack, costs
+the file that killed it and no other. What starts processes is imported only then:
 most commands compile one file.
 """
 

@@ -1,6 +1,6 @@
 """Runs rows in processes of this machine; a row that ends its process affects no other row.
 
-Each worker has a pipe of its own, tells of each row as soon as it is done, and has only a few rows
+Each worker has a pipe of its own, reports each row as soon as it is done, and has only a few rows
 at once. So it is known which row a worker was at when it died: that one is tried once more, alone,
 and then is `crashed`; those behind it go to others. A worker that tells nothing any more, not even
 that it is alive, counts as dead.

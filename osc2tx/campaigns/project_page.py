@@ -74,7 +74,7 @@ def project_page(
 
     Args:
         scenarios: The results, in order.
-        xml: What became of the scenarios as OpenSCENARIO XML.
+        xml: Results of the scenarios as OpenSCENARIO XML.
         campaigns: Campaigns, each with its own page relative to this one; empty if it has none.
     """
     return render_project(

@@ -229,7 +229,7 @@ def _write(task: _Task) -> tuple[Exit, Sequence[FileResult]]:
 
 
 def _say_losses(reporter: Reporter, results: Sequence[FileResult]) -> None:
-    """Sum up what became of scenarios as XML; one line each where nothing but XML is wanted."""
+    """Summarize the results of scenarios as XML; one line each where nothing but XML is wanted."""
     losses = [(result, loss) for result in results for loss in result.losses]
     for result, loss in losses:
         if result.job.options.target == "xosc":

@@ -153,7 +153,7 @@ def _write_overview(place: Path, campaigns: Sequence[Results], pages: Sequence[P
 def _tell_whose(store: Store) -> None:
     """Say that a module runs that came with the store."""
     complain(
-        f"{store.path}: runs {store.plan['module']} as the store has it, code of whoever made it"
+        f"{store.path}: runs {store.plan['module']} as stored: code of the author of the store"
     )
 
 

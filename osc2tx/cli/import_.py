@@ -17,14 +17,19 @@ from osc2tx.building.write import replace_file
 from osc2tx.cli.reporting import Exit, count_of
 from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import Severity
+from osc2tx.grading.imports import import_deviation
+from osc2tx.grading.runs import NoEvidence
 from osc2tx.importing.cast import Libraries
 from osc2tx.importing.distributions import MOST_ROWS, Distribution, read_distribution
 from osc2tx.importing.document import Folders, Refused
 from osc2tx.importing.importer import Imported, import_document
 from osc2tx.importing.names import snake
-from osc2tx.importing.report import ImportReport
+from osc2tx.importing.report import ImportReport, Measured
+from osc2tx.importing.values import Parameter
+from osc2tx.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions
 from osc2tx.xosc import Unreadable, read
+from osc2tx_runtime import ScenarioError
 from osc2tx_shared.classes import dataclass
 from osc2tx_shared.text import complain, put_document, say
 
@@ -79,7 +84,7 @@ class Result:
 )
 @click.option("--scenario-name", metavar="NAME", help="Name of the scenario, of a single document.")
 @click.option("--force", is_flag=True, help="Replace scenarios and libraries that were changed.")
-@click.option("--allow-approx", is_flag=True, help="Accept what is said nearly, or left out.")
+@click.option("--allow-approx", is_flag=True, help="Accept approximations and omissions.")
 @click.option(
     "--output-format",
     "form",
@@ -196,7 +201,7 @@ def _sources(paths: Sequence[str]) -> Iterator[Path | None]:
 def _import(
     source: Path | None, name: str, libraries: Libraries, folders: Folders
 ) -> Result | None:
-    """Return what became of a document; nothing of a catalog, which others use.
+    """Return the result of a document; none of a catalog, which others use.
 
     Raises:
         Refused: It is none, or cannot be read.
@@ -253,7 +258,44 @@ def _checked(result: Result, out: Path) -> Result:
         for each in compilation.sink.sorted()
         if each.severity is Severity.ERROR
     )
+    if faults or compilation.ir is None:
+        result.imported.report.measure(None, "a check of the scenario finds errors")
+    else:
+        _measure(result, compilation)
     return Result(result.imported, text, faults, result.distribution)
+
+
+def _measure(result: Result, compilation: Compilation) -> None:
+    """Let the report say how far a run of the scenario is from its document."""
+    imported, given = result.imported, {}
+    if result.distribution is not None:
+        given = result.distribution.first
+    try:
+        with scenarios_of_module(compilation.whole_module()) as scenarios:
+            found = import_deviation(
+                imported.document.resolved_with(given),
+                imported.document.map_file,
+                scenarios[imported.name],
+                imported.actors,
+                _in_si_units(given, imported.parameters),
+                imported.starts,
+            )
+    except (NoEvidence, ScenarioError) as error:
+        imported.report.measure(None, str(error))
+        return
+    measured = Measured(found.place, found.actor, found.at, found.time, found.is_exact)
+    imported.report.measure(measured)
+
+
+def _in_si_units(
+    given: Mapping[str, str], parameters: Mapping[str, Parameter]
+) -> dict[str, float | str]:
+    """Return values of the document for the open parameters of the scenario."""
+    return {
+        parameters[said].name: float(text) * parameters[said].unit[1]
+        for said, text in given.items()
+        if said in parameters and parameters[said].is_used
+    }
 
 
 def _texts_of_others(files: Mapping[Path, str]) -> dict[Path, str]:
@@ -352,5 +394,17 @@ def _sum_up(results: Sequence[Result], form: str) -> None:
         if report.under_test:
             driven = ", ".join(report.under_test)
             say(f"{name}: under test: {driven} (`osc2tx run --ego` drives it)")
+    _sum_up_runs([each.imported.report for each in results])
     parts = ", ".join(f"{count} {grade}" for grade, count in sorted(grades.items()))
     say(f"{count_of(len(results), 'scenario')} imported" + (f": {parts}" if parts else ""))
+
+
+def _sum_up_runs(reports: Sequence[ImportReport]) -> None:
+    """Say how many runs do what their documents do, and why there is none of others."""
+    runs = [each.measured for each in reports if each.measured is not None]
+    same = sum(1 for each in runs if each.is_exact)
+    for each in reports:
+        if each.measured is None:
+            say(f"{each.source}: not run against the document: {each.unmeasured}")
+    if runs:
+        say(f"{count_of(len(runs), 'scenario')} run against the documents: {same} the same")

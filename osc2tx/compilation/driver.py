@@ -19,7 +19,7 @@ from osc2tx.compilation.file_reports import LossEntry, apply_suppressions
 from osc2tx.compilation.imports import ImportLoader, Lookup, leads_outside, look_up
 from osc2tx.compilation.inputs import is_unicode
 from osc2tx.compilation.map_files import report_missing_maps
-from osc2tx.compilation.products import Output, files_of_module, files_of_xml
+from osc2tx.compilation.products import Output, files_of_module, files_of_xml, loss_of
 from osc2tx.compilation.roots import Roots
 from osc2tx.compilation.siblings import find_siblings
 from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
@@ -260,7 +260,7 @@ class Compilation:
 
     @cached_property
     def xml(self) -> tuple[XmlScenario, ...]:
-        """The scenarios of the file as OpenSCENARIO XML, each with what became of it.
+        """The scenarios of the file as OpenSCENARIO XML, each with its result.
 
         Empty for a library, if there are errors, and if only modules are asked for.
         """
@@ -283,10 +283,10 @@ class Compilation:
         from osc2tx.grading import Source, graded
 
         with room_for_trees():
-            source = Source(self.ir, self.options, self.path.parent, self._whole_module)
+            source = Source(self.ir, self.options, self.path.parent, self.whole_module)
             return graded(self.xml, source, self.sink)
 
-    def _whole_module(self) -> GeneratedModule:
+    def whole_module(self) -> GeneratedModule:
         """Return the Python module, with the declarations of imported files in it."""
         from osc2tx.backends.py_trees import emit
 
@@ -323,7 +323,7 @@ class Compilation:
     @property
     def losses(self) -> tuple[LossEntry, ...]:
         """How the scenarios fared on their way to XML, as far as that was asked for."""
-        return tuple(map(self._loss, self.graded_xml))
+        return tuple(map(loss_of, self.graded_xml))
 
     def _report_missing_maps(self, module: Module) -> None:
         """Report maps that are not there, and note where they were looked for."""
@@ -370,24 +370,11 @@ class Compilation:
             for found in self.levels
         )
 
-    @staticmethod
-    def _loss(scenario: XmlScenario) -> LossEntry:
-        report = scenario.report
-        reasons = dict.fromkeys(f"{each.construct}: {each.reason}" for each in report.losses)
-        return LossEntry(
-            scenario.name, scenario.xml is not None, report.summary(), tuple(sorted(reasons))
-        )
-
     def _runnable(self) -> frozenset[str]:
         """Return the scenarios that can run by themselves, as far as they were lowered."""
         lowered = self.__dict__.get("ir")
-        if lowered is None:
-            return frozenset()
-        return frozenset(
-            each.name
-            for each in lowered.scenarios
-            if not (each.is_invoked or each.is_imported or each.is_action)
-        )
+        scenarios = () if lowered is None else lowered.scenarios
+        return frozenset(each.name for each in scenarios if each.is_runnable)
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:

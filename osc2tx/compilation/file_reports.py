@@ -40,12 +40,12 @@ class Reportable(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class LossEntry:
-    """What became of a scenario as OpenSCENARIO XML.
+    """The result of a scenario as OpenSCENARIO XML.
 
     Attributes:
         scenario: Its name.
         is_written: Whether there is XML.
-        summary: What its report says, in one line.
+        summary: Its report, in one line.
         reasons: What keeps it from being XML.
     """
 

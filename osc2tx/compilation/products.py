@@ -1,10 +1,11 @@
-"""The files that a compilation makes."""
+"""The files that a compilation makes, and what keeps scenarios from being XML."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from osc2tx.compilation.file_reports import LossEntry
 from osc2tx.support.paths import COVERAGE_MODEL, LOSS_REPORT, MODULE, PARAMETERS, SOURCE_MAP, XML
 from osc2tx_shared.classes import dataclass
 
@@ -42,4 +43,13 @@ def files_of_xml(scenarios: Sequence[XmlScenario]) -> tuple[Output, ...]:
             (LOSS_REPORT, scenario.report_json),
         )
         if text is not None
+    )
+
+
+def loss_of(scenario: XmlScenario) -> LossEntry:
+    """Return the result of a scenario as OpenSCENARIO XML as plain data, for reports."""
+    report = scenario.report
+    reasons = dict.fromkeys(f"{each.construct}: {each.reason}" for each in report.losses)
+    return LossEntry(
+        scenario.name, scenario.xml is not None, report.summary(), tuple(sorted(reasons))
     )

@@ -101,7 +101,7 @@ def _parts(
     reached: Collection[int],
     twice: Sequence[str],
 ) -> Iterator[str]:
-    yield " ".join(twice)  # names that may collide, whoever uses them
+    yield " ".join(twice)  # names that may collide, in whatever file
     for file, statements in split:
         yield file.name
         for each in statements:

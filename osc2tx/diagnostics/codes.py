@@ -119,7 +119,7 @@ CODES = _table(
     Code("OSC112", "empty-block", ERROR, "A block has no lines.", "7.2.2"),
     Code("OSC113", "implicit-serial", WARNING, "`do:` stands for `do serial:`.", "7.3.13"),
     Code("OSC114", "empty-parentheses", ERROR, "Empty parentheses are too much.", "7.3.10"),
-    Code("OSC115", "line-too-long", ERROR, "A logical line is longer than anybody needs.", "7.2.1"),
+    Code("OSC115", "line-too-long", ERROR, "A logical line exceeds the limit of tokens.", "7.2.1"),
     Code("OSC116", "merge-conflict", ERROR, "A merge is not resolved."),
     # --- 5xx not supported by a backend ---
     Code("OSC501", "unsupported-declaration", ERROR, "No backend can express this member yet."),

@@ -4,6 +4,7 @@
 - `measuring`: which runs one document gets, and how far off it is in them
 - `runs`: one run of the scenario in the embedded world, one of its document in the player
 - `comparison`: the deviation of one recording from another
+- `imports`: the other direction, an imported scenario against its document, made `plain`
 - `values`: values of open parameters for the runs
 """
 

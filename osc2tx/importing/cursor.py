@@ -1,7 +1,7 @@
 """Reads elements and notes what has been used, so that nothing is lost unseen.
 
-A `Node` is an element with the ledger of its document: whoever asks it for an attribute has used
-it. What nobody asked for is left out, unless a table says that it changes nothing.
+A `Node` is an element with the ledger of its document: reading an attribute marks it as used.
+What is never read is left out, unless a table says that it changes nothing.
 """
 
 from __future__ import annotations

@@ -60,6 +60,15 @@ class Distribution:
         """The number of rows."""
         return math.prod(len(axis) for axis in self.axes)
 
+    @property
+    def first(self) -> dict[str, str]:
+        """Values of one run: the first ones of sets, the lower limits of ranges."""
+        return {
+            name: each.values[0] if each.values else repr(each.low)
+            for name, each in self.open.items()
+            if each.values or math.isfinite(each.low)
+        }
+
     def rows(self) -> Iterator[Mapping[str, str]]:
         """Yield the rows of deterministic distributions, all combinations."""
         for parts in product(*self.axes):

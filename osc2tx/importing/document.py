@@ -73,6 +73,21 @@ class Document:
         self._entries: dict[tuple[str, str], tuple[Element, Path]] | None = None
         self._instances: dict[int, tuple[Element, Path] | None] = {}
 
+    def resolved_with(self, values: Mapping[str, str]) -> Element:
+        """Return the document as `resolved`, with other values of some parameters."""
+        if not values:
+            return self.resolved
+        declarations = [
+            (
+                node.with_children(*(_with_value(each, values) for each in node.children))
+                if node.tag == "ParameterDeclarations"
+                else node
+            )
+            for node in self.root.children
+        ]
+        other = Document(self.root.with_children(*declarations), self.path, (), self._folders)
+        return other.resolved
+
     @property
     def folder(self) -> Path:
         """The folder that relative paths start from."""
@@ -196,6 +211,13 @@ class Document:
             return find_map(relative.name, self._folders.maps)
         except ScenarioError:
             return None
+
+
+def _with_value(node: Element, values: Mapping[str, str]) -> Element:
+    """Return a declaration with its value of a run."""
+    attributes = dict(node.attributes)
+    attributes["value"] = values.get(attributes.get("name", ""), attributes.get("value", ""))
+    return node.with_attributes(attributes)
 
 
 def _scoped(node: Element) -> Element:

@@ -41,7 +41,7 @@ SIGNS = {
 
 @dataclass(frozen=True, slots=True)
 class Imported:
-    """What became of a document.
+    """The result of a document.
 
     Attributes:
         name: The name of the scenario.
@@ -49,6 +49,8 @@ class Imported:
         report: What the import found.
         document: What was read.
         parameters: The parameters by their names in the document.
+        actors: The names of the actors by those in the document.
+        starts: Road, lane and s (m) at which the scenario puts actors first of all.
     """
 
     name: str
@@ -56,6 +58,8 @@ class Imported:
     report: ImportReport
     document: Document
     parameters: dict[str, Parameter]
+    actors: dict[str, str]
+    starts: dict[str, tuple[str, int, float]]
 
 
 def import_document(
@@ -168,7 +172,15 @@ class _Import:
         self._report.under_test = [each.name for each in actors.values() if each.is_under_test]
         self._close()
         parameters = self._values.parameters
-        return Imported(self._scenario, program.text, self._report, self._document, parameters)
+        return Imported(
+            self._scenario,
+            program.text,
+            self._report,
+            self._document,
+            parameters,
+            kinds,
+            inits.starts(places),
+        )
 
     # --- declarations -----------------------------------------------------------------------------
 
@@ -540,6 +552,19 @@ class _Init:
     def places(self, said: str) -> bool:
         """Whether an entity is put anywhere, or does anything."""
         return said in self._spots or bool(self._others.get(said))
+
+    def starts(self, places: Places) -> dict[str, tuple[str, int, float]]:
+        """Return the lanes in which actors are put, with the s (m) along their roads."""
+        found = {
+            said: places.bodies[said].place
+            for said, (spot, _) in self._spots.items()
+            if said in places.bodies and spot.argument.startswith("odr_point")
+        }
+        return {
+            self._cast.actors[said].name: (place.road, place.lane, place.s)
+            for said, place in found.items()
+            if place is not None
+        }
 
     def turns_alone(self, said: str) -> bool:
         """Whether an entity has a heading of its own, and no other one begins beside it."""

@@ -70,7 +70,7 @@ class Places:
         for element in bodies_of(self._document):
             try:
                 body = body_of(element)
-            except (Unresolved, StopIteration, ValueError):
+            except (Unplayable, Unresolved, ValueError):
                 body = Body(element.get("name") or "", "Vehicle", 3.7, 0.9, 1.9, {})
             self.bodies[body.name] = body
         waiting = {

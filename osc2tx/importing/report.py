@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import field
 from typing import Literal, TypeAlias
 
@@ -11,7 +12,8 @@ from osc2tx_shared.classes import dataclass
 
 Grade: TypeAlias = Literal["exact", "approximated", "left out"]
 GRADES: tuple[Grade, ...] = ("left out", "approximated", "exact")
-FORMAT = 1
+FORMAT = 2
+CLOSE = 0.1  # m: what is nearer is the same place
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +42,35 @@ class Finding:
         return ":".join(str(part) for part in (self.file, self.place) if part)
 
 
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """How far a run of the scenario is from the document, played.
+
+    Attributes:
+        place: Longest distance (m) between an actor here and there, events one step late apart.
+        actor: The actor with that distance.
+        at: Time (s) of that distance.
+        time: Difference of the ends (s).
+        is_exact: Whether places and ends are the same.
+    """
+
+    place: float
+    actor: str
+    at: float
+    time: float
+    is_exact: bool
+
+    @property
+    def difference(self) -> str:
+        """What differs, a sentence without full stop."""
+        said = []
+        if self.place >= CLOSE:
+            said.append(f"{self.actor} is {self.place:.3g} m off at {self.at:g} s")
+        if not self.is_exact and self.time > 0.0:
+            said.append(f"its end is {self.time:.3g} s off")
+        return "run against the document, " + " and ".join(said or ["the scenario is the same"])
+
+
 @dataclass
 class ImportReport:
     """What the import of a document found.
@@ -52,6 +83,8 @@ class ImportReport:
         problems: What the version of the document does not allow, with places.
         names: Names of the document, and those of the scenario.
         under_test: Actors that a controller drives: systems under test.
+        measured: What a run shows; `None`: there is none.
+        unmeasured: Why there is no run.
     """
 
     source: str
@@ -61,6 +94,21 @@ class ImportReport:
     problems: list[tuple[str, str]] = field(default_factory=list)
     names: dict[str, str] = field(default_factory=dict)
     under_test: list[str] = field(default_factory=list)
+    measured: Measured | None = None
+    unmeasured: str = ""
+
+    def measure(self, found: Measured | None, reason: str = "") -> None:
+        """Take what a run shows; what is off in it is a finding with a bound.
+
+        Args:
+            found: The deviation; `None`: there is no run.
+            reason: Why there is none.
+        """
+        self.measured, self.unmeasured = found, reason
+        if found is not None and not found.is_exact:
+            bound = math.ceil(found.place * 100.0) / 100.0
+            what = Finding("approximated", "the scenario", found.difference, None, bound=bound)
+            self.findings.append(what)
 
     def add(
         self, grade: Grade, construct: str, reason: str, place: Place | None, *, file: str = ""
@@ -84,6 +132,18 @@ class ImportReport:
             key=lambda each: (GRADES.index(each.grade), each.file, each.place or nowhere),
         )
 
+    def _measured(self) -> dict[str, object]:
+        found = self.measured
+        if found is None:
+            return {"reason": self.unmeasured}
+        return {
+            "exact": found.is_exact,
+            "place_m": round(found.place, 3),
+            "actor": found.actor,
+            "at_s": round(found.at, 3),
+            "end_s": round(found.time, 3),
+        }
+
     def to_json(self) -> str:
         """Return the text of `NAME.import.json`."""
         document = {
@@ -91,7 +151,8 @@ class ImportReport:
             "source": self.source,
             "scenario": self.scenario,
             "grade": self.grade,
-            "basis": "constructs",  # no run compares scenario and document yet
+            "basis": "constructs" if self.measured is None else "run",
+            "measured": self._measured(),
             "under_test": self.under_test,
             "findings": [
                 {

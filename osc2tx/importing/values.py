@@ -16,6 +16,7 @@ from typing import NamedTuple, TypeAlias
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.document import Document
 from osc2tx.importing.names import Names, snake
+from osc2tx.xosc.arithmetic import CONSTANTS
 from osc2tx.xosc.element import Element, Unresolved
 from osc2tx.xosc.schema import attributes_of
 from osc2tx_shared.classes import dataclass
@@ -217,6 +218,8 @@ class _Parser:
                 return inner
             if token.startswith("$"):
                 return Name(token[1:])
+            if token in CONSTANTS:
+                return Number(CONSTANTS[token])
             if token[:1].isdigit() or token[:1] == ".":
                 return Number(float(token))
             raise Untyped(token)
@@ -319,11 +322,8 @@ class Values:
             self._collect(node, votes)
         for said, parameter in reversed(self.parameters.items()):
             found = votes[said]
-            dimensions = {dimension for dimension, _ in found}
             if len(found) == 1 and parameter.kind == "double":
                 parameter.dimension, parameter.is_hourly = next(iter(found))
-            elif len(dimensions) == 1 and not any(hourly for _, hourly in found):
-                parameter.dimension = next(iter(dimensions))
             if parameter.expression is not None and parameter.dimension != NUMBER:
                 _vote(parameter.expression, parameter.dimension, parameter.is_hourly, votes)
 

@@ -54,7 +54,7 @@ class Actor(DeclarationBase):
         type: Its actor type.
         lineage: The type and its library ancestors, most derived first.
         values: What constraints fix about it.
-        is_given: Only an invoker knows all that there is to say of it, and has to hand it in.
+        is_given: Only an invoker knows all of its values, and has to pass it.
         is_global: One for all scenarios of a run.
     """
 
@@ -96,7 +96,7 @@ class Parameter(DeclarationBase):
         domain: The values it may take.
         is_fixed: A hard constraint leaves no other value.
         is_global: One value for all scenarios of a run.
-        unit: Of a physical type: the unit in which the source speaks of it.
+        unit: Of a physical type: the unit that the source uses for it.
     """
 
     type: ValueType

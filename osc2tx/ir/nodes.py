@@ -95,6 +95,11 @@ class Scenario(AbstractScenario):
     body: Behavior
     is_invoked: bool = False
 
+    @property
+    def is_runnable(self) -> bool:
+        """Whether it is one to run by itself: no other one invokes it, and it is of the file."""
+        return not (self.is_invoked or self.is_imported or self.is_action)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Module:
@@ -107,7 +112,7 @@ class Module:
             the file.
         actions: Actions they invoke that are not the library's, in order of use, then the others
             of the file.
-        enums: Enums of the file, and those of imported files that it speaks of.
+        enums: Enums of the file, and those of imported files that it mentions.
         modifiers: Modifiers that are functions of their parameters: those of the file, and those
             of imported files that it applies.
         units: Units of its files that comments tell about.

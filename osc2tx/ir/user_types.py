@@ -20,7 +20,7 @@ class UserField:
         name: Its name.
         type: Its type.
         default: Its default value; without one it must be given.
-        is_optional: An object may do without: its own file never speaks of it.
+        is_optional: An object may do without: its own file never mentions it.
     """
 
     name: str
@@ -41,7 +41,7 @@ class UserType:
             that one object is of.
         is_actor: Whether it is an actor.
         fields: Those of its own that have values.
-        unused: Those of its own that no file speaks of.
+        unused: Those of its own that no file mentions.
         methods: Its own methods, in source order.
         keeps: Its constraints as the source has them, each with the comment lines above it, and
             the comment lines below the type; every object states the constraints that it needs.

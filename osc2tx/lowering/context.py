@@ -65,7 +65,7 @@ class LoweringContext:
         combined: Combinations of conditional types that objects are of, by name.
         actions: Actions that are invoked, in order of use.
         modifiers: Modifiers of the user's own that are applied, in order of use.
-        given: Values of parameters of invocations that constraints may speak of.
+        given: Values of parameters of invocations that constraints may mention.
         receiver: The object whose method an expression is the body of.
         methods: Methods of types that the scenario calls, by name, in order of use.
         object_events: Events of its objects that it waits for, by path, in order of use.

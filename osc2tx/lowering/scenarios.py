@@ -173,7 +173,7 @@ def _own_actions(model: SemanticModel) -> Iterator[sym.ActionSymbol]:
 
 
 def _described_parameters(analysis: ConstraintAnalysis) -> Iterator[sym.Symbol]:
-    """Yield the parameters whose fields constraints of some invocation speak of."""
+    """Yield the parameters whose fields constraints of some invocation mention."""
     for found in analysis.types.values():
         for key in found.by_key:
             match key:
@@ -200,7 +200,7 @@ def _lower_scenario(
     standing = StandingModifiers(ctx, constraints)
     for statement in statements:
         if isinstance(statement, ast.ModifierApplication):
-            standing.of_member(statement)  # constraints may speak of its parameters
+            standing.of_member(statement)  # constraints may mention its parameters
     duration = own_duration(ctx, constraints)
     lowering = DeclarationLowering(ctx, scenario, statements, constraints)
     declarations = lowering.lower()

@@ -53,7 +53,7 @@ def as_text(entry: Entry) -> str:
 
 
 def as_markdown(entry: Entry) -> str:
-    """Return the entry as a page; links to types are left to whoever knows where they stand."""
+    """Return the entry as a page; the caller knows where types are and makes the links."""
     declaration = entry.declaration
     parts = [f"# {declaration.name}", f"*{_title(declaration)}*"]
     parts.append(_sentence(declaration.meaning))

@@ -166,7 +166,7 @@ class LexicalErrors:
         self._report("OSC105", at, min(at + 1, len(self._text)), message, help_)
 
     def line_too_long(self, start: int, end: int, limit: int) -> None:
-        """Report a logical line of more tokens than anybody can need."""
+        """Report a logical line with too many tokens."""
         message = f"this line has more than {limit:,} words and symbols"
         help_ = "the whole declaration is left out; split it up"
         self._report("OSC115", start, min(start + 1, end), message, help_)

@@ -37,7 +37,7 @@ class CompiledSources:
 
         Args:
             cache: Folder of earlier results; in the user's cache if left out.
-            with_xml: Whether the results tell what becomes of scenarios as XML.
+            with_xml: Whether the results include the scenarios as XML.
         """
         self._with_xml = with_xml
         self.configs = ConfigFiles()
@@ -91,7 +91,7 @@ class CompiledSources:
         return "\n".join(filter(None, (render_all(errors, folder=Path.cwd()), result.bug)))
 
     def losses(self) -> list[LossEntry]:
-        """Return what became of the scenarios as XML, in the order of their files."""
+        """Return the results of the scenarios as XML, in the order of their files."""
         results = sorted(self._results.items())
         return [loss for _, result in results for loss in result.losses]
 

@@ -48,7 +48,7 @@ class PageOfProject:
         """Write the page.
 
         Args:
-            losses: What became of the scenarios as OpenSCENARIO XML.
+            losses: Results of the scenarios as OpenSCENARIO XML.
 
         Raises:
             CampaignError: A store cannot be read, or the page not be written.

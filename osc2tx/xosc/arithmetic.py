@@ -30,6 +30,9 @@ _FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
 }
 """Number of operands, and what is computed from them."""
 
+CONSTANTS: Mapping[str, float] = {"pi": math.pi}
+"""Names that no version has, and that tools and libraries take for numbers."""
+
 _TOKEN = re.compile(r"\s*(\$?[A-Za-z_]\w*|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+*/%(),])")
 
 
@@ -176,6 +179,8 @@ class _Evaluation(Generic[N]):
             return self._result(token, operands)
         if token.startswith("$"):
             return self._shown[token[1:]]
+        if token in CONSTANTS:
+            return CONSTANTS[token]
         if token[:1].isalpha():  # `inf` is a number to Python alone
             raise ValueError(token)
         return self._literal(token)

@@ -1,4 +1,4 @@
-"""Links that lead out of the folder in which somebody works: nothing is written through them.
+"""Links that lead out of the working folder: nothing is written through them.
 
 Folders come from archives and repositories of other people. A path of the command line may lead
 anywhere, but a link in such a folder is not part of what the user wrote.

@@ -47,7 +47,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     | {"reference", "semantics", "stdlib", "support", "syntax", "version"},
     "mcp_server": {"api", "building", "compilation", "config", "diagnostics", "importing"}
     | {"module_loading", "reference", "version"},
-    "cli": {"building", "campaigns", "compilation", "config", "importing", "reference"}
+    "cli": {"building", "campaigns", "compilation", "config", "grading", "importing", "reference"}
     | {
         "language_server",
         "mcp_server",

@@ -102,6 +102,14 @@ def test_speeds_in_kilometres_per_hour_stay_so() -> None:
     assert apart(found) < 0.1
 
 
+def test_a_whole_number_gets_its_unit_where_it_is_used() -> None:
+    parameter = '<ParameterDeclaration name="Pace" parameterType="integer" value="20"/>'
+    found = imported(document("", parameters=parameter, ego_speed="$Pace"))
+    assert not faults(found)
+    assert "ego.assign_speed(pace * 1mps)" in found.text
+    assert apart(found) < 0.1
+
+
 def test_an_unknown_order_is_an_override() -> None:
     near = """<Condition name="near" delay="0" conditionEdge="rising"><ByEntityCondition>
       <TriggeringEntities triggeringEntitiesRule="any"><EntityRef entityRef="ego"/>

@@ -118,5 +118,5 @@ def _parameters(
 
 
 def _common(found: Sequence[dict[Key, Domain]]) -> list[Key]:
-    """Return the parameters that all alternatives speak of."""
+    """Return the parameters that all alternatives mention."""
     return [key for key in found[0] if all(key in each for each in found[1:])]

@@ -297,7 +297,7 @@ def _can_be_constrained(node: Instance) -> bool:
 def _is_about_values(entry: Entry, behavior: Key) -> bool:
     """Whether an entry is about the values of a behavior that nothing invokes (§7.2.2.2).
 
-    It has no objects, so what is said of theirs is about nothing.
+    It has no objects, so constraints on their members apply to nothing.
     """
     if isinstance(entry, Removal):
         keys: list[Key | None] = [entry.subject]

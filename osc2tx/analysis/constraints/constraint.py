@@ -29,7 +29,7 @@ class Constraint:
         node: The `keep`, the default value or the argument.
         span: What to show of it.
         origin: `"keep"`, `"default value"`, `"argument"`, or `"element"`: a list is long enough for
-            an element that a constraint speaks of.
+            an element that a constraint mentions.
         is_default: Whether a later one may replace it.
         subject: The parameter alone on its left side, if it is an equality or a range.
         value: What the subject is set to, or the range or list that it is in.

@@ -270,9 +270,7 @@ class OperationListBuilder:
         self, operations: OperationList, node: ast.Expression, value: bool | int | float | str
     ) -> int:
         if value != value:
-            return self._any(
-                operations, node
-            )  # NaN equals nothing; whoever writes it means no contradiction
+            return self._any(operations, node)  # NaN equals nothing, yet it is no contradiction
         kind = kind_of(self._model.type_of(node)) or "choice"
         if isinstance(value, int) and not isinstance(value, bool) and kind == "float":
             value = float(value)

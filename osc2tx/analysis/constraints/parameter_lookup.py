@@ -23,7 +23,7 @@ class Place:
         prefix: The instance of that type; empty for the type that is looked at.
         it: What `it` is; `None` if that is no parameter.
         it_type: The type of `it`, whose members plain names may mean too.
-        handed_in: Parameters that are objects of whoever invokes, and which ones.
+        handed_in: Parameters that are objects of the invoker, and which ones.
     """
 
     model: SemanticModel

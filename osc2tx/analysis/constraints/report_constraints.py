@@ -176,7 +176,7 @@ def _report_integers(
         value = _integer(expression)
         lower, upper = LIMITS[type_]
         if value is None or lower <= value <= upper or (type_ == UINT and value < 0):
-            continue  # OSC317 speaks of negative numbers
+            continue  # OSC317 is about negative numbers
         found.add(expression)
         sink.report(
             "OSC424",

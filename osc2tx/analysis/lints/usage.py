@@ -229,7 +229,7 @@ def _report_emits(model: SemanticModel, usage: Usage, sink: DiagnosticSink) -> N
         if not isinstance(symbol, sym.EventSymbol) or symbol.origin != "user":
             continue
         if _is_made_to_be_invoked(symbol.owner):
-            continue  # whoever invokes it may wait for its events
+            continue  # an invoker may wait for its events
         if symbol in usage.awaited or set(_redeclared(usage, symbol)) & usage.awaited:
             continue
         meant = nearest(symbol.name, in_vain)

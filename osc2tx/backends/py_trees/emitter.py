@@ -174,7 +174,7 @@ def _all_names(module: ir.Module, sharing: Sharing) -> NameTable:
 def _explained(
     views: Sequence[DefinitionT], parts: Sequence[Declared], sharing: Sharing
 ) -> tuple[DefinitionT, ...]:
-    """Return views that say of copies why they are some."""
+    """Return views; those of copies state why they are copied."""
     reasons = (sharing.copies.get(key_of(part)) for part in parts)
     return tuple(
         view if reason is None else replace(view, copied=PyComment.of(reason))
@@ -234,7 +234,7 @@ def main_scenario(module: ir.Module) -> ir.Scenario | None:
     One that is called `top` or `main` needs no such sign.
     """
     own = own_scenarios(module)
-    found = [each for each in own if not each.is_invoked and not each.is_action]
+    found = [each for each in own if each.is_runnable]
     is_named = any(each.name in NAMES_OF_MAIN for each in own)
     return found[0] if len(found) == 1 and not is_named else None
 

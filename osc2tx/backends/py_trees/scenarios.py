@@ -253,7 +253,7 @@ class ScenarioWriter:
 
     def _placement(self, placement: ir.Placement) -> StatementView:
         actor = code(self._calls.expressions.field(placement.actor))
-        # A placement speaks of the start anyway.
+        # A placement mentions the start anyway.
         modifiers = (self._calls.modifier(replace(m, at="all")) for m in placement.modifiers)
         later = (code(literal(True), "throughout"),) if placement.is_throughout else ()
         method = _self("require" if placement.of_map else "place")

@@ -153,7 +153,7 @@ class _Declarations:
         return found - {key}
 
     def _own(self, part: Declared) -> Declared:
-        """Return a declaration as far as its own class holds it, whoever uses it how."""
+        """Return a declaration as far as its own class holds it, however it is used."""
         match part:
             case ir.AbstractScenario():
                 methods = tuple(each for each in part.methods if each.name not in self._methods)

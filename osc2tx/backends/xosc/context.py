@@ -51,7 +51,7 @@ class Context:
         options: What was chosen.
         version: Of the XML.
         profile: The tool that reads it.
-        report: What became of the constructs.
+        report: The grades of the constructs.
         names: Of elements.
         choosing: Open parameters, and which of them are parameters of the document.
         root: The scenario, with its actors and values.

@@ -43,7 +43,7 @@ class XmlScenario:
         infix: What stands in the names of its files between stem and suffix.
         xml: The document; `None` if something in it cannot be said.
         parameters: A document with the values that open parameters may have; `None` without any.
-        report: What became of its constructs.
+        report: The grades of its constructs.
         report_json: What is not exact of it, and remarks, as JSON; `None` if there is nothing.
         origins: Where the members stand that the events of the document belong to, by event.
         map_places: Where its map was looked for, so that a change is noticed.

@@ -1,4 +1,4 @@
-"""The loss report: what became of each construct of the scenario.
+"""The loss report: the grade of each construct of the scenario.
 
 Every construct is exact, approximated or inexpressible. One inexpressible construct, or one that
 is approximated though nobody allowed it, and the scenario has no XML.
@@ -18,7 +18,7 @@ from osc2tx_shared.classes import dataclass, replace
 
 
 class Grade(Enum):
-    """What became of a construct."""
+    """How exactly XML expresses a construct."""
 
     EXACT = "exact"
     APPROXIMATED = "approximated"
@@ -156,12 +156,12 @@ NOISE = 1e-3
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Entry:
-    """What became of one construct.
+    """The grade of one construct.
 
     Attributes:
         construct: What it is, as in the tables of `docs/coverage.md`.
         span: Where it stands.
-        grade: What became of it.
+        grade: How exactly XML expresses it.
         reason: Why it is not exact, or what is worth knowing about an exact one.
         bound: How far an approximation is from the original: metres, or in words what differs.
         remedy: What could express it.
@@ -204,7 +204,7 @@ class Entry:
 
 
 class LossReport:
-    """Collects what became of the constructs of one scenario.
+    """Collects the grades of the constructs of one scenario.
 
     Attributes:
         measured: How far the document is off when it is played; `None` if it was not.
@@ -331,6 +331,6 @@ class LossReport:
 
 
 def _goodness(entry: Entry) -> tuple[bool, float]:
-    """Return what sorts entries, the worst first; words say of no end how far off it is."""
+    """Return what sorts entries, the worst first; a deviation in words counts as unbounded."""
     metres = entry.bound.most if isinstance(entry.bound, Metres) else inf
     return entry.grade is Grade.APPROXIMATED, -metres

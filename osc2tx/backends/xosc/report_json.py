@@ -22,7 +22,7 @@ def report_json(report: LossReport, scenario: ir.Scenario, module: ir.Module) ->
     """Return the report of a scenario; none if all of it is exact and needs no remark.
 
     Args:
-        report: What became of its constructs.
+        report: The grades of its constructs.
         scenario: The scenario.
         module: Where it stands.
     """

@@ -67,7 +67,7 @@ class InvocationLowering:
     def lower(self, node: ast.Invocation) -> ir.Behavior | None:
         """Lower an invocation, with what its modifiers attach; `None` if it was refused.
 
-        What constraints say of it becomes arguments, which have no comments of their own.
+        Constraints on it become arguments, which have no comments of their own.
         """
         comments = self.comments_of(node, statement_comments(node))
         binding = self._ctx.model.binding_of(node)
@@ -313,7 +313,7 @@ class InvocationLowering:
         return arguments + self.kept_arguments(node)
 
     def kept_arguments(self, node: ast.Invocation | ast.Composition) -> tuple[ir.Argument, ...]:
-        """Return what constraints say of the parameters that have no argument."""
+        """Return the constrained values of the parameters that have no argument."""
         binding = self._ctx.model.bindings.get(node)
         is_scenario = binding is not None and is_composed(binding.callee)
         arguments = []

@@ -10,30 +10,22 @@ an error that shows both positions.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import field
-from functools import reduce
 from typing import TypeAlias
 
 from osc2tx import ir
 from osc2tx.diagnostics import Label
 from osc2tx.lowering.behavior.durations import is_free, is_instant, is_open_ended
+from osc2tx.lowering.behavior.time_equations import TimeEquations
 from osc2tx.lowering.behavior.time_expressions import (
     SLACK,
     Terms,
-    Times,
-    greater_of,
     is_range,
-    lies_within,
-    names_in,
-    resolved,
     rest_of,
     shown,
     sum_of,
-    time_like,
     with_duration,
 )
 from osc2tx.lowering.context import LoweringContext
-from osc2tx.lowering.value_types import BOOL
 from osc2tx_shared.classes import dataclass, replace
 from osc2tx_shared.overlaps import OFFSETS
 
@@ -58,19 +50,22 @@ INSTANT = _Known(())
 OPEN, FREE = _Filling(), _Filling()
 
 
-@dataclass(slots=True, eq=False)
 class TimeSystem:
     """The times of one scenario.
 
-    Attributes:
+    Args:
         ctx: The scenario; parameters that it draws are solved for.
         declared: Its own parameters.
-        constraints: What has to be checked before a run.
     """
 
-    ctx: LoweringContext
-    declared: Sequence[ir.Declaration]
-    constraints: list[ir.Constraint] = field(default_factory=list)
+    def __init__(self, ctx: LoweringContext, declared: Sequence[ir.Declaration]) -> None:
+        self.ctx = ctx
+        self._equations = TimeEquations(ctx, declared)
+
+    @property
+    def constraints(self) -> Sequence[ir.Constraint]:
+        """What has to be checked before a run."""
+        return self._equations.constraints
 
     def solve(self, tree: ir.Behavior) -> ir.Behavior:
         """Return a tree whose members take the times that the durations around them ask for."""
@@ -120,7 +115,7 @@ class TimeSystem:
         filling = [i for i, length in enumerate(lengths) if isinstance(length, _Filling)]
         if len(known) == len(lengths):
             if node.duration is not None:
-                self._relate(terms, node.duration)
+                self._equations.relate(terms, node.duration)
             return node, _Known(terms)
         if len(known) + len(filling) < len(lengths):
             return node, None
@@ -139,7 +134,7 @@ class TimeSystem:
         if isinstance(whole, ir.RangeValue):
             whole = self.ctx.draw(f"{node.label or node.name} duration", whole, whole.lower.type)
             node = replace(node, duration=whole)
-        if self._is_impossible(others, whole, at_most=True):
+        if self._equations.is_impossible(others, whole, at_most=True):
             return node
         rest = rest_of(whole, others)
         return replace(node, members=with_duration(node.members, index, rest))
@@ -168,16 +163,16 @@ class TimeSystem:
         bounds = list(OFFSETS[kind])
         for index, given in enumerate((node.start_to_start, node.end_to_end)):
             if given is not None:
-                found = self._bounds((given,))
+                found = self._equations.bounds((given,))
                 if found is None:
                     return
                 low, high = bounds[index]
                 bounds[index] = max(low, found[0]), min(high, found[1])
         starts, ends = bounds
         primary, *others = lengths
-        first = self._bounds(primary.terms) if isinstance(primary, _Known) else None
+        first = self._equations.bounds(primary.terms) if isinstance(primary, _Known) else None
         for other in others if first is not None else ():
-            own = self._bounds(other.terms) if isinstance(other, _Known) else None
+            own = self._equations.bounds(other.terms) if isinstance(other, _Known) else None
             if first is None or own is None or not isinstance(other, _Known):
                 continue
             low = max(starts[0], -own[1], ends[0] + first[0] - own[1])
@@ -199,14 +194,14 @@ class TimeSystem:
         if node.duration is not None and not is_range:
             whole: Terms = (node.duration,)
         elif known:
-            whole = min(known, key=lambda each: self._is_variable(each.terms)).terms
+            whole = min(known, key=lambda each: self._equations.is_variable(each.terms)).terms
             if node.duration is not None:
-                self._relate(whole, node.duration)
+                self._equations.relate(whole, node.duration)
         else:
             return node, None
         for length in known:
             if length.terms != whole:
-                self._relate(length.terms, sum_of(whole))
+                self._equations.relate(length.terms, sum_of(whole))
         members = node.members
         for index in lasting:
             if lengths[index] is FREE:
@@ -223,183 +218,19 @@ class TimeSystem:
         if len(lasting) > len(known) + len(free):
             for length in known:
                 if whole is not None:
-                    self._bound(length.terms, whole)
+                    self._equations.bound(length.terms, whole)
             return node, None
         if whole is None:
-            return node, _Known(self._longest(known)) if known and not free else None
+            return node, self._longest(known) if known and not free else None
         if len(free) == 1 and not isinstance(whole, ir.RangeValue):
             node = replace(node, members=with_duration(node.members, free[0], whole))
         for length in known if len(known) > 1 or free else ():
-            self._bound(length.terms, whole)
+            self._equations.bound(length.terms, whole)
         if not free and len(known) == 1:
-            self._relate(known[0].terms, whole)
+            self._equations.relate(known[0].terms, whole)
         elif not free:
-            self._relate_longest(known, whole)
-        return node, _Known(self._longest(known)) if known and not free else None
+            self._equations.relate_longest([each.terms for each in known], whole)
+        return node, self._longest(known) if known and not free else None
 
-    def _relate_longest(self, members: list[_Known], whole: ir.Expression) -> None:
-        """Let the longest of some members be as long as the whole."""
-        longest = self._longest(members)
-        variable = [each for each in members if self._is_variable(each.terms)]
-        reached = [self._bounds(each.terms) for each in members if each not in variable]
-        wanted = self._bounds((whole,))
-        if wanted is not None and any(
-            found is not None and found[1] >= wanted[0] - SLACK for found in reached
-        ):
-            return
-        if variable and not isinstance(whole, ir.RangeValue):
-            self._relate(variable[0].terms, whole)
-        else:
-            self._relate(longest, whole)
-
-    def _longest(self, members: list[_Known]) -> Terms:
-        """Return the greatest of several lengths."""
-        if len(members) == 1:
-            return members[0].terms
-        sums = [sum_of(each.terms) for each in members]
-        ranges = [self._bounds((each,)) for each in sums]
-        for one, found in zip(sums, ranges, strict=True):
-            others = [other for each, other in zip(sums, ranges, strict=True) if each is not one]
-            if found is not None and all(o is not None and o[1] <= found[0] for o in others):
-                return (one,)
-        return (reduce(greater_of, sums),)
-
-    # --- equations and bounds ---
-
-    def _relate(self, terms: Terms, whole: ir.Expression) -> None:
-        """Let a sum be a time, or in a range of times."""
-        if self._is_impossible(terms, whole):
-            return
-        self._narrow(terms, whole)
-        if terms and not isinstance(whole, ir.RangeValue):
-            self._narrow((whole,), sum_of(terms))
-        if isinstance(whole, ir.RangeValue):
-            self._demand(terms, whole)
-            return
-        for term in reversed(terms):
-            others = tuple(other for other in terms if other is not term)
-            parameter = self._parameter(term)
-            if parameter is not None and parameter.name not in names_in((*others, whole)):
-                self._set(parameter, rest_of(whole, others))
-                return
-
-    def _bound(self, terms: Terms, whole: ir.Expression) -> None:
-        """Let a sum be no longer than a time, or than a range of times allows."""
-        if self._is_impossible(terms, whole, at_most=True):
-            return
-        most = whole.upper if isinstance(whole, ir.RangeValue) else whole
-        zero = ir.Literal(span=most.span, type=most.type, value=0.0)
-        within = ir.RangeValue(span=most.span, type=most.type, lower=zero, upper=most)
-        self._narrow(terms, within)
-        self._demand(terms, within)
-
-    def _demand(self, terms: Terms, whole: ir.RangeValue) -> None:
-        """Have a bound checked before the run, unless it always holds."""
-        found, wanted = self._bounds(terms), self._bounds((whole,))
-        if not lies_within(found, wanted) and self._is_variable(terms):
-            self._check(sum_of(terms), whole)
-
-    def _check(self, value: ir.Expression, within: ir.RangeValue) -> None:
-        expression = ir.Binary(span=within.span, type=BOOL, operator="in", left=value, right=within)
-        self.constraints.append(ir.Constraint(expression=expression, span=within.span))
-
-    def _set(self, parameter: ir.Parameter, value: ir.Expression) -> None:
-        """Give a drawn time the value that an equation leaves it."""
-        assert isinstance(parameter.domain, ir.RangeValue)
-        found, wanted = self._bounds((value,)), self._bounds((parameter.domain,))
-        self.ctx.drawn.remove(parameter)
-        name = ir.FieldRef(span=parameter.span, type=parameter.type, name=parameter.name)
-        self.ctx.drawn.append(replace(parameter, value=value, domain=None, is_fixed=True))
-        if not lies_within(found, wanted):
-            self._check(name, parameter.domain)
-
-    def _is_impossible(self, terms: Terms, whole: ir.Expression, at_most: bool = False) -> bool:
-        """Report a sum that is never a time, or in a range; return whether it is so."""
-        found, wanted = self._bounds(terms), self._bounds((whole,))
-        if found is None or wanted is None:
-            return False
-        is_longer = found[0] > wanted[1] + SLACK
-        if not is_longer and (at_most or found[1] >= wanted[0] - SLACK):
-            return False
-        labels = [Label(term.span, f"this takes {shown(self._bounds((term,)))}") for term in terms]
-        what = f"{shown(wanted)} here contradict the {shown(found)} that members take"
-        self.ctx.sink.report(
-            "OSC519",
-            whole.span,
-            what,
-            labels=labels,
-            help="let them agree, or leave one of them open",
-        )
-        return True
-
-    # --- known times ---
-
-    def _values(self) -> dict[str, ir.Expression]:
-        found: dict[str, ir.Expression] = {}
-        for each in (*self.declared, *self.ctx.drawn):
-            if isinstance(each, ir.Parameter):
-                is_open = each.value is None or not each.is_fixed
-                value = each.domain if is_open else each.value
-                if value is not None:
-                    found[each.name] = value
-        return found
-
-    def _bounds(self, terms: Terms) -> Times | None:
-        values = self._values()
-        total = (0.0, 0.0)
-        for term in terms:
-            ends = [term]
-            if isinstance(term, ir.RangeValue):
-                ends = [term.lower, term.upper]
-            found = [ir.bounds(resolved(end, values), values) for end in ends]
-            known = [each for each in found if each is not None]
-            if len(known) < len(found):
-                return None
-            total = (
-                total[0] + min(low for low, _ in known),
-                total[1] + max(high for _, high in known),
-            )
-        return total
-
-    def _parameter(self, term: ir.Expression) -> ir.Parameter | None:
-        """Return the parameter that a time is, if it can be solved for."""
-        if not isinstance(term, ir.FieldRef):
-            return None
-        for each in self.ctx.drawn:
-            if isinstance(each, ir.Parameter) and each.name == term.name and each.value is None:
-                return each if isinstance(each.domain, ir.RangeValue) else None
-        return None
-
-    def _narrow(self, terms: Terms, whole: ir.Expression) -> None:
-        """Leave to drawn times the rest of a whole."""
-        wanted = self._bounds((whole,))
-        for term in terms if wanted is not None else ():
-            parameter = self._parameter(term)
-            others = self._bounds(tuple(other for other in terms if other is not term))
-            if parameter is None or others is None or wanted is None:
-                continue
-            assert isinstance(parameter.domain, ir.RangeValue)
-            had = self._bounds((parameter.domain,))
-            if had is None:
-                continue
-            low, high = max(had[0], wanted[0] - others[1]), min(had[1], wanted[1] - others[0])
-            if low <= had[0] + SLACK and high >= had[1] - SLACK:
-                continue
-            position = self.ctx.drawn.index(parameter)
-            lower = time_like(low, parameter.domain.lower)
-            if high - low <= SLACK:
-                narrowed = replace(parameter, value=lower, domain=None, is_fixed=True)
-            else:
-                upper = time_like(high, parameter.domain.upper)
-                domain = replace(parameter.domain, lower=lower, upper=upper)
-                narrowed = replace(parameter, domain=domain)
-            self.ctx.drawn[position] = narrowed
-
-    def _is_variable(self, terms: Terms) -> bool:
-        """Whether a sum depends on drawn values."""
-        drawn = {
-            each.name
-            for each in (*self.ctx.drawn, *self.declared)
-            if isinstance(each, ir.Parameter) and each.domain is not None
-        }
-        return bool(drawn & names_in(terms))
+    def _longest(self, members: Sequence[_Known]) -> _Known:
+        return _Known(self._equations.longest([each.terms for each in members]))

@@ -61,7 +61,7 @@ def _lower_action(ctx: LoweringContext, action: sym.ActionSymbol) -> ir.UserActi
 
 
 def _constant_default(ctx: LoweringContext, parameter: sym.FieldSymbol) -> ir.Expression | None:
-    """Return the default of a parameter if it is one value, whoever acts and what else is given."""
+    """Return the default of a parameter if it is one value for all actors and arguments."""
     default = parameter.default
     if default is None or isinstance(default, ast.SampleExpression):
         return None

@@ -16,7 +16,7 @@ from osc2tx.analysis.constraints.constraint import Constraint
 from osc2tx.analysis.constraints.domains import TRUE, Choice, Domain, join
 from osc2tx.analysis.constraints.operation_list import SIZE, Key, domain_of_type
 from osc2tx.analysis.constraints.solver import values_on
-from osc2tx.lowering.behavior.composed_behaviors import Composed, is_composed
+from osc2tx.lowering.behavior.composed_behaviors import Composed
 from osc2tx.lowering.constraints.cases import (
     alternatives,
     cases_of,
@@ -24,6 +24,7 @@ from osc2tx.lowering.constraints.cases import (
     range_in_a_case,
     value_by_cases,
 )
+from osc2tx.lowering.constraints.checks import checks_itself, is_about_others, lower_check
 from osc2tx.lowering.constraints.equations import solve_for
 from osc2tx.lowering.constraints.parameter_domains import (
     DomainWriter,
@@ -39,7 +40,6 @@ from osc2tx.lowering.constraints.parameter_settings import (
     is_last_of_object,
 )
 from osc2tx.lowering.context import LoweringContext, statement_comments
-from osc2tx.lowering.declarations.map_fields import NOT_SEARCHED_BY, SEARCHED_BY, reads_map
 from osc2tx.lowering.values.expressions import lower_expression
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
@@ -147,7 +147,7 @@ class ConstraintLowering:
                     yield key, setting
 
     def of_instance(self, node: Instance) -> Iterator[tuple[sym.FieldSymbol, Setting]]:
-        """Yield what constraints say of the parameters of an invocation or composition.
+        """Yield the constrained parameters of an invocation or composition.
 
         Arguments are constraints too; a parameter that has one is left to it.
         """
@@ -187,7 +187,7 @@ class ConstraintLowering:
     def left_over(self) -> tuple[ir.Constraint, ...]:
         """Return what has to be checked before the run; ask last."""
         left = [c for c in self.found.in_force.constraints if self._is_left(c)]
-        lowered = (self._constraint(c) for c in left)
+        lowered = (lower_check(self.ctx, c, self._comments(c)) for c in left)
         return tuple(constraint for constraint in lowered if constraint is not None)
 
     # --- parts ---
@@ -343,11 +343,11 @@ class ConstraintLowering:
         if constraint.origin in ("argument", "element"):
             return False
         prefix = constraint.place.prefix
-        if not prefix and not constraint.is_default and self._is_about_others(constraint):
+        if not prefix and not constraint.is_default and is_about_others(self.ctx, constraint):
             return True
         if constraint in self._used:
             return False
-        if prefix and isinstance(prefix[0], ast.Invocation) and self._checks_itself(prefix[0]):
+        if prefix and isinstance(prefix[0], ast.Invocation) and checks_itself(self.ctx, prefix[0]):
             return False
         if self.found.owner is not None and constraint.place.owner is None:
             return False  # a constraint of a global parameter on itself
@@ -356,43 +356,6 @@ class ConstraintLowering:
         if is_known and all(operation.name != "any" for operation in constraint.operations.items):
             return False  # the analysis saw that it holds
         return not self._holds(constraint)
-
-    def _is_about_others(self, constraint: Constraint) -> bool:
-        """Whether a constraint refers to objects that are made elsewhere, and not known there.
-
-        Known are constraints on a single member of an object that the invocation names.
-        """
-        roots = {key[0] for key in constraint.operations.keys if len(key) > 1}
-        is_relation = len(constraint.operations.keys) > 1
-        return bool(roots & (self.ctx.handed_in if is_relation else self.ctx.computed))
-
-    def _checks_itself(self, invoked: ast.Invocation) -> bool:
-        """Whether an invoked behavior checks its own constraints: all but actions of the user."""
-        callee = self.ctx.model.binding_of(invoked).callee
-        is_action = isinstance(callee, sym.ActionSymbol) and callee.origin == "user"
-        return not is_action or is_composed(callee)
-
-    def _constraint(self, constraint: Constraint) -> ir.Constraint | None:
-        node = constraint.node
-        if not isinstance(node, ast.KeepConstraint):
-            return None
-        expression = lower_expression(self.ctx.at(constraint.place), node.expression)
-        if expression is None:
-            return None
-        if ir.is_live(expression):
-            if reads_map(expression):
-                what, instead = NOT_SEARCHED_BY, SEARCHED_BY
-            else:
-                what = "this constraint depends on the state of the world"
-                instead = (
-                    "constraints hold between values that are known before the run; "
-                    "wait for a condition, or end something at it"
-                )
-            self.ctx.unsupported("OSC502", constraint.span, what, help=instead)
-            return None
-        return ir.Constraint(
-            expression=expression, span=constraint.span, comments=self._comments(constraint)
-        )
 
     def _comments(self, constraint: Constraint) -> tuple[str, ...]:
         """Return the comments of a constraint; the class of a type has those inside of the type."""

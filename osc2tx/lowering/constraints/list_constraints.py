@@ -51,7 +51,7 @@ def lower_list(
 def _said(
     ctx: LoweringContext, field: sym.FieldSymbol, constraints: ConstraintLowering
 ) -> tuple[dict[int, ir.Expression], int | None]:
-    """Return what constraints say of single elements, and of the size."""
+    """Return the constraints on single elements, and on the size."""
     said: dict[int, ir.Expression] = {}
     size = None
     for constraint in constraints.found.in_force.constraints:

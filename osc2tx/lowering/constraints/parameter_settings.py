@@ -1,4 +1,4 @@
-"""What constraints say of one parameter."""
+"""The constraints on one parameter, as a value or domain."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Setting:
 def is_known_here(constraint: Constraint, key: Key) -> bool:
     """Whether a constraint can be written here: one of an invoked scenario only if it is alone.
 
-    It sets an object that is handed in; what else it speaks of is only known inside.
+    It sets an object that is handed in; what else it mentions is only known inside.
     """
     prefix = constraint.place.prefix
     is_inside = bool(prefix) and isinstance(prefix[0], Instance)

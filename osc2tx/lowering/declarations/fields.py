@@ -1,4 +1,4 @@
-"""Fields of a scenario, and global parameters, with what constraints say of them."""
+"""Fields of a scenario, and global parameters, with the constraints on them."""
 
 from __future__ import annotations
 

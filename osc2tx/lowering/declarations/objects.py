@@ -117,7 +117,7 @@ class ObjectLowering:
         return found
 
     def is_said(self, field: sym.FieldSymbol) -> bool:
-        """Whether a constraint speaks of a member of an object."""
+        """Whether a constraint mentions a member of an object."""
         return any(key[0] is field and len(key) > 1 for key in self._constraints.found.by_key)
 
     def is_open(self, field: sym.FieldSymbol) -> bool:
@@ -222,7 +222,7 @@ class ObjectLowering:
                         found[inner] = ir.FieldValue(path=path, value=value, span=value.span)
 
     def _is_described(self, key: Key) -> bool:
-        """Whether a constraint speaks of a list, its size or its elements."""
+        """Whether a constraint mentions a list, its size or its elements."""
         return any(each[: len(key)] == key for each in self._constraints.found.by_key)
 
     def _has_class_default(self, key: Key, member: sym.FieldSymbol) -> bool:

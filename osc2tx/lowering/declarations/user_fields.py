@@ -1,6 +1,6 @@
 """Fields that the scenario's files give to actors and structs: to their own, and to the library's.
 
-A class has the fields that have a default or that some text speaks of. The default is part of the
+A class has the fields that have a default or that some text mentions. The default is part of the
 class if it needs nothing else; one that reads other fields or globals belongs to each object.
 """
 
@@ -27,9 +27,9 @@ _OF_OBJECTS = (ir.FieldRef, ir.ParameterRef, ir.ScenarioSelf)
 
 
 def mentioned_fields(model: SemanticModel) -> Mapping[sym.FieldSymbol, frozenset[str]]:
-    """Return the fields that some expression of a program speaks of, and the names of its files.
+    """Return the fields that some expression of a program mentions, and the names of its files.
 
-    Coverage items of an object speak of it.
+    Coverage items of an object mention it.
     """
     found: dict[sym.FieldSymbol, set[str]] = {}
     for node, symbol in model.references.items():
@@ -68,7 +68,7 @@ def default_keeps(model: SemanticModel) -> Mapping[sym.FieldSymbol, ast.KeepCons
 
 
 def _is_default(rule: ast.Statement) -> TypeGuard[ast.KeepConstraint]:
-    """Whether a constraint says of a name alone what it is by default."""
+    """Whether a constraint gives a default to a name alone."""
     if not isinstance(rule, ast.KeepConstraint) or rule.strength is not ast.KeepStrength.DEFAULT:
         return False
     said = rule.expression
@@ -187,7 +187,7 @@ def object_default(
 
 
 def stated_default(ctx: LoweringContext, field: sym.FieldSymbol) -> ast.Expression | None:
-    """Return what a type says of a field of its own that is so unless an object differs."""
+    """Return the default that a type states for a field of its own."""
     keep = ctx.default_keeps.get(field)
     if keep is not None:
         assert isinstance(keep.expression, ast.Binary)

@@ -19,7 +19,7 @@ from osc2tx.lowering.placement.carla_paths import START
 from osc2tx.lowering.values.shape_arguments import first_value, says_start
 from osc2tx_shared.classes import dataclass, replace
 
-# Of these an actor has one at the start, whoever gives it.
+# Of these an actor has one at the start, whatever its origin.
 _PLACES = frozenset({"lane", "position"})
 
 # Types of routes of a map, on which an actor can start.

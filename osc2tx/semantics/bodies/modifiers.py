@@ -201,10 +201,10 @@ def _report_unknown(r: Resolution, name: ast.Name) -> None:
 
 
 def instead_of_scenario(invoked: Symbol | None, name: str, written: str) -> str | None:
-    """Say how a modifier of actions (§8.9.1) is applied to all that a scenario does.
+    """State how a modifier of actions (§8.9.1) is applied to all that a scenario does.
 
     Args:
-        invoked: What is invoked; nothing is said of an action.
+        invoked: The behavior that is invoked; an action gets no advice.
         name: Of the modifier.
         written: Its application.
     """
@@ -222,7 +222,7 @@ def instead_of_scenario(invoked: Symbol | None, name: str, written: str) -> str 
 
 
 def _receiver(wanted: ActorSymbol, name: ast.Name, owner: TypeSymbol | None) -> str:
-    """Say of which actor a modifier may be applied."""
+    """State the actor to which a modifier may be applied."""
     fields = [
         member.name
         for member in (() if owner is None else owner.members.values())

@@ -9,7 +9,7 @@ from osc2tx.semantics.resolution import Resolution
 from osc2tx.semantics.symbols import ActorSymbol
 from osc2tx.syntax import ast
 
-# What names of models say of the kind of actor; others are vehicles. Props and animals are walked.
+# Kinds of actors by names of models; others are vehicles. Props and animals are walked.
 KINDS = {
     "person": ("Barrier", "Cone", "Cow", "Girl", "Man", "Pedestrian", "Walker", "Woman"),
 }

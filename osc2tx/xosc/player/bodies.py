@@ -15,6 +15,7 @@ from osc2tx_runtime.opendrive import LanePosition, RoadMap, Route
 from osc2tx_shared.classes import dataclass
 
 LONGITUDINAL, LATERAL = "longitudinal", "lateral"
+STANDING = 1e-3  # m/s
 STRAIGHT = 0.75 * math.pi  # beyond: it looks against its lane
 
 
@@ -47,6 +48,8 @@ class Body:
         velocity: m/s in the world.
         swing: m/s^2 to its left.
         actions: At work, by domain.
+        driven: Metres since the start.
+        stood: Seconds for which it has been standing.
         behind: Which body tows it, with the metres from that one's reference point back to the
             hitch, and from the coupler to its own reference point.
     """
@@ -67,6 +70,8 @@ class Body:
     velocity: tuple[float, float] = (0.0, 0.0)
     swing: float = 0.0
     actions: dict[str, Running] = field(default_factory=dict)
+    driven: float = 0.0
+    stood: float = 0.0
     behind: tuple[Body, float, float] | None = None
 
     @property
@@ -150,6 +155,8 @@ class Body:
         x, y, h = self.here
         vx, vy = (x - before.x) / dt, (y - before.y) / dt
         ax, ay = (vx - self.velocity[0]) / dt, (vy - self.velocity[1]) / dt
+        self.driven += abs(self.v) * dt
+        self.stood = self.stood + dt if abs(self.v) < STANDING else 0.0
         self.velocity, self.swing = (vx, vy), ay * math.cos(h) - ax * math.sin(h)
 
     def trail(self) -> None:
@@ -209,11 +216,14 @@ LIMITS = (
 """Attributes of `Performance`."""
 
 
+KINDS = ("Vehicle", "Pedestrian", "MiscObject")
+
+
 def body_of(node: Element) -> Body:
     """Return the body that a `ScenarioObject` describes."""
-    kind = next(
-        child for child in node.children if child.tag in ("Vehicle", "Pedestrian", "MiscObject")
-    )
+    kind = next((child for child in node.children if child.tag in KINDS), None)
+    if kind is None:
+        raise Unplayable(f"{node.get('name')} has no size", node.place)
     centre, size = kind.one(xml.BoundingBox).one(xml.Center), kind.one(xml.BoundingBox).one(
         xml.Dimensions
     )

@@ -10,9 +10,9 @@ from typing import Protocol
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.elements import class_of
-from osc2tx.xosc.player.bodies import Body
+from osc2tx.xosc.player.bodies import STANDING, Body
 from osc2tx.xosc.player.courses import RULES, number
-from osc2tx.xosc.player.distances import Ruler, asked
+from osc2tx.xosc.player.distances import Ruler, asked, between_boxes
 from osc2tx.xosc.player.errors import Unplayable
 from osc2tx.xosc.player.places import place_of
 from osc2tx_shared.classes import dataclass
@@ -199,7 +199,12 @@ class Conditions:
                 speed = world.ruler.closing_speed(body, other, *asked(node))
                 return self._time(node, world.ruler.relative(body, other, node), speed)
             case "StandStillCondition":
-                raise Unplayable("a duration of standing still is not played", node.place)
+                return abs(body.v) < STANDING and body.stood >= number(node, "duration") - 1e-9
+            case "TraveledDistanceCondition":
+                return body.driven >= number(node, "value") - 1e-9
+            case "CollisionCondition" if node.find(xml.EntityRef) is not None:
+                other = world.bodies[node.one(xml.EntityRef).entityRef]
+                return between_boxes(body, other) == 0.0
         raise Unplayable(f"<{node.tag}> is not played", node.place)
 
     @staticmethod

@@ -40,6 +40,8 @@ class Ways:
             where, h = place_of(vertex.one(xml.Position).inner, self._scene.bodies, self._scene.map)
             pose = where if isinstance(where, Pose) else Pose(*self._scene.map.pose(where)[:2], 0.0)
             way.append((number(vertex, "time"), pose if h is None else pose._replace(h=h)))
+        if len(way) < 2:
+            raise Unplayable("of trajectories only polylines are played", node.place)
         timing = node.one(xml.TimeReference).find(xml.Timing)
         is_timed = timing is not None
         domains = (LATERAL, LONGITUDINAL) if is_timed else (LATERAL,)

@@ -13,7 +13,7 @@ from .polynomials import Piecewise, Row
 from .xml_reader import Attributes, source_line
 
 NARROWEST = -0.05
-"""Metres below nothing that are the rounding of whoever wrote the map."""
+"""Metres below zero that count as rounding in the map."""
 
 _SIDES = ("left", "right")
 _Span = tuple[float, float]

@@ -17,7 +17,7 @@ from .polynomials import between
 from .poses import lane_pose
 
 SMALLEST_GAP = 0.01
-"""Metres up to which a step is the rounding of whoever wrote the map."""
+"""Metres up to which a step counts as rounding in the map."""
 SMALLEST_TURN = math.radians(1.0)
 """Likewise of headings (rad)."""
 

@@ -1,4 +1,4 @@
-"""What becomes of the trace of a run: files, kept lines, a digest. Each takes it line by line."""
+"""Outputs of the trace of a run: files, kept lines, a digest. Each takes it line by line."""
 
 from __future__ import annotations
 

@@ -90,6 +90,6 @@ def _is_ours(status: os.stat_result, is_kind: Callable[[int], bool]) -> bool:
     """Whether a file or folder has a type, belongs to the user, and no other user may write it."""
     if not is_kind(status.st_mode):
         return False
-    if sys.platform == "win32":
-        return True  # the profile of a user is closed to others
+    if sys.platform in ("win32", "emscripten"):
+        return True  # the profile of a user, or the memory of a page, is closed to others
     return status.st_uid == os.geteuid() and not status.st_mode & 0o022

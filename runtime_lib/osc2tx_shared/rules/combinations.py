@@ -258,7 +258,7 @@ class _Action(Generic[CallT]):
         return call.at == "start" and self.known[call.name].starts
 
     def _about(self, what: Collection[str]) -> list[CallT]:
-        """Return the lasting modifiers that have one of these names, or speak of such a topic."""
+        """Return the lasting modifiers that have one of these names, or mention such a topic."""
         return [
             call
             for call in self.lasting

@@ -141,7 +141,7 @@ def put(text: str, *, err: bool = False, colored: bool = False) -> None:
     """Print lines of text.
 
     Args:
-        text: The lines. Whoever puts them together has made sure that no part of one ends it.
+        text: The lines. The caller has made sure that no part of a line contains its end.
         err: On standard error.
         colored: Let the sequences for colors pass.
     """

@@ -1,5 +1,6 @@
 """Fixes remove what they are for, and bring no new error."""
 
+import re
 from collections import Counter
 from pathlib import Path
 
@@ -7,10 +8,13 @@ import pytest
 
 from osc2tx.building.fixing import fix_text
 from osc2tx.building.jobs import job_for
+from osc2tx.compilation.driver import Compilation
 from osc2tx.compilation.inputs import Input
 from osc2tx.config import ConfigFiles, GivenOptions
 from osc2tx.diagnostics import Diagnostic, Severity, SourceFile, Span
 from osc2tx.diagnostics.fixes import Edit, Fix, apply_edits, compatible
+from osc2tx.syntax.dump import dump_ast
+from osc2tx_shared.classes import replace
 
 ONCE_PER_FILE = {"OSC415"}  # the next place is reported then
 CASES = sorted((Path(__file__).parents[2] / "golden" / "diagnostics").glob("*/input.osc"))
@@ -55,6 +59,39 @@ def test_each_fix_removes_its_diagnostic(path: Path) -> None:
                 )
             if fix.is_safe:
                 assert not new - old, (diagnostic, fix.title, new - old)
+
+
+@pytest.mark.parametrize("path", CASES, ids=lambda path: path.parent.name)
+def test_a_safe_fix_leaves_other_declarations_alone(path: Path) -> None:
+    """Declarations that no edit touches have the same syntax tree before and after."""
+    text = path.read_bytes().decode()
+    compilation = job(path).compilation(text=text)
+    compilation.check()
+    if any(is_syntax(code) for code in errors(compilation.diagnostics)):
+        return  # the tree of such a text lacks what was not understood
+    before = trees(compilation)
+    for fix in (f for d in compilation.diagnostics for f in d.fixes if f.is_safe):
+        if any(edit.span.source is not compilation.source for edit in fix.edits):
+            continue
+        fixed = job(path).compilation(text=apply_edits(text, fix.edits))
+        kept = [tree for node, tree in before if not any(touches(node, e) for e in fix.edits)]
+        after = [tree for _, tree in trees(fixed)]
+        assert not Counter(kept) - Counter(after), fix.title
+
+
+def trees(compilation: Compilation) -> list[tuple[Span, str]]:
+    """Return the declarations of a file with their trees, without positions."""
+    assert compilation.ast is not None
+    found = []
+    for node in (*compilation.ast.imports, *compilation.ast.statements):
+        statement = replace(compilation.ast, imports=(), statements=(node,))
+        _, _, tree = dump_ast(statement).partition("\n")
+        found.append((node.span, re.sub(r"\d+:\d+-(\d+:)?\d+", "", tree)))
+    return found
+
+
+def touches(span: Span, edit: Edit) -> bool:
+    return edit.span.start <= span.end and span.start <= edit.span.end
 
 
 def test_how_many_codes_have_fixes() -> None:

@@ -33,7 +33,7 @@ HEAVIEST_RAIN = 50.0
 """mm/h that are the intensity 1 of OpenSCENARIO XML 1.0, which has no unit."""
 
 FAR = 100000.0
-"""Visual range (m) where nobody speaks of fog."""
+"""Visual range (m) where fog is not mentioned."""
 
 OKTAS: tuple[FractionalCloudCover, ...] = (
     "zeroOktas",
@@ -202,7 +202,7 @@ def _precipitation(ctx: Context) -> xml.Precipitation:
 
 
 def initial_environment(ctx: Context) -> tuple[xml.GlobalAction, ...]:
-    """Return the actions for what the environment is from the start on, whoever acts."""
+    """Return the actions for the initial environment, whichever actor acts."""
     actions: list[xml.GlobalAction] = []
     for actor in environments(ctx):
         said = {value.path[0] for value in actor.values}
@@ -286,7 +286,7 @@ def _road(ctx: Context, source: ir.Invoke | ir.Actor) -> xml.RoadCondition | Non
 
 
 def _report_lost_grip(ctx: Context, source: ir.Invoke, adhesion: float) -> None:
-    """Report that vehicles lose grip amid an action: the XML does not say what becomes of it."""
+    """Report that vehicles lose grip amid an action: the XML does not define the rest of it."""
     beside = runs_beside(ctx.scenario.body, source)
     names = {name for member in beside for name in actors_of(member)}
     if any(name in ctx.cast and not ctx.cast[name].walks for name in names):

@@ -82,12 +82,12 @@ def global_action(*names: str) -> Callable[[PerformGlobal], PerformGlobal]:
 
 
 def at_start(*names: str) -> None:
-    """Say of modifiers that they are written as the start of an actor or the choice of the map."""
+    """Register modifiers that are written as the start of an actor or the choice of the map."""
     AT_START.update(names)
 
 
 def without_form(what: What, name: str, reason: str) -> None:
-    """Say of an action or modifier why XML cannot have it; scenarios that use it are refused."""
+    """Register why XML cannot have an action or modifier; scenarios that use it are refused."""
     WITHOUT_FORM[what][name] = reason
 
 

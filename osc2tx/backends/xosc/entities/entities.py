@@ -71,7 +71,7 @@ def _axle_of(ctx: Context, given: Constant, like: Axle) -> Axle:
 
 
 def _as_said(ctx: Context, name: str, path: tuple[str, ...], usual: Axle) -> Axle:
-    """Return an axle with what is said of it below a path of an object."""
+    """Return an axle with the constraints on it below a path of an object."""
     said = {part: ctx.values.field(name, (*path, part)) for part in Axle._fields}
     numbers = {part: float(v) for part, v in said.items() if isinstance(v, (int, float))}
     return usual._replace(**numbers)

@@ -26,7 +26,7 @@ class Start:
         placement: What is said; `None`: nothing.
         modifiers: The same, by name.
         references: Whom it refers to.
-        is_beside: It refers to somebody's place.
+        is_beside: It refers to the position of another actor.
         is_given: An option says where it is.
     """
 

@@ -101,7 +101,7 @@ class Roads:
         return self.ahead(road_entry(self.map, place), distance)
 
     def place(self, road: str, lane: int, s: float, t: float) -> LanePosition:
-        """Return a place from its coordinates on a road that somebody named.
+        """Return a place from its coordinates on a road given by its name.
 
         Raises:
             Inexpressible: The map has no such place.

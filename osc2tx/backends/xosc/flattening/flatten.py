@@ -196,7 +196,7 @@ class Flattener:
             after = dict(states) if after is None else either(after, states)
         self._ctx.states = after or before
         self._builder.mark_actor = mark_actor
-        for act in acts:  # whoever is first stops the others
+        for act in acts:  # the first one stops the others
             act.stops.extend(mark for mark in ends if mark not in act.stops)
         end = NEVER
         for each in ends.values():

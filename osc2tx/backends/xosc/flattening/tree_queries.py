@@ -69,7 +69,7 @@ DIRECTIONS_ALONG = ("ahead", "behind", "longitudinal")
 
 
 def entry_of(node: ir.Invoke) -> ActionEntry | None:
-    """Return what the catalogue says of an action; `None` for one that the scenario brings."""
+    """Return the catalogue entry of an action; `None` for one that the scenario declares."""
     return catalogue().actions.get(node.qualified_name)
 
 

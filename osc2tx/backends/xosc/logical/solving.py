@@ -4,7 +4,7 @@ Each variable has what it may still be: an interval of numbers, or a set. A rela
 variables: `a < b + 2m` their bounds, an `or` whose other parts cannot hold the one that is left.
 Values are chosen one variable at a time, each at a given place within what the others leave. So
 orders, sums with a given value and clauses are solved without trying. Relations of another kind
-narrow nothing; whoever asks has to test them.
+narrow nothing; the caller has to test them.
 """
 
 from __future__ import annotations

@@ -101,7 +101,7 @@ class Crossing(Route):
         return () if found is None else (found.id, *filter(None, [found.name]))
 
     def suits(self, graph: RoadGraph, segment: MapSegment) -> bool:
-        """Whether a crosswalk that lies there is as asked for; without one nothing speaks of it."""
+        """Whether a crosswalk that lies there is as asked for; without one nothing mentions it."""
         found = _crosswalk(graph, segment)
         if found is None:
             is_free = not self._anchors and self._type == CrossingType()

@@ -99,10 +99,10 @@ class Entries:
 class Enter(Leaf):
     """Brings an actor to where its first action begins; it ends then.
 
-    The actor has no owner meanwhile: whoever claims it takes over.
+    The actor has no owner meanwhile: the first action that claims it takes over.
 
     Args:
-        actor: Who.
+        actor: The actor that enters.
         source: Place of the first action in the scenario.
     """
 
@@ -119,7 +119,7 @@ class Enter(Leaf):
 
     @property
     def actor_id(self) -> str:
-        """Who enters."""
+        """The actor that enters."""
         return self.actor.id
 
     def initialise(self) -> None:

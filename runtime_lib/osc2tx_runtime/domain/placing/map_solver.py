@@ -2,7 +2,7 @@
 
 The first choice in the order of the map for which everything holds, so that the same scenario on
 the same map always gets the same one: a search with backtracking over the parts in the order of
-their declaration, each limited by the modifiers that speak of parts chosen already.
+their declaration, each limited by the modifiers that mention parts chosen already.
 """
 
 from __future__ import annotations

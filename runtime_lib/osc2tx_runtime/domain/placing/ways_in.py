@@ -32,7 +32,7 @@ class Arrival(NamedTuple):
     """Where and how an actor has to be when its first action begins.
 
     Attributes:
-        actor: Who.
+        actor: The actor that enters.
         step: When.
         at: Place on a lane, or pose.
         speed: m/s.

@@ -253,7 +253,7 @@ class ModifiedMotion(MotionAction):
 
     @cached_property
     def lasting(self) -> tuple[Modifier, ...]:
-        """The modifiers but those that only speak of the start."""
+        """The modifiers but those that only mention the start."""
         return tuple(modifier for modifier in self.modifiers if not modifier.is_start)
 
     @cached_property

@@ -37,7 +37,7 @@ class Composition(Node):
     _limits: DurationLimits | None = None
     _members: tuple[Member, ...] = ()
     _active: list[Member]  # those at work, where several are
-    _is_plain = True  # only the members decide what becomes of it
+    _is_plain = True  # only the members decide its outcome
     _may_rest = True  # only they, and the time
 
     def setup(self, **kwargs: Any) -> None:

@@ -1,4 +1,4 @@
-"""What to say of values that demands between them, or arithmetic, do not allow."""
+"""Messages on values that relations between them, or arithmetic, do not allow."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def not_kept(
     tried: str,
     rivals: Sequence[NotKeptError] = (),
 ) -> ScenarioError:
-    """Return what to say of a relation, with the values that it is about.
+    """Return the message on a relation, with the values that it relates.
 
     Args:
         broken: The relation.
@@ -60,7 +60,7 @@ def _relation(broken: NotKeptError) -> str:
 def not_computed(
     error: Exception, source_map: SourceMap, kept: int, tried: str = ""
 ) -> ScenarioError:
-    """Return what to say of a value that has no result.
+    """Return the message on a value that has no result.
 
     Args:
         error: Why.

@@ -50,7 +50,7 @@ class Drawing:
         self._walk: Walk | None = None  # after that many draws in vain
         self._held = 0  # demands that hold, in their order
         self._waived: int | None = None  # the number of one that need not hold
-        self._refused: int | None = None  # that of one that counts as broken, to speak of it
+        self._refused: int | None = None  # that of one that counts as broken, for the message
         self._broken: Exception | None = None  # by the last draw
         self.has_drawn = False
 
@@ -118,7 +118,7 @@ class Drawing:
         return told
 
     def _error(self, tried: str, rivals: list[Exception | None] | None = None) -> ScenarioError:
-        """Return what to say of the demand or value that does not hold."""
+        """Return the message on the relation or value that does not hold."""
         if isinstance(self._broken, NotKeptError):
             others = [each for each in rivals or () if isinstance(each, NotKeptError)]
             return not_kept(self._broken, self._parameters, self._units, tried, others)

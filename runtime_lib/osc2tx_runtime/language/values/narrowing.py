@@ -16,7 +16,7 @@ class Narrowed:
     Attributes:
         given: The value or default, or a function that gives it once the base is declared so far.
         given_domain: What the value must keep to; likewise.
-        unit: In which the scenario speaks of it; empty if that is the unit of the base.
+        unit: In which the scenario states it; empty if that is the unit of the base.
         is_fixed: Nothing can change the value.
     """
 

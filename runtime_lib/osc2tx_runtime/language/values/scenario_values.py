@@ -110,7 +110,7 @@ class ScenarioValues:
             name: Name of the parameter.
             default: Value, or the values that it is drawn from, SI units.
             domain: What settings must keep to; the default itself where that is drawn from.
-            unit: In which the scenario speaks of it: `--set` takes all units of its physical
+            unit: In which the scenario states it: `--set` takes all units of its physical
                 type, messages and reports show it in this one.
         """
         return self._own(name, default, domain, unit)

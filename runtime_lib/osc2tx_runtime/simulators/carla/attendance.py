@@ -90,7 +90,7 @@ class Attendance:
 
 
 def _is_told_to_begin() -> bool:
-    """Return whether somebody at the terminal has pressed Enter."""
+    """Return whether Enter was pressed at the terminal."""
     if not sys.stdin.isatty() or not select.select([sys.stdin], [], [], 0.0)[0]:
         return False
     sys.stdin.readline()

@@ -187,7 +187,7 @@ class CarlaSurroundings:
                 continue
             lights = scene.lights.get(actor)
             flags = 0 if lights is None else FLAGS[lights.lit]
-            if member.control not in EXTERNAL:  # whoever drives those knows when they brake
+            if member.control not in EXTERNAL:  # their own drivers decide when they brake
                 flags |= self._moving[actor].after(scene.setpoints[actor])
             if flags != self._lit.get(actor, 0):
                 self._lit[actor] = flags

@@ -1,4 +1,4 @@
-"""What becomes of corners: actors steer through them, the lines of the XML have them."""
+"""Corners of paths: actors steer through them, the lines of the XML have them."""
 
 from __future__ import annotations
 

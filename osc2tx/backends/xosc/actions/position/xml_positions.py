@@ -44,7 +44,7 @@ class XmlPosition:
 
 
 def at_world(ctx: Context, x: float, y: float, z: float) -> XmlPosition:
-    """Return a place in the world; whoever is there looks along the road."""
+    """Return a position in the world, with the heading of the road."""
     lane = None if ctx.roads is None else ctx.roads.locate(x, y, z)
     heading = 0.0 if ctx.roads is None else ctx.roads.direction_at(x, y, z)
     pose = Pose(x, y, z, heading)

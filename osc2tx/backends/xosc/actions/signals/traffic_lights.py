@@ -137,7 +137,7 @@ def shows(ctx: Context, call: ir.MethodCall) -> tuple[xml.ConditionPart, ...]:
 
 
 def _addressed(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[str, ...]:
-    """Return the lights that an action speaks of."""
+    """Return the lights that an action mentions."""
     if arguments.get("sync"):
         raise Inexpressible("a switch in step with a cycle", node.span)
     light = arguments.get("traffic_light")

@@ -48,7 +48,7 @@ class EventTable:
         }
 
     def _waited(self) -> Iterator[tuple[str, ir.Moment]]:
-        """Yield the labels whose start or end somebody waits for."""
+        """Yield the labels whose start or end is waited for."""
         for node in ir.walk_behaviors(self._scope.scenario.body):
             for trigger in triggers_of(node):
                 if isinstance(trigger.event, ir.LabelEvent) and trigger.event.moment in WAITABLE:

@@ -48,9 +48,9 @@ CARE = AvoidCollisions()
 
 
 class ModifiableAction(ModifiedMotion):
-    """Moves by itself in its own slots, and as the modifiers say in those they speak of.
+    """Moves by itself in its own slots, and as the modifiers say in those they mention.
 
-    It claims the speed if a modifier speaks of it, and the lane likewise, so that
+    It claims the speed if a modifier mentions it, and the lane likewise, so that
     `drive() with: speed(...)` and `change_lane(...)` run side by side.
 
     Attributes:

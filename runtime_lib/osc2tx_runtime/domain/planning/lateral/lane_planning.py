@@ -63,7 +63,7 @@ def beside_command(action: ModifiedMotion, lateral: Lateral) -> Command:
 
 
 def lane_command(action: ModifiedMotion, lateral: Lateral | None) -> Command | None:
-    """How to get to a lane and a place in it; None if nothing speaks of them, or it is there.
+    """How to get to a lane and a place in it; None if nothing mentions them, or it is there.
 
     Raises:
         Refused: It cannot be.

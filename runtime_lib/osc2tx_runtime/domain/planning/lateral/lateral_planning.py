@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 
 def side_command(action: ModifiedMotion) -> Command | None:
-    """Where to go sideways; None if no modifier speaks of it.
+    """Where to go sideways; None if no modifier mentions it.
 
     Raises:
         Refused: It cannot be.

@@ -57,7 +57,7 @@ STANDS = 0.05  # m/s: a slower actor stands
 
 
 def speed_command(action: ModifiedMotion) -> Command | None:
-    """What to do with the speed; None if no modifier speaks of it.
+    """What to do with the speed; None if no modifier mentions it.
 
     Raises:
         Refused: It cannot be.

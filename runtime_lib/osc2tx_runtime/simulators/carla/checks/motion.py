@@ -119,7 +119,7 @@ def exact(probe: Probe) -> Finding:
     if max(speeds) < 0.5 * MOVED / probe.request.world.dt and watched:
         return differs(
             found,
-            "a radar, and whoever looks at velocities, sees exact actors stand: exact-physics",
+            "a radar, and every consumer of velocities, sees exact actors stand: exact-physics",
         )
     return ok(found)
 

@@ -23,7 +23,7 @@ def light_states(lights: Mapping[str, Any]) -> Mapping[str, str]:
 
 
 class Collisions:
-    """Contacts that sensors tell of, from a thread of the library's own."""
+    """Contacts that sensors report, from a thread of the library's own."""
 
     def __init__(self) -> None:
         self._events: list[tuple[int, float, int, int, str]] = []

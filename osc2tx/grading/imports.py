@@ -1,0 +1,162 @@
+"""The deviation of an imported scenario, run in the embedded world, from its document, played.
+
+Both are compared from states alone: places, the end and the verdict. What a tool sees one step
+late counts as late, not as off: a place is compared with those of the steps around.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from osc2tx.grading.comparison import EXACT, ROUNDING, Recording, Row, hops
+from osc2tx.grading.plain import plain
+from osc2tx.grading.runs import NoEvidence, cached_map, run_in_player, run_in_world
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Element
+from osc2tx.xosc.player import BY_THE_STANDARD
+from osc2tx_runtime import RunSettings, Scenario
+from osc2tx_runtime.domain.map.search import find_map
+from osc2tx_runtime.opendrive import MapError
+from osc2tx_shared.classes import dataclass
+
+COARSE, FINE = 0.05, 0.02  # s: lengths of steps
+LONGEST = 90.0  # s: what happened until then counts
+MOST_ACTOR_STEPS = 8_000
+"""A run is left when the steps of its actors are so many."""
+MOST_EVENTS = 400
+"""Of documents with more there is no run."""
+
+
+@dataclass(frozen=True)
+class ImportDeviation:
+    """The deviation of an imported scenario from its document.
+
+    Attributes:
+        place: Longest distance (m) between an actor here and there, late events apart.
+        actor: The actor with that distance.
+        at: Time (s) of that distance.
+        since: First time (s) at which an actor is off; infinite if none is.
+        time: Difference of the ends (s); zero if both go on.
+        late: Time (s) by which events may come later.
+    """
+
+    place: float
+    actor: str
+    at: float
+    since: float
+    time: float
+    late: float
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether places and ends are the same, late events apart."""
+        return self.place < EXACT and self.time <= self.late + ROUNDING
+
+
+def import_deviation(
+    document: Element,
+    map_file: Path | None,
+    scenario: type[Scenario],
+    names: Mapping[str, str],
+    values: Mapping[str, float | str],
+    starts: Mapping[str, tuple[str, int, float]],
+) -> ImportDeviation:
+    """Run an imported scenario in the embedded world and compare it with its document.
+
+    Args:
+        document: The document, with catalogs in it and its parameters at the values of the run.
+        map_file: Its map; `None`: it names none.
+        scenario: The scenario.
+        names: Names of the actors in the scenario, by those in the document.
+        values: Values of open parameters of the scenario, in SI units.
+        starts: Where the scenario puts actors at once, so that no free places are looked for.
+
+    Raises:
+        NoEvidence: The scenario cannot be run, or the document not be played.
+    """
+    played = plain(document)
+    if sum(1 for _ in played.below(xml.Event)) > MOST_EVENTS:
+        raise NoEvidence(f"it has more than {MOST_EVENTS} events")
+    case = _Case(played, map_file or find_map(None, ()), scenario, names, values, starts)
+    found = case.at(COARSE)
+    return found if found.is_exact else case.at(FINE)
+
+
+@dataclass(frozen=True)
+class _Case:
+    """What is compared.
+
+    Attributes:
+        document: The document as the player takes it.
+        map_file: The map.
+        scenario: The scenario.
+        names: Names of the actors in the scenario, by those in the document.
+        values: Values of open parameters.
+        starts: Where the scenario puts actors at once.
+    """
+
+    document: Element
+    map_file: Path
+    scenario: type[Scenario]
+    names: Mapping[str, str]
+    values: Mapping[str, float | str]
+    starts: Mapping[str, tuple[str, int, float]]
+
+    def at(self, dt: float) -> ImportDeviation:
+        """Return the deviation at a length of steps (s)."""
+        longest = min(LONGEST, MOST_ACTOR_STEPS * COARSE / max(1, len(self.names)))
+        played = self._played(dt, longest)
+        settings = RunSettings(
+            map_path=(self.map_file,),
+            dt=dt,
+            max_time=longest,
+            set=dict(self.values),
+            spawn=self.starts,
+        )
+        run = run_in_world(self.scenario, settings).recording
+        late = (1 + max(hops(self.document).values(), default=0)) * dt
+        worst, worst_actor, at, since = 0.0, "", 0.0, math.inf
+        for said, rows in played.track.items():
+            actor = self.names.get(said, "")
+            place, when, first = _apart(run.track.get(actor, ()), rows, dt, round(late / dt))
+            since = min(since, first)
+            if place > worst:
+                worst, worst_actor, at = place, actor, when
+        time = abs(min(run.end, longest) - min(played.end, longest))
+        return ImportDeviation(worst, worst_actor, at, since, time, late)
+
+    def _played(self, dt: float, longest: float) -> Recording:
+        road_map = cached_map(self.map_file)
+        reading = BY_THE_STANDARD
+        try:
+            return run_in_player(
+                self.document, road_map, dt, reading=reading, given={}, most=longest
+            )
+        except (LookupError, ValueError, MapError) as error:
+            # documents of others name what is not there
+            reason = f"it cannot be played here: {type(error).__name__} {error}"
+            raise NoEvidence(reason) from error
+
+
+def _apart(
+    run: Sequence[Row], played: Sequence[Row], dt: float, reach: int
+) -> tuple[float, float, float]:
+    """Return the longest distance (m) of an actor from its steps around, when, and since when."""
+    there = {round(row[0] / dt): row for row in played}
+    worst, at, since = 0.0, 0.0, math.inf
+    for row in run:
+        step = round(row[0] / dt)
+        if step not in there:
+            continue
+        apart = min(
+            math.dist(row[1:3], there[near][1:3])
+            for near in range(step - reach, step + reach + 1)
+            if near in there
+        )
+        if apart > worst:
+            worst, at = apart, row[0]
+        if apart >= EXACT:
+            since = min(since, row[0])
+    return worst, at, since

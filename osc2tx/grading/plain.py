@@ -1,0 +1,54 @@
+"""Documents of others in the form that the player takes: defaults stated, tools' parts left out.
+
+What drives an entity under a controller, how things look, and the weather move nothing in the
+player. Entities go on as the rest of the document says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from osc2tx.xosc.element import Element
+
+WITHOUT_MOTION = frozenset(
+    {
+        "ControllerAction",
+        "ActivateControllerAction",
+        "AppearanceAction",
+        "EnvironmentAction",
+        "VisibilityAction",
+        "UserDefinedAction",
+    }
+)
+"""Actions that move nothing."""
+
+UNUSED = frozenset({"ParameterDeclarations", "ObjectController"})
+"""Elements without a part in the motion, once parameters have their values."""
+
+DEFAULTS: Mapping[str, Mapping[str, str]] = {
+    "Condition": {"conditionEdge": "none", "delay": "0"},
+    "Event": {"priority": "parallel", "maximumExecutionCount": "1"},
+    "ManeuverGroup": {"maximumExecutionCount": "1"},
+    "TriggeringEntities": {"triggeringEntitiesRule": "any"},
+    "SpeedActionDynamics": {"dynamicsShape": "step", "dynamicsDimension": "time", "value": "0"},
+    "LaneChangeActionDynamics": {"dynamicsShape": "sinusoidal", "dynamicsDimension": "time"},
+    "LaneOffsetActionDynamics": {"dynamicsShape": "step"},
+}
+"""What counts for attributes that documents leave out although they should not."""
+
+
+def plain(node: Element) -> Element:
+    """Return a document, its parameters at their values, as the player takes it."""
+    attributes = dict(DEFAULTS.get(node.tag, {})) | dict(node.attributes)
+    children = [plain(child) for child in node.children if not _is_idle(child)]
+    return node.with_attributes(attributes).with_children(*children)
+
+
+def _is_idle(node: Element) -> bool:
+    if node.tag in UNUSED or node.tag in WITHOUT_MOTION:
+        return True
+    if node.tag in ("Action", "PrivateAction", "GlobalAction"):
+        return bool(node.children) and all(_is_idle(child) for child in node.children)
+    if node.tag == "TrailerRef":
+        return not node.get("entityRef")
+    return node.tag == "Trailer" and all(_is_idle(child) for child in node.children)

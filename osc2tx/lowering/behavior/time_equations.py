@@ -1,0 +1,214 @@
+"""Equations and bounds between the times of a scenario, and what they leave to drawn times.
+
+A time that is drawn from a range gets the value that an equation leaves it, or a narrower range;
+what that does not settle is checked before a run. A contradiction is an error that shows both
+positions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import field
+from functools import reduce
+
+from osc2tx import ir
+from osc2tx.diagnostics import Label
+from osc2tx.lowering.behavior.time_expressions import (
+    SLACK,
+    Terms,
+    Times,
+    greater_of,
+    lies_within,
+    names_in,
+    resolved,
+    rest_of,
+    shown,
+    sum_of,
+    time_like,
+)
+from osc2tx.lowering.context import LoweringContext
+from osc2tx.lowering.value_types import BOOL
+from osc2tx_shared.classes import dataclass, replace
+
+
+@dataclass(slots=True, eq=False)
+class TimeEquations:
+    """The equations between the times of one scenario.
+
+    Attributes:
+        ctx: The scenario; parameters that it draws are solved for.
+        declared: Its own parameters.
+        constraints: What has to be checked before a run.
+    """
+
+    ctx: LoweringContext
+    declared: Sequence[ir.Declaration]
+    constraints: list[ir.Constraint] = field(default_factory=list)
+
+    def relate(self, terms: Terms, whole: ir.Expression) -> None:
+        """Let a sum be a time, or in a range of times."""
+        if self.is_impossible(terms, whole):
+            return
+        self._narrow(terms, whole)
+        if terms and not isinstance(whole, ir.RangeValue):
+            self._narrow((whole,), sum_of(terms))
+        if isinstance(whole, ir.RangeValue):
+            self._demand(terms, whole)
+            return
+        for term in reversed(terms):
+            others = tuple(other for other in terms if other is not term)
+            parameter = self._parameter(term)
+            if parameter is not None and parameter.name not in names_in((*others, whole)):
+                self._set(parameter, rest_of(whole, others))
+                return
+
+    def bound(self, terms: Terms, whole: ir.Expression) -> None:
+        """Let a sum be no longer than a time, or than a range of times allows."""
+        if self.is_impossible(terms, whole, at_most=True):
+            return
+        most = whole.upper if isinstance(whole, ir.RangeValue) else whole
+        zero = ir.Literal(span=most.span, type=most.type, value=0.0)
+        within = ir.RangeValue(span=most.span, type=most.type, lower=zero, upper=most)
+        self._narrow(terms, within)
+        self._demand(terms, within)
+
+    def _demand(self, terms: Terms, whole: ir.RangeValue) -> None:
+        """Have a bound checked before the run, unless it always holds."""
+        found, wanted = self.bounds(terms), self.bounds((whole,))
+        if not lies_within(found, wanted) and self.is_variable(terms):
+            self._check(sum_of(terms), whole)
+
+    def _check(self, value: ir.Expression, within: ir.RangeValue) -> None:
+        expression = ir.Binary(span=within.span, type=BOOL, operator="in", left=value, right=within)
+        self.constraints.append(ir.Constraint(expression=expression, span=within.span))
+
+    def _set(self, parameter: ir.Parameter, value: ir.Expression) -> None:
+        """Give a drawn time the value that an equation leaves it."""
+        assert isinstance(parameter.domain, ir.RangeValue)
+        found, wanted = self.bounds((value,)), self.bounds((parameter.domain,))
+        self.ctx.drawn.remove(parameter)
+        name = ir.FieldRef(span=parameter.span, type=parameter.type, name=parameter.name)
+        self.ctx.drawn.append(replace(parameter, value=value, domain=None, is_fixed=True))
+        if not lies_within(found, wanted):
+            self._check(name, parameter.domain)
+
+    def is_impossible(self, terms: Terms, whole: ir.Expression, at_most: bool = False) -> bool:
+        """Report a sum that is never a time, or in a range; return whether it is so."""
+        found, wanted = self.bounds(terms), self.bounds((whole,))
+        if found is None or wanted is None:
+            return False
+        is_longer = found[0] > wanted[1] + SLACK
+        if not is_longer and (at_most or found[1] >= wanted[0] - SLACK):
+            return False
+        labels = [Label(term.span, f"this takes {shown(self.bounds((term,)))}") for term in terms]
+        what = f"{shown(wanted)} here contradict the {shown(found)} that members take"
+        self.ctx.sink.report(
+            "OSC519",
+            whole.span,
+            what,
+            labels=labels,
+            help="let them agree, or leave one of them open",
+        )
+        return True
+
+    # --- the longest of several ---
+
+    def relate_longest(self, members: Sequence[Terms], whole: ir.Expression) -> None:
+        """Let the longest of some members be as long as the whole."""
+        longest = self.longest(members)
+        variable = [each for each in members if self.is_variable(each)]
+        reached = [self.bounds(each) for each in members if each not in variable]
+        wanted = self.bounds((whole,))
+        if wanted is not None and any(
+            found is not None and found[1] >= wanted[0] - SLACK for found in reached
+        ):
+            return
+        if variable and not isinstance(whole, ir.RangeValue):
+            self.relate(variable[0], whole)
+        else:
+            self.relate(longest, whole)
+
+    def longest(self, members: Sequence[Terms]) -> Terms:
+        """Return the greatest of several lengths."""
+        if len(members) == 1:
+            return members[0]
+        sums = [sum_of(each) for each in members]
+        ranges = [self.bounds((each,)) for each in sums]
+        for one, found in zip(sums, ranges, strict=True):
+            others = [other for each, other in zip(sums, ranges, strict=True) if each is not one]
+            if found is not None and all(o is not None and o[1] <= found[0] for o in others):
+                return (one,)
+        return (reduce(greater_of, sums),)
+
+    # --- known times ---
+
+    def _values(self) -> dict[str, ir.Expression]:
+        found: dict[str, ir.Expression] = {}
+        for each in (*self.declared, *self.ctx.drawn):
+            if isinstance(each, ir.Parameter):
+                is_open = each.value is None or not each.is_fixed
+                value = each.domain if is_open else each.value
+                if value is not None:
+                    found[each.name] = value
+        return found
+
+    def bounds(self, terms: Terms) -> Times | None:
+        """Return the least and the greatest sum (s); None if one of the terms is unknown."""
+        values = self._values()
+        total = (0.0, 0.0)
+        for term in terms:
+            ends = [term]
+            if isinstance(term, ir.RangeValue):
+                ends = [term.lower, term.upper]
+            found = [ir.bounds(resolved(end, values), values) for end in ends]
+            known = [each for each in found if each is not None]
+            if len(known) < len(found):
+                return None
+            total = (
+                total[0] + min(low for low, _ in known),
+                total[1] + max(high for _, high in known),
+            )
+        return total
+
+    def _parameter(self, term: ir.Expression) -> ir.Parameter | None:
+        """Return the parameter that a time is, if it can be solved for."""
+        if not isinstance(term, ir.FieldRef):
+            return None
+        for each in self.ctx.drawn:
+            if isinstance(each, ir.Parameter) and each.name == term.name and each.value is None:
+                return each if isinstance(each.domain, ir.RangeValue) else None
+        return None
+
+    def _narrow(self, terms: Terms, whole: ir.Expression) -> None:
+        """Leave to drawn times the rest of a whole."""
+        wanted = self.bounds((whole,))
+        for term in terms if wanted is not None else ():
+            parameter = self._parameter(term)
+            others = self.bounds(tuple(other for other in terms if other is not term))
+            if parameter is None or others is None or wanted is None:
+                continue
+            assert isinstance(parameter.domain, ir.RangeValue)
+            had = self.bounds((parameter.domain,))
+            if had is None:
+                continue
+            low, high = max(had[0], wanted[0] - others[1]), min(had[1], wanted[1] - others[0])
+            if low <= had[0] + SLACK and high >= had[1] - SLACK:
+                continue
+            position = self.ctx.drawn.index(parameter)
+            lower = time_like(low, parameter.domain.lower)
+            if high - low <= SLACK:
+                narrowed = replace(parameter, value=lower, domain=None, is_fixed=True)
+            else:
+                upper = time_like(high, parameter.domain.upper)
+                domain = replace(parameter.domain, lower=lower, upper=upper)
+                narrowed = replace(parameter, domain=domain)
+            self.ctx.drawn[position] = narrowed
+
+    def is_variable(self, terms: Terms) -> bool:
+        """Whether a sum depends on drawn values."""
+        drawn = {
+            each.name
+            for each in (*self.ctx.drawn, *self.declared)
+            if isinstance(each, ir.Parameter) and each.domain is not None
+        }
+        return bool(drawn & names_in(terms))

@@ -1,0 +1,1 @@
+"""Stands for lxml in the playground, which has no wheel of it: what the reader of maps uses."""
