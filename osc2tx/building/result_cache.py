@@ -92,12 +92,7 @@ class ResultCache:
             for record in self._records(self._key(kind, job, places, text)):
                 try:
                     result = self._restore(job, record, places, text)
-                except (
-                    KeyError,
-                    IndexError,
-                    TypeError,
-                    ValueError,
-                ):  # damaged: treated as missing
+                except (KeyError, IndexError, TypeError, ValueError):  # damaged: as missing
                     continue
                 if result is not None and not self._lacks_starts(kind, result):
                     return result if self._kinds == ("build",) else without_grading(result)
@@ -247,8 +242,10 @@ class ResultCache:
             uses=record["uses"],
         )
         if changed:  # found at once the next time
-            key = self._key(self._kinds[0], job, places, text)
-            self._put(key, self._record(result, places))
+            digests = (each.digest for each in result.dependencies or ())
+            entries = zip(record["dependencies"], digests, strict=True)
+            new = [[asked, found, known, detail] for (asked, found, _, detail), known in entries]
+            self._put(self._key(self._kinds[0], job, places, text), {**record, "dependencies": new})
         return result
 
     def _present(self, known: Dependency) -> Dependency | None:

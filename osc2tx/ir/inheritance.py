@@ -33,6 +33,7 @@ class Additions:
         narrowed: Declarations of the base that the scenario's constraints narrow, each as the base
             has it and as it is here. That of a value which the base draws or leaves open, and
             which is known here, may be a part of an object.
+        early: Constants among those, which others of them read that the base declares before.
         declarations: New declarations.
         constraints: New constraints.
         coverage: New items, and those that are sampled otherwise.
@@ -44,6 +45,7 @@ class Additions:
 
     ahead: tuple[Declaration, ...]
     narrowed: tuple[tuple[Declaration, Declaration], ...]
+    early: frozenset[str]
     declarations: tuple[Declaration, ...]
     constraints: tuple[Constraint, ...]
     coverage: tuple[Coverage, ...]
@@ -58,6 +60,7 @@ class Additions:
         return cls(
             ahead=(),
             narrowed=(),
+            early=frozenset(),
             declarations=scenario.declarations,
             constraints=scenario.constraints,
             coverage=scenario.coverage,
@@ -71,8 +74,8 @@ class Additions:
 def additions(scenario: AbstractScenario, base: AbstractScenario) -> Additions | None:
     """Return what a scenario adds to its base; `None` if it has to be declared as a whole.
 
-    It has to if a value of the base is computed from one that is declared later there, or if it
-    does without a declaration or a coverage item of the base.
+    It has to if a value of the base is computed from one that is declared later there, and is no
+    constant here, or if it does without a declaration or a coverage item of the base.
 
     Args:
         scenario: The scenario, whole.
@@ -88,12 +91,14 @@ def additions(scenario: AbstractScenario, base: AbstractScenario) -> Additions |
     wanted = set(_reads((here for _, here in narrowed), added, bodies))
     ahead = tuple(d for d in added if d.name in wanted or getattr(d, "is_global", False))
     late = tuple(d for d in added if d not in ahead)
-    if not _is_in_order(scenario, base, ahead, narrowed, late, bodies):
+    early = _early(narrowed, bodies)
+    if not _is_in_order(scenario, base, ahead, narrowed, early, late, bodies):
         return None
     places = _following(scenario.placements, base.placements)
     return Additions(
         ahead=ahead,
         narrowed=narrowed,
+        early=early,
         declarations=late,
         constraints=_others(scenario.constraints, base.constraints),
         coverage=tuple(c for c in scenario.coverage if not _is_sampled_alike(c, base.coverage)),
@@ -178,19 +183,41 @@ def _unify(there: Any, here: Any, known: set[str], found: dict[str, Expression])
     return bool(there == here)
 
 
+def _early(
+    narrowed: Sequence[tuple[Declaration, Declaration]], bodies: Mapping[str, Expression | None]
+) -> frozenset[str]:
+    """Return the constants that narrow a declaration after one that reads them."""
+    constants = {
+        here.name
+        for there, here in narrowed
+        if isinstance(there, Parameter)
+        and isinstance(here, Parameter)
+        and here.is_fixed
+        and not there.is_fixed
+        and not _read_by(here, bodies)
+    }
+    found, before = set[str](), set[str]()
+    for _, here in narrowed:
+        found |= constants & before & {here.name}
+        before |= _read_by(here, bodies)
+    return frozenset(found)
+
+
 def _is_in_order(
     scenario: AbstractScenario,
     base: AbstractScenario,
     ahead: Sequence[Declaration],
     narrowed: Iterable[tuple[Declaration, Declaration]],
+    early: frozenset[str],
     late: Sequence[Declaration],
     bodies: Mapping[str, Expression | None],
 ) -> bool:
     """Whether the base can be declared first: each value is there when it is read.
 
-    Declarations of one kind also keep the order that the scenario has as a whole.
+    Declarations of one kind also keep the order that the scenario has as a whole, except constants,
+    which are nowhere listed.
     """
-    there_now = set[str]()
+    there_now = set(early)
     for each in ahead:
         if not set(_reads([each], scenario.declarations, bodies)) <= there_now:
             return False
@@ -203,14 +230,19 @@ def _is_in_order(
         ):
             return False
         there_now.add(each.name)
-    whole = {each.name for each in scenario.declarations}
-    declared = (*ahead, *(each for each in base.declarations if each.name in whole), *late)
+    whole = {each.name: each for each in scenario.declarations}
+    inherited = (whole[each.name] for each in base.declarations if each.name in whole)
+    declared = [each for each in (*ahead, *inherited, *late) if not _is_constant(each)]
     kinds = {type(each) for each in declared}
     return all(
         [each.name for each in declared if type(each) is kind]
-        == [each.name for each in scenario.declarations if type(each) is kind]
+        == [d.name for d in scenario.declarations if type(d) is kind and not _is_constant(d)]
         for kind in kinds
     )
+
+
+def _is_constant(declaration: Declaration) -> bool:
+    return isinstance(declaration, Parameter) and declaration.is_fixed
 
 
 def _reads(

@@ -180,7 +180,7 @@ class _Evaluation(Generic[N]):
         if token.startswith("$"):
             return self._shown[token[1:]]
         if token in CONSTANTS:
-            return CONSTANTS[token]
+            return self._literal(repr(CONSTANTS[token]))
         if token[:1].isalpha():  # `inf` is a number to Python alone
             raise ValueError(token)
         return self._literal(token)

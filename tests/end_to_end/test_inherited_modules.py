@@ -88,6 +88,25 @@ scenario cruise inherits town:
         super().declare()
 """,
     ),
+    "a value that depends on a constant which the base declares below it": (
+        """
+scenario cruise inherits town:
+    keep(v_ego == near / 1s)
+    # Very near
+    keep(near == 8m)
+    do go: ego.drive(duration: 2s) with:
+        speed(v_ego)
+""",
+        """
+        # Very near
+        self.near = 8 * m
+        self.fix_to("v_ego", self.near / (1 * s))
+        self.fix_to("near", self.near)
+        super().declare()
+
+        self.keep(20 * kph <= self.v_ego <= 40 * kph)
+""",
+    ),
     "a range that depends on a new parameter": (
         """
 scenario cruise inherits town:

@@ -1,4 +1,4 @@
-"""Comments of the source around what becomes of a statement: above, behind and below it."""
+"""Comments of the source around the form of a statement: above, behind and below it."""
 
 from __future__ import annotations
 

@@ -64,33 +64,44 @@ class DeclarationWriter:
 
     def narrowed(self) -> tuple[StatementView, ...]:
         """Write what constraints leave of declarations of the base, before it declares them."""
-        return tuple(
-            StatementView(
-                target=None,
-                value=self._narrowing(here, there),
-                comments=comments(_lines_besides(here, there)),
-            )
-            for there, here in self._own.narrowed
-            if not _is_assigned(there)
+        pairs = [(there, here) for there, here in self._own.narrowed if not _is_assigned(there)]
+        early = [(there, here) for there, here in pairs if here.name in self._own.early]
+        return (
+            *(self._assigned(here, there) for there, here in early),
+            *(
+                StatementView(
+                    target=None,
+                    value=self._narrowing(here, there),
+                    comments=comments(
+                        () if here.name in self._own.early else _lines_besides(here, there)
+                    ),
+                )
+                for there, here in pairs
+            ),
         )
 
     def reassigned(self) -> tuple[StatementView, ...]:
         """Write constants of the base that are written otherwise here."""
         return tuple(
-            StatementView(
-                target=self_attribute(self._names[here.name]),
-                value=self._declared_value(here),
-                comments=comments(_lines_besides(here, there)),
-            )
-            for there, here in self._own.narrowed
-            if _is_assigned(there)
+            self._assigned(here, there) for there, here in self._own.narrowed if _is_assigned(there)
+        )
+
+    def _assigned(self, here: ir.Declaration, there: ir.Declaration) -> StatementView:
+        return StatementView(
+            target=self_attribute(self._names[here.name]),
+            value=self._declared_value(here),
+            comments=comments(_lines_besides(here, there)),
         )
 
     def _narrowing(self, declaration: ir.Declaration, there: ir.Declaration) -> ArgumentView:
         """Write the call that narrows a declaration; what reads the base is computed by it."""
         name = code(literal(ir.setting_name(declaration.name)))
         arguments: tuple[ArgumentView, ...]
+        read: list[ir.Expression]
         match declaration:
+            case ir.Parameter() if declaration.name in self._own.early:
+                method, read = "fix_to", []
+                arguments = (code(self_attribute(self._names[declaration.name])),)
             case ir.Parameter(value=value, is_fixed=True) if value is not None:
                 method, read = "fix_to", [value]
                 arguments = (code(self._calls.expressions.write(value)),)
@@ -114,7 +125,7 @@ class DeclarationWriter:
 
     def _reads_base(self, value: ir.Expression) -> bool:
         """Whether a value is computed from declarations of the base, which come later."""
-        ahead = {each.name for each in self._own.ahead}
+        ahead = {each.name for each in self._own.ahead} | self._own.early
         return any(
             (isinstance(part, ir.FieldRef) and part.name not in ahead)
             or (isinstance(part, ir.MethodCall) and isinstance(part.base, ir.ScenarioSelf))
