@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from osc2tx.building.fingerprint import digest
 from osc2tx.compilation.imports import look_up
-from osc2tx.compilation.map_files import named_maps
+from osc2tx.compilation.map_files import named_control_files, named_maps
 from osc2tx.compilation.needed_modules import sibling_drafts, siblings_of
 from osc2tx.diagnostics import CODES, Diagnostic, Severity, Span
 from osc2tx.support.paths import real_path
 from osc2tx_shared.classes import replace
-from osc2tx_shared.map_files import SHIPPED, map_places
+from osc2tx_shared.map_files import SHIPPED, map_places, places_in_project
 
 if TYPE_CHECKING:
     from osc2tx import ir
@@ -59,7 +59,7 @@ def _calls_own_code(compilation: Compilation) -> bool:
 
 
 def _can_start(compilation: Compilation, scenario: ir.Scenario, folders: Sequence[Path]) -> bool:
-    """Whether a scenario is one to run, whose maps are found; notes where they are looked for."""
+    """Whether a scenario is one to run, whose maps are found; notes what it reads."""
     if not scenario.is_runnable:
         return False
     names = {each.name for each in named_maps(scenario)}
@@ -70,6 +70,10 @@ def _can_start(compilation: Compilation, scenario: ir.Scenario, folders: Sequenc
             if not place.is_relative_to(SHIPPED):
                 compilation.lookups[place] = look_up(place)
         is_found = is_found and any(place.is_file() for place in places)
+    beside = [folder.parent if folder.is_file() else folder for folder in folders]
+    for name in named_control_files(scenario):
+        for place in places_in_project(name, beside):
+            compilation.lookups[place] = look_up(place)
     return is_found
 
 

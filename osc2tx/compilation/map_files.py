@@ -75,6 +75,14 @@ def named_maps(scenario: ir.Scenario) -> Iterator[NamedMap]:
                 yield from _text(call.arguments[0].value)
 
 
+def named_control_files(scenario: ir.Scenario) -> Iterator[str]:
+    """Yield the files with cycles of traffic lights that a scenario names."""
+    for placement in scenario.placements:
+        for call in placement.modifiers:
+            if call.name == "set_traffic_lights_control_file":
+                yield from (each.name for each in _text(call.arguments[0].value))
+
+
 def _text(value: ir.Expression) -> Iterator[NamedMap]:
     from osc2tx import ir
 

@@ -11,6 +11,7 @@ from osc2tx_runtime.simulators.carla.capabilities import IN_CARLA
 from tests.coverage.capabilities import Row, rows
 from tests.coverage.language import CHAPTERS, Construct, constructs
 from tests.coverage.library import KINDS, Item, items
+from tests.coverage.not_built import NOT_BUILT
 from tests.coverage.sources import REPOSITORY, Source
 from tests.coverage.targets import TARGETS
 from tests.coverage.xml import capability_rows, construct_rows
@@ -37,6 +38,12 @@ How each row does in the [world `carla`](how-to/carla.md). All scenarios of the 
 both modes over CARLA's own client library, against a stand-in for its server.
 """
 
+NOT_BUILT_INTRODUCTION = """\
+### Not built
+
+Uses that the standard allows and that are refused before anything runs; a test holds each row.
+"""
+
 XML_INTRODUCTION = """\
 ## OpenSCENARIO XML
 
@@ -61,7 +68,7 @@ def render() -> str:
     """Return the page."""
     found = rows()
     parts = [INTRODUCTION, capability_table(found), carla_table(found)]
-    parts.append(language_tables(constructs()))
+    parts += [language_tables(constructs()), not_built_table()]
     return "\n".join([*parts, library_tables(items()), xml_tables(found)])
 
 
@@ -111,6 +118,12 @@ def language_tables(found: Sequence[Construct]) -> str:
         head = ["construct", "form", "builds in", "refused"]
         parts.append(f"### {chapter}\n\n{_table(head, body)}")
     return "\n".join(parts)
+
+
+def not_built_table() -> str:
+    """What the standard allows and the compiler refuses."""
+    body = [[each.what, each.code, each.why] for each in NOT_BUILT]
+    return f"{NOT_BUILT_INTRODUCTION}\n{_table(['use', 'report', 'why it is not built'], body)}"
 
 
 def library_tables(found: Sequence[Item]) -> str:

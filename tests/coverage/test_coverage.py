@@ -11,6 +11,7 @@ from osc2tx.options import CompileOptions
 from tests.coverage import reference
 from tests.coverage.capabilities import rows
 from tests.coverage.library import Item, Kind, declared_items
+from tests.coverage.not_built import HEAD, NOT_BUILT, NotBuilt
 from tests.coverage.page import PAGE, render
 from tests.coverage.targets import PyTrees
 
@@ -108,3 +109,13 @@ def test_the_page_says_what_the_compiler_does(
     else:
         assert not compilation.check()
         assert {report.code for report in compilation.diagnostics} & set(CODE.findall(said))
+
+
+@pytest.mark.parametrize("use", NOT_BUILT, ids=lambda use: use.what[:40])
+def test_what_is_not_built_is_refused_with_its_report(use: NotBuilt, tmp_path: Path) -> None:
+    path = tmp_path / "top.osc"
+    path.write_text(HEAD + use.text, encoding="utf-8")
+    compilation = Compilation(path, "top.osc", CompileOptions(standard="2.2", target="py"))
+    assert not compilation.is_supported
+    errors = {d.code for d in compilation.diagnostics if d.severity.name == "ERROR"}
+    assert errors == {use.code}

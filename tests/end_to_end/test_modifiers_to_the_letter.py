@@ -468,12 +468,8 @@ def text_of(case: Case) -> str:
     return text + lines_of("npc", case.npc, 12)
 
 
-@pytest.mark.parametrize("name", CASES)
-def test_a_success_is_what_the_text_demands(
-    name: str, capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    shell, case = Shell(capsys, tmp_path), CASES[name]
+def judge(case: Case, shell: Shell) -> None:
+    """Run a case in the working directory and compare its outcome and its states."""
     path = shell.write("top.osc", text_of(case))
     ended = shell("run", "--std", "2.2", "--trace", "t.jsonl", path)
     assert ended.code in (0, 3, 5), ended.err
@@ -488,3 +484,16 @@ def test_a_success_is_what_the_text_demands(
     if is_success and not is_warned:
         lines = [json.loads(line) for line in Path("t.jsonl").read_text("utf-8").splitlines()]
         assert case.holds(Trace(lines)), ended.out + ended.err
+
+
+@pytest.fixture
+def shell(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Shell:
+    monkeypatch.chdir(tmp_path)
+    return Shell(capsys, tmp_path)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_success_is_what_the_text_demands(name: str, shell: Shell) -> None:
+    judge(CASES[name], shell)

@@ -169,6 +169,19 @@ def test_the_answer_is_kept_as_long_as_the_map_is_the_same(shell: Shell) -> None
     assert "OSC802" in shell("check", "top.osc").err
 
 
+CYCLES = '[{{"group": "1", "phases": [{{"state": "{state}", "duration": 2}}]}}]'
+
+
+def test_the_answer_is_kept_as_long_as_the_cycles_are_the_same(shell: Shell) -> None:
+    named = '    road.set_traffic_lights_control_file("lights.json")\n'
+    top = TOP.replace("highway", "urban_crossing")
+    shell.write("top.osc", HEAD + top + named + both("ego.drive()"))
+    for state, code in (("go", 0), ("purple", 3), ("purple", 3), ("go", 0)):
+        shell.write("lights.json", CYCLES.format(state=state))
+        checked = shell("check", "top.osc")
+        assert (checked.code, "cannot be read" in checked.err) == (code, code == 3), checked.err
+
+
 def test_a_build_before_does_not_hide_it(shell: Shell) -> None:
     shell.write("own.xodr", MAP.format(length=200))
     shell.write("top.osc", FAR)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from osc2tx.analysis.lints.termination import Endings
+from osc2tx.analysis.lints.termination import Endings, has_duration
 from osc2tx.analysis.tree_walk import do_directives, do_members
 from osc2tx.diagnostics import DiagnosticSink, Label, Span
 from osc2tx.semantics import SemanticModel
@@ -40,7 +40,7 @@ def report_liveness(
 
 
 def _report_composition(node: ast.Composition, endings: Endings, sink: DiagnosticSink) -> None:
-    if node.operator is Operator.SERIAL:
+    if node.operator is Operator.SERIAL and not _gives_the_rest(node, endings):
         _report_after_endless(list(node.members), endings, sink)
     if node.operator is Operator.ONE_OF and len(node.members) == 1:
         sink.report(
@@ -48,6 +48,23 @@ def _report_composition(node: ast.Composition, endings: Endings, sink: Diagnosti
             keyword_span(node),
             "`one_of` has a single member, so there is nothing to choose",
         )
+
+
+def _gives_the_rest(node: ast.Composition, endings: Endings) -> bool:
+    """Whether a serial has a duration of which its one endless member gets the rest."""
+    others = [member for member in node.members if member not in endings.endless]
+    is_one = len(others) == len(node.members) - 1
+    return has_duration(node) and is_one and all(map(_has_length, others))
+
+
+def _has_length(member: ast.BehaviorMember) -> bool:
+    match member:
+        case ast.WaitDirective():
+            return isinstance(member.event.condition, ast.ElapsedCondition)
+        case ast.EmitDirective() | ast.CallDirective():
+            return True
+        case _:
+            return has_duration(member)
 
 
 def _report_after_endless(

@@ -120,15 +120,18 @@ class _TerminationAnalysis:
         return binding.callee if binding is not None else None
 
 
-def is_bounded(model: SemanticModel, node: ast.Composition | ast.Invocation) -> bool:
-    """Whether a member has a duration, an `until` or a goal of its own."""
+def has_duration(node: ast.Composition | ast.Invocation) -> bool:
+    """Whether an argument states how long a member takes."""
     first = "duration" if isinstance(node, ast.Composition) else ""
     if isinstance(node, ast.Composition) and node.operator is ast.CompositionOperator.PARALLEL:
         first = ""  # the first argument is the overlap
-    for argument in node.arguments:
-        if (argument.name.text if argument.name is not None else first) == "duration":
-            return True
-    return any(
+    names = (each.name.text if each.name is not None else first for each in node.arguments)
+    return "duration" in names
+
+
+def is_bounded(model: SemanticModel, node: ast.Composition | ast.Invocation) -> bool:
+    """Whether a member has a duration, an `until` or a goal of its own."""
+    return has_duration(node) or any(
         isinstance(member, ast.UntilDirective)
         or _speaks_of_duration(model, member)
         or _is_goal(model, member)

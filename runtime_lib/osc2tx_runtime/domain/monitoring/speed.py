@@ -72,13 +72,18 @@ def keep_speed(modifier: object, phase: Phase) -> Iterator[Condition]:
 
 @monitors("acceleration")
 def acceleration(modifier: Acceleration, phase: Phase) -> Iterator[Condition]:
-    """The change of the speed over each step; a speed that is asked for as well ends it."""
+    """The change of the speed over each step.
+
+    It ends where a speed is reached that is asked for as well; one that the phase begins with is
+    none to reach.
+    """
     if modifier.shape is not None and modifier.at == "all":
         return
     low, high = wanted(modifier.acceleration, modifier.acceleration_range, modifier.shape)
     me, before = phase.me, phase.state_before() if modifier.at == "end" else phase.me
     goals = [m for m in phase.modifiers if isinstance(m, Speed) and m.at != "start"]
-    reached = [condition.measure for goal in goals for condition in speed(goal, phase)]
+    speeds = [condition.measure for goal in goals for condition in speed(goal, phase)]
+    reached = [] if any(_holds(present()) for present in speeds) else speeds
 
     def measure() -> Reading | None:
         if phase.elapsed == 0.0:

@@ -1,0 +1,100 @@
+"""What the standard allows and the compiler refuses: the report, and the reason."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class NotBuilt(NamedTuple):
+    """A use that is refused.
+
+    Attributes:
+        what: As the page names it.
+        code: The report.
+        why: The reason.
+        text: Declarations, and the behavior of a scenario with `road`, `ego` and `walker`.
+    """
+
+    what: str
+    code: str
+    why: str
+    text: str
+
+
+HEAD = """import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario base:
+    quick: bool
+    do serial:
+        wait elapsed(1s)
+scenario hasty inherits base(quick == true):
+    event early
+"""
+SCENARIO = """
+namespace null use std, stdtypes
+scenario top:
+    road: map with:
+        keep(it.map_file == "crossing.xodr")
+    ego: vehicle
+    walker: person
+"""
+DRIVE = """
+    do serial:
+        ego.drive(duration: 1s) with:
+            """
+
+NOT_BUILT = (
+    NotBuilt(
+        "constraints on roads and lanes other than closed bounds, values and lists:"
+        ' `keep(it.length > 100m)`, `keep(r.anchors[0] == "3")`',
+        "OSC502",
+        "parts of the map are searched by what they are given; other expressions have no value"
+        " before the search ends. `keep(it.length >= 100m)` says nearly the same",
+        SCENARIO + "    r: road with:\n        keep(it.length > 100m)" + DRIVE + "along(r)\n",
+    ),
+    NotBuilt(
+        "a scenario derived by a condition that only the run decides",
+        "OSC501",
+        "the condition decides which members the behavior tree has, and the tree is built before"
+        " the run",
+        SCENARIO + "    var k: bool = false\n    do serial:\n        base(quick: k)\n",
+    ),
+    NotBuilt(
+        "two fields of one name that extensions add to one type in different namespaces",
+        "OSC501",
+        "types are Python classes, whose attributes have one name; types of one name in several"
+        " namespaces are built",
+        "namespace one use std, stdtypes\nextend vehicle:\n    n: int = 1\n"
+        "namespace two use std, stdtypes\nextend vehicle:\n    n: int = 2\n"
+        + (SCENARIO + DRIVE + "speed(5mps)\n"),
+    ),
+    NotBuilt(
+        "`along(route, at: start)` after the first phase of an actor",
+        "OSC509",
+        "a route has a length and no single place: the place at the start is"
+        " `position(at: start)` beside `along(route)`",
+        SCENARIO
+        + "    r: road"
+        + DRIVE.replace("serial:", "serial:\n        wait elapsed(1s)")
+        + "along(r, at: start)\n",
+    ),
+    NotBuilt(
+        "`lateral` of persons and other actors that follow no lane",
+        "OSC508",
+        "they move along paths, routes and crossings, and have no lane in which an offset is kept;"
+        " a path beside the line says it",
+        SCENARIO
+        + "    c: crossing\n    do serial:\n        walker.walk(duration: 1s) with:\n"
+        + "            along(c)\n            lateral(0.5m, side: left)\n",
+    ),
+    NotBuilt(
+        "`speed(at: end)` beside `speed(speed_range: …)`",
+        "OSC508",
+        "one modifier of a kind plans the motion of a phase. Two phases say it: the range, then"
+        " `change_speed`",
+        SCENARIO + DRIVE + "speed(10mps, at: end)\n            "
+        "speed(speed_range: [5mps..12mps])\n",
+    ),
+)
