@@ -45,6 +45,7 @@ def make_document(ctx: Context) -> xml.OpenSCENARIO:
         story,
         writer.trigger(xml.StopTrigger, end, ctx.profile.stop_name or "end"),
     )
+    _declare_what_is_never_set(ctx, storyboard)
     major, minor = ctx.version.split(".")
     return xml.OpenSCENARIO(
         xml.FileHeader(
@@ -63,6 +64,16 @@ def make_document(ctx: Context) -> xml.OpenSCENARIO:
         xml.Entities(*objects),
         storyboard,
     )
+
+
+def _declare_what_is_never_set(ctx: Context, storyboard: xml.Storyboard) -> None:
+    """Declare the marks of ends that nothing comes to: a condition may look at them all the same."""
+    looked_at = [each.variableRef for each in storyboard.below(xml.VariableCondition)]
+    looked_at += [each.parameterRef for each in storyboard.below(xml.ParameterCondition)]
+    parameters = {each.name for each in ctx.choosing.kept}
+    for name in looked_at:
+        if name not in parameters:
+            ctx.declare(name, "boolean", "false")
 
 
 def _end(ctx: Context, end: Flow) -> Flow:
