@@ -1,7 +1,7 @@
 """Scenario `own_shape`.
 
 C19 Own shapes: a speed that swells and falls back, computed by the scenario itself, and an
-acceleration that fades; what the shapes say of themselves can be read as well.
+acceleration that fades; the quantities of the shapes can be read as well.
 
 Made by osc2tx from capabilities/C19_own_shape.osc: edit the scenario, not this module.
 OpenSCENARIO DSL 2.1, dialect asam.
