@@ -183,7 +183,7 @@ class Actions:
     def _target(self, node: Node, at_start: bool) -> Quantity:
         if node.tag == "AbsoluteTargetSpeed":
             for each in node.children():
-                each.leave_out("a steady state is not said here")
+                each.leave_out("a steady state has no counterpart in the DSL")
             return self._values.quantity(node, "value", SPEED)
         reference_said = self._values.text(node, "entityRef")
         reference = self._actors.get(reference_said)
@@ -228,7 +228,9 @@ class Actions:
     def _profile(self, node: Node, said: str, actor: Actor) -> Statement | None:
         mode = node.text("followingMode") or "position"
         if node.has("entityRef"):
-            node.leave_out("a profile of speeds relative to another actor is not said here")
+            node.leave_out(
+                "a speed profile relative to another actor has no counterpart in the DSL"
+            )
             return None
         limits = node.find("DynamicConstraints")
         changes = []
@@ -414,7 +416,7 @@ class Actions:
     def _lane_offset(self, node: Node, said: str, actor: Actor) -> Statement | None:
         target = node.one("LaneOffsetTarget").inner
         if target.tag != "AbsoluteTargetLaneOffset":
-            target.leave_out("an offset from that of another actor is not said here")
+            target.leave_out("an offset from that of another actor has no counterpart in the DSL")
             return None
         offset = self._values.quantity(target, "value", LENGTH)
         text = offset.text if self._along(said) > 0 else f"-{offset.within(PRODUCT)}"
@@ -506,7 +508,7 @@ class Actions:
         timed = any(each.tag == "Timing" for each in node.element.walk())
         for name in ("initialDistanceOffset",):
             if abs(self._values.nominal(node, name)) > 1e-9:
-                node.approximate(f"{name} is not said here")
+                node.approximate(f"{name} has no counterpart in the DSL")
         node.use_all()
         listed = ", ".join(points)
         told = f"points: [{listed}], interpolation: straight_line"
@@ -524,7 +526,8 @@ class Actions:
         final = node.find("FinalSpeed")
         speed = None if final is None else next(final.children("AbsoluteSpeed"), None)
         node.approximate(
-            "when both reach their places is not said here; the actor takes its final speed"
+            "the time at which both reach their positions has no counterpart in the DSL; the actor"
+            " takes its final speed"
         )
         if speed is not None:
             target = self._values.quantity(speed, "value", SPEED)
@@ -570,7 +573,7 @@ class Actions:
     def _weather(self, node: Node) -> Iterator[Effect]:
         for name in ("cloudState", "fractionalCloudCover"):
             if node.has(name):
-                node.approximate(f"{name}={node.text(name)!r} is not said here")
+                node.approximate(f"{name}={node.text(name)!r} has no counterpart in the DSL")
         for each in node.children():
             call = None
             if each.tag == "Fog" and each.has("visualRange"):
@@ -586,7 +589,7 @@ class Actions:
             for unsaid in each.element.attributes:
                 if unsaid[0] not in ("visualRange", "azimuth", "elevation"):
                     each.text(unsaid[0])
-                    each.approximate(f"{unsaid[0]}={unsaid[1]!r} is not said here")
+                    each.approximate(f"{unsaid[0]}={unsaid[1]!r} has no counterpart in the DSL")
             if call is not None:
                 self.needs_environment = True
                 yield Effect(Statement(f"environment_.{call}", length=0.0))

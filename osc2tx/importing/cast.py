@@ -109,13 +109,13 @@ def facts(node: Node, document: Document) -> tuple[str, list[str]]:
                 each.leave_out("trailers are not coupled here")
             each.use_all()
     elif category and category not in ("pedestrian", "none", "obstacle"):
-        node.approximate(f"its category {category} is not said here")
+        node.approximate(f"its category {category} has no counterpart in the DSL")
     box = node.find("BoundingBox")
     if box is not None:
         found += _box(box, kind, document)
     for name in ("role", "model"):
         if node.has(name) and (name, node.tag) != ("model", "Pedestrian"):
-            node.approximate(f"{name}={node.text(name)!r} is not said here")
+            node.approximate(f"{name}={node.text(name)!r} has no counterpart in the DSL")
     return kind, found
 
 

@@ -113,7 +113,7 @@ class Ledger:
                 continue
             reason = reason or IDLE.get((element.tag, name))
             if reason is None:
-                said = f"{name}={text!r} is not said here"
+                said = f"{name}={text!r} has no counterpart in the DSL"
                 self.report.add("left out", f"<{element.tag}>", said, element.place, file=file)
             else:
                 self._note(path, name, text, reason, element.place, file)

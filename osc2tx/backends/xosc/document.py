@@ -67,7 +67,7 @@ def make_document(ctx: Context) -> xml.OpenSCENARIO:
 
 
 def _declare_what_is_never_set(ctx: Context, storyboard: xml.Storyboard) -> None:
-    """Declare the marks of ends that nothing comes to: a condition may look at them all the same."""
+    """Declare the marks of ends that never come: a condition may look at them all the same."""
     looked_at = [each.variableRef for each in storyboard.below(xml.VariableCondition)]
     looked_at += [each.parameterRef for each in storyboard.below(xml.ParameterCondition)]
     parameters = {each.name for each in ctx.choosing.kept}

@@ -92,7 +92,7 @@ _SCENARIO_RUNNER_IGNORES = {
     "FollowTrajectoryAction": "its controller of vehicles raises an error where the way ends",
     "LaneChangeActionDynamics/time": "only a distance is understood",
     "LateralDistanceAction": "it comes to another distance and never ends",
-    "LongitudinalDistanceAction": "it passes by who is straight ahead and never ends",
+    "LongitudinalDistanceAction": "it passes the vehicle straight ahead and never ends",
     "ParameterCondition/text": "it compares numbers only",
     "Precipitation/snow": "there is no snow",
     "RelativeTargetLane/entityRef": "lanes are counted from the actor itself",
@@ -129,7 +129,7 @@ _SCENARIO_RUNNER_DEVIATES = {
         " length times the change, more where its throttle and brakes are not enough",
     ),
     "SpeedCondition/equalTo": (
-        "a speed that is told to physics is nearly reached",
+        "physics only nearly reaches a commanded speed",
         "true later than it should be, or not at all",
     ),
     "TimeToCollisionCondition": (

@@ -61,7 +61,7 @@ def _celestial_position(
     if source is not None and source.span.text.endswith("moon"):
         raise Inexpressible("there is no moon in OpenSCENARIO XML", node.span)
     if azimuth is None and elevation is None:
-        raise Inexpressible("it says neither azimuth nor elevation", node.span)
+        raise Inexpressible("neither azimuth nor elevation is stated", node.span)
     if azimuth is not None:  # what nobody has said is open, and the XML says some value
         ctx.weather["sun_azimuth"] = azimuth
     if elevation is not None:
@@ -124,7 +124,7 @@ def _fog_action(
 ) -> tuple[xml.GlobalAction, ...]:
     visual_range = arguments.number("visual_range")
     if visual_range is None:
-        raise Inexpressible("it says no visual range", node.span)
+        raise Inexpressible("no visual range is stated", node.span)
     ctx.weather["visual_range"] = visual_range
     return (environment_action(ctx, node, _fog(ctx)),)
 
@@ -167,7 +167,7 @@ def _precipitation_action(
 ) -> tuple[xml.GlobalAction, ...]:
     intensity = arguments.number("intensity")
     if intensity is None:
-        raise Inexpressible("it says no intensity", node.span)
+        raise Inexpressible("no intensity is stated", node.span)
     if node.action == "snow" and intensity > 0.0:
         ctx.require_support("Precipitation/snow", node.span)
     ctx.weather[f"{node.action}_intensity"] = intensity
@@ -295,6 +295,6 @@ def _report_lost_grip(ctx: Context, source: ir.Invoke, adhesion: float) -> None:
             source.span,
             "the road becomes slippery while vehicles move; what that does to an action that has"
             " begun the XML leaves to the tool",
-            f"vehicles keep the acceleration that they were told, beyond {adhesion:g} of the grip"
+            f"vehicles keep the commanded acceleration beyond {adhesion:g} of the grip"
             " of a dry road",
         )

@@ -116,7 +116,7 @@ def _said(ctx: Context, part: ir.Struct) -> dict[str, QueryValue]:
                 inside.setdefault("crossing_type", {})[name] = plain
             case _:
                 text = ".".join(value.path)
-                raise Inexpressible(f"`{text}` of `{part.name}` cannot be told from the map")
+                raise Inexpressible(f"`{text}` of `{part.name}` cannot be determined from the map")
     return {**properties, **{name: MapQuery(name, parts) for name, parts in inside.items()}}
 
 

@@ -167,8 +167,8 @@ def _note_origin(ctx: Context, member: CastMember) -> None:
         ctx.report.approximate(
             f"actor {member.actor.type}",
             member.actor.span,
-            f"{ctx.profile.name} takes a model of its own, and the middle of it for the rear axle",
-            Metres(abs(member.shape.centre), "behind its place, and a size of its own"),
+            f"{ctx.profile.name} uses a vehicle model of its own, with its middle as the rear axle",
+            Metres(abs(member.shape.centre), "behind its position, and the size of its own model"),
             GENERIC,
         )
 

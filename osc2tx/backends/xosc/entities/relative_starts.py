@@ -175,7 +175,7 @@ def _said(ctx: Context, start: Start) -> Said:
     if reference is not None and distance is None:
         distance = _distance_in_time(ctx, start, reference, is_behind=behind is not None)
     if position is not None and distance is None:
-        raise Inexpressible("it says no distance", position.source.span)
+        raise Inexpressible("no distance is stated", position.source.span)
     along = 0.0 if distance is None or reference is None else distance
     return Said(
         in_lane_of=in_lane_of,

@@ -120,7 +120,7 @@ def _build(cls: type[BuiltT], query: MapQuery, made: Mapping[str, RoadPart]) -> 
     known = inspect.signature(cls).parameters
     unknown = [name for name in query.properties if name not in known]
     if unknown:
-        raise Inexpressible(f"`{unknown[0]}` of a {query.kind} cannot be told from the map")
+        raise Inexpressible(f"`{unknown[0]}` of a {query.kind} cannot be determined from the map")
     arguments: dict[str, Any] = {n: _resolved(value, made) for n, value in query.properties.items()}
     return cls(**arguments)
 

@@ -92,7 +92,7 @@ def _shape(leaf: Leaf, arguments: Arguments) -> tuple[str, float | None]:
         return "none", None
     values = leaf.ctx.values
     if not isinstance(shape, Named) or not values.is_library_shape(shape.name):
-        raise Inexpressible("a shape of its own is computed during the run")
+        raise Inexpressible("a user-defined shape is computed during the run")
     profile = values.field(shape.name, ("rate_profile",))
     peak = values.field(shape.name, ("rate_peak",))
     return (
@@ -121,7 +121,7 @@ def _beside_another(
     if distance is None:
         distance = arguments.number("distance_range")
     if distance is None:
-        raise Inexpressible("it says no distance", call.span)
+        raise Inexpressible("no distance is stated", call.span)
     side = "left" if arguments.member("side", "left") == "left" else "right"
     gap = Gap(reference, side, distance, is_time=False, is_headway=False)
     return _beside(leaf, call, arguments, gap)

@@ -75,7 +75,7 @@ def offset_change(
         leaf.ctx.report.approximate(
             leaf.construct,
             leaf.node.span,
-            "the XML says no length for a change of the offset, and a steady one has no peak that"
+            "the XML states no length for a change of the offset, and a steady one has no peak that"
             " gives it",
             Metres(way, "beside, until it is there"),
         )
@@ -131,7 +131,7 @@ def left_of(arguments: Arguments, own: float, theirs: float | None) -> float:
     if distance is None:
         distance = arguments.number("distance_range")
     if distance is None:
-        raise Inexpressible("it says no distance", arguments.source.span)
+        raise Inexpressible("no distance is stated", arguments.source.span)
     side = arguments.member("side", "left")
     left = -distance if side == "right" else distance
     measured = arguments.member("measure_by", "center_to_center")

@@ -138,7 +138,7 @@ def _time(leaf: Leaf, corners: Sequence[Waypoint]) -> float | None:
         return None
     if speed.low <= 0.0:
         raise Inexpressible(
-            "it stands, and a path says no speed: give it one before", leaf.node.span
+            "it is at standstill, and a path states no speed: give it one before", leaf.node.span
         )
     way = sum(math.hypot(b.x - a.x, b.y - a.y) for a, b in pairwise(corners))
     return way / speed.low

@@ -161,7 +161,7 @@ def _change_position(leaf: Leaf) -> Performance:
     names = ("target_position", "target_xyz", "target_st", "target_odr")
     name = next((each for each in names if each in arguments), None)
     if name is None:
-        raise Inexpressible("it says no place", leaf.node.span)
+        raise Inexpressible("no place is stated", leaf.node.span)
     target = xml_position(leaf.ctx, arguments.get(name))
     joined, on_network = arguments.get("interpolation"), arguments.get("on_road_network")
     is_smooth = isinstance(joined, Member) and joined.name == "smooth"
@@ -178,7 +178,9 @@ def _acquire(leaf: Leaf, target: XmlPosition) -> Performance:
     """Return the way along lanes; it is over where the place is reached, not where the route is."""
     state = leaf.state
     if state.speed is None or state.speed.low <= 0.0:
-        raise Inexpressible("it may stand, and a place says no speed", leaf.node.span)
+        raise Inexpressible(
+            "it may be at standstill, and a position states no speed", leaf.node.span
+        )
     position = xml.Position(target.element)
     acquire = xml.RoutingAction(xml.AcquirePositionAction(position))
     after = replace(state, lane=target.lane, offset=known(0.0)).finished(LATERAL)

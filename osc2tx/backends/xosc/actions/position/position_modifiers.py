@@ -28,14 +28,14 @@ def _position(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[
     if reference is None:
         along = _size(arguments, "distance")
         if along is None:
-            raise Inexpressible("it says no distance", call.span)
+            raise Inexpressible("no distance is stated", call.span)
         return _along_road(leaf, call, along)
     for name in ("movement_mode", "track"):
         if name in arguments and arguments.member(name, "") not in ("other", "actual"):
             raise Inexpressible(f"`{name}` has no counterpart", call.span)
     distance, time = (_size(arguments, name) for name in ("distance", "time"))
     if distance is None and time is None:
-        raise Inexpressible("it says neither a distance nor a time", call.span)
+        raise Inexpressible("neither a distance nor a time is stated", call.span)
     size = distance if distance is not None else time
     assert size is not None
     side = "ahead" if ahead is not None else "behind"

@@ -42,7 +42,7 @@ from osc2tx_shared.classes import dataclass, replace
 def _assign_acceleration(leaf: Leaf) -> Performance:
     rate = leaf.arguments.number("acceleration")
     if rate is None:
-        raise Inexpressible("it says no acceleration", leaf.node.span)
+        raise Inexpressible("no acceleration is stated", leaf.node.span)
     after = follower(leaf.ctx.scenario.body, leaf.node)
     if after is None or after.action != "keep_acceleration":
         raise Inexpressible(
@@ -87,7 +87,7 @@ def _acceleration(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tu
         given = arguments.number(name)
         target = given if given is not None else target
     if target is None:
-        raise Inexpressible("it says no acceleration", call.span)
+        raise Inexpressible("no acceleration is stated", call.span)
     if any(other.name == "speed" and other.at != "start" for other in leaf.node.modifiers):
         return ()  # it says how fast the speed is reached, see `speed`
     if "shape" not in arguments:
@@ -111,7 +111,7 @@ def shape_of(leaf: Leaf, arguments: Arguments) -> tuple[str, float | None, float
         return "none", None, None
     values = leaf.ctx.values
     if not isinstance(shape, Named) or not values.is_library_shape(shape.name):
-        raise Inexpressible("a shape of its own is computed during the run")
+        raise Inexpressible("a user-defined shape is computed during the run")
     profile = values.field(shape.name, ("rate_profile",))
     peak, target = (values.field(shape.name, (name,)) for name in ("rate_peak", "target"))
     return (

@@ -88,7 +88,7 @@ def _speed(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Cha
     if reference is not None:
         return (_relative(leaf, call, arguments, reference, target or 0.0),)
     if target is None:
-        raise Inexpressible("it says no speed", call.span)
+        raise Inexpressible("no speed is stated", call.span)
     if call.at == "start" and not may_jump(leaf):
         return _holds(leaf, call, target)
     rate = _rate_beside(leaf)
@@ -224,7 +224,7 @@ def _change_speed(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tu
     if isinstance(allowed, Bounds):
         difference = min(max(0.0, allowed.lower), allowed.upper)
     if difference is None:
-        raise Inexpressible("it says no difference", call.span)
+        raise Inexpressible("no difference is stated", call.span)
     speed = leaf.state.speed
     if speed is None or not speed.is_known:
         raise Inexpressible(
@@ -246,7 +246,7 @@ def _change_speed(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tu
 def _distance(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
     distance = arguments.number("distance")
     if distance is None:
-        raise Inexpressible("it says no distance", call.span)
+        raise Inexpressible("no distance is stated", call.span)
     if any(_has_to_fit(leaf, other) for other in leaf.node.modifiers):
         reason = "what has to hold at the end of its distance decides how it gets there"
         raise Inexpressible(reason, call.span)

@@ -28,7 +28,7 @@ def note_open_speed(leaf: Leaf) -> None:
         leaf.ctx.report.approximate(
             leaf.construct,
             leaf.node.span,
-            "no speed is said, so in the world it slows down for bends, and in the XML it does not",
+            "no speed is stated: it slows down for bends in the world, but not in the XML",
             bound,
             Remedy(instead="`keep_speed()` holds the speed in both"),
         )

@@ -42,7 +42,7 @@ def end_within_duration(
     if builder.ctx.module.dialect == "carla":
         return content | start.later(high) | until
     if isinstance(node, ir.OneOf):
-        reason = "a race with a duration is won by who ends within it, which only the run shows"
+        reason = "the member that ends within the duration wins, which only the run shows"
         raise Inexpressible(reason, node.duration.span)
     length, fills = _length(builder, node), _fills(node)
     if length is not None and length <= high and (fills or low <= length):

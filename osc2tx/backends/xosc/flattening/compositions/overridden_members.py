@@ -31,7 +31,7 @@ def unless_active(builder: StoryboardBuilder, node: ir.Behavior, start: Flow) ->
     active, idle = NEVER, Flow(((),))
     for override in blocking:
         if may_be_cut(scenario.body, override.by):
-            reason = f"whether `{override.by}` is active when it is cut short is not known"
+            reason = f"whether `{override.by}` is active when it is interrupted is not known"
             raise Inexpressible(reason, override.span)
         began, ended = builder.events.activity(override.by)
         active = active | builder.is_set(began) & builder.is_unset(ended)

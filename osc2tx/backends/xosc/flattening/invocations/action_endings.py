@@ -116,7 +116,7 @@ def _ending(
         " without the lateral speed that it has"
     )
     bound = Metres(_beside(builder, actor), "beside, while it returns")
-    construct = "a lane change that is cut short"
+    construct = "an interrupted lane change"
     finishing = Remedy(
         instead="an uninterrupted lane change is exact",
         asks=("LaneChangeActionDynamics",),

@@ -128,7 +128,7 @@ class StoryboardBuilder:
         """Report that a change of the place in a lane stops with its act, and not in the world."""
         if state.aside > 0.0:
             self.ctx.report.approximate(
-                "a change of the place in the lane that is cut short",
+                "an interrupted change of the offset in the lane",
                 self.place,
                 "it ends where it is; in the world it goes on to its place",
                 Metres(state.aside, "beside"),
