@@ -48,7 +48,7 @@ class Calls(WithLimits):
     source = "input.osc"
 
     def declare(self) -> None:
-        """Cast, events and values."""
+        """Cast, events and values, besides those of `WithLimits`."""
         # Code of the user: runs only with --allow-external
         self.note = self.external("own_code.note")
         self.doubled = self.external("own_code.twice", float)

@@ -92,7 +92,7 @@ class HurryMore(Hurry):
     source = "input.osc"
 
     def declare(self) -> None:
-        """Cast, events and values."""
+        """Cast, events and values, besides those of `Hurry`."""
         self.fix_to("to", 18 * mps)
         super().declare()
 
