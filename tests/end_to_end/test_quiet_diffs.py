@@ -14,7 +14,6 @@ TYPICAL = 4
 """The same, for the median of the edits."""
 
 LOUD = {
-    "rename capabilities/C02_actor_binding": (400, "the document of a file has its name no more"),
     "statement capabilities/C16_automatic_lights": (400, "XML cannot say it: the document goes"),
 }
 """Edits that change more: how much, and why."""

@@ -147,8 +147,10 @@ class Body:
         turned = math.atan2(aside * self.along, abs(onward)) if onward else 0.0
         h = (pose.h if self.along > 0 else pose.h + math.pi) + turned
         self.pose = Pose(pose.x, pose.y, h)
-        if left > 1e-6:  # of the end of a road the standard says nothing: it stands there
-            self.v = 0.0
+        if left > 1e-6:  # of the end of a road the standard says nothing: it stands behind it
+            onward = math.copysign(left, way)
+            x, y = pose.x + onward * math.cos(h), pose.y + onward * math.sin(h)
+            self.pose, self.v = Pose(x, y, h), 0.0
 
     def note_motion(self, before: Pose, dt: float) -> None:
         """Take down velocity and lateral acceleration over a step."""

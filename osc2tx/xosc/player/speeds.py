@@ -107,12 +107,9 @@ class Speeds:
 
     @staticmethod
     def _carried(body: Body) -> float:
-        """Return the acceleration (m/s^2) that an entity takes into its next action.
-
-        That of its last step, unless it jumped to another speed in it.
-        """
+        """Return the acceleration (m/s^2) that an entity takes into its next action."""
         run = body.actions.get(LONGITUDINAL)
-        return 0.0 if run is None or run.length == 0.0 else body.a
+        return 0.0 if run is None or run.done else body.a
 
     # --- one step ---------------------------------------------------------------------------------
 
