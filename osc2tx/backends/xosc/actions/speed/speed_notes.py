@@ -37,8 +37,10 @@ def note_acceleration(leaf: Leaf, target: float, profile: str, peak: float | Non
     rate, speed, limits = leaf.state.rate, leaf.state.speed, leaf.limits
     rates = leaf.state.pending if rate is None else known(rate)
     has_profiles = leaf.ctx.can(PROFILE_ACTION, "1.2")
-    if rates == STEADY or (leaf.ctx.profile.carries_acceleration and has_profiles):
+    if rates == STEADY:
         return
+    if rate is None and has_profiles and leaf.ctx.profile.carries_acceleration:
+        return  # it takes over that of a change that is interrupted, not of one that is over
     if speed is None:
         time = max(map(abs, rates)) / limits.jerk
         bound: Metres | str = f"it comes to its speed at most {2.0 * time:.2g} s sooner or later"
