@@ -184,7 +184,7 @@ scenario cruise inherits drive:
 def declared_in(python: str, name: str) -> str:
     """Return the body of `declare` of a class, without its docstring."""
     text = python.partition(f"class {name}(")[2].partition("\n\n\n")[0]
-    body = text.partition('"""Cast, events and values."""')[2]
+    body = text.partition('"""Cast, events and values')[2].partition('."""')[2]
     return body.partition("\n\n    def ")[0] + "\n"
 
 
