@@ -3,11 +3,13 @@
 import importlib.util
 import sys
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import pytest
 
 from osc2tx.backends.py_trees.emitter import GeneratedModule
 from osc2tx_runtime import Scenario
+from tests.unit.cli.shell import Shell
 
 
 @pytest.fixture(scope="module")
@@ -39,3 +41,12 @@ def load(
     yield import_module
     for name in names:
         del sys.modules[name]
+
+
+@pytest.fixture
+def shell(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Shell:
+    """A command line whose working directory is a folder of the test."""
+    monkeypatch.chdir(tmp_path)
+    return Shell(capsys, tmp_path)

@@ -49,14 +49,6 @@ COMPUTED = """    gap: length
 """
 
 
-@pytest.fixture
-def shell(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> Shell:
-    monkeypatch.chdir(tmp_path)
-    return Shell(capsys, tmp_path)
-
-
 @pytest.mark.parametrize(
     "number", ["0", "-1", "1e308", "-1e308", "1e-308", "1e15", "9223372036854775808.0"]
 )

@@ -70,14 +70,6 @@ class Run:
         return any(line["kind"] == "collision" for line in self.lines)
 
 
-@pytest.fixture
-def shell(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Shell:
-    monkeypatch.chdir(tmp_path)
-    return Shell(capsys, tmp_path)
-
-
 FIRST = LEAD.format(how="duration: 5s", at="50m", lane="2", speed="15mps")
 SECOND = """
         parallel(duration: 2s):

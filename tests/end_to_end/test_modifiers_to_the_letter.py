@@ -486,14 +486,6 @@ def judge(case: Case, shell: Shell) -> None:
         assert case.holds(Trace(lines)), ended.out + ended.err
 
 
-@pytest.fixture
-def shell(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Shell:
-    monkeypatch.chdir(tmp_path)
-    return Shell(capsys, tmp_path)
-
-
 @pytest.mark.parametrize("name", CASES)
 def test_a_success_is_what_the_text_demands(name: str, shell: Shell) -> None:
     judge(CASES[name], shell)

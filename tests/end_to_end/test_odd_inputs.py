@@ -15,14 +15,6 @@ from osc2tx_shared.own_folders import FRESH, REVISION, RUN, own_folder
 from tests.unit.cli.shell import DRIVE, Shell
 
 
-@pytest.fixture
-def shell(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> Shell:
-    monkeypatch.chdir(tmp_path)
-    return Shell(capsys, tmp_path)
-
-
 @pytest.mark.parametrize("kind", ["zip", "gzip"])
 def test_archives_are_no_inputs(shell: Shell, tmp_path: Path, kind: str) -> None:
     drive, archive = tmp_path / "drive.osc", tmp_path / "archive.osc"

@@ -42,12 +42,6 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.fixture
-def shell(capsys: Printed, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Shell:
-    monkeypatch.chdir(tmp_path)
-    return Shell(capsys, tmp_path)
-
-
-@pytest.fixture
 def cut_in(load: Callable[[GeneratedModule], type[Scenario]]) -> type[Scenario]:
     return load(generate(FILE))
 

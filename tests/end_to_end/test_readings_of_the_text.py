@@ -7,7 +7,6 @@ anything ran.
 from __future__ import annotations
 
 from itertools import pairwise
-from pathlib import Path
 
 import pytest
 
@@ -381,14 +380,6 @@ CASES = {
         ego="drive(duration: 4s) with: lane(2, at: start); position(80m, at: start); speed(10mps)",
     ),
 }
-
-
-@pytest.fixture
-def shell(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Shell:
-    monkeypatch.chdir(tmp_path)
-    return Shell(capsys, tmp_path)
 
 
 @pytest.mark.parametrize("name", CASES)

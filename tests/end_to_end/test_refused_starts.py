@@ -122,14 +122,6 @@ CASES = {
 LINE = re.compile(r"^(\S+:\d+:\d+): (?:error|warning)\[(OSC8\d\d)\]: (.*)$", re.MULTILINE)
 
 
-@pytest.fixture
-def shell(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Shell:
-    monkeypatch.chdir(tmp_path)
-    return Shell(capsys, tmp_path)
-
-
 @pytest.mark.parametrize("case", CASES)
 def test_check_finds_what_run_refuses(shell: Shell, case: str) -> None:
     shell.write("top.osc", HEAD + TOP + CASES[case])

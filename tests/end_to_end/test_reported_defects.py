@@ -171,14 +171,6 @@ OPEN: set[str] = set()
 
 
 @pytest.fixture
-def shell(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Shell:
-    monkeypatch.chdir(tmp_path)
-    return Shell(capsys, tmp_path)
-
-
-@pytest.fixture
 def folder(test_data: Path) -> Path:
     found = test_data / "defects"
     if not found.is_dir():
