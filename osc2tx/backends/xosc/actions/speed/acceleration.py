@@ -32,7 +32,7 @@ from osc2tx.backends.xosc.facts.actors import (
 )
 from osc2tx.backends.xosc.flattening.tree_queries import follower
 from osc2tx.backends.xosc.report import Inexpressible, Metres
-from osc2tx.backends.xosc.state import LONGITUDINAL, Demand, Interval, known
+from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
 from osc2tx.backends.xosc.values.constants import Member, Named
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass, replace
@@ -129,7 +129,7 @@ def accelerated(leaf: Leaf, rate: float) -> Change:
     if duration is None:
         duration = _time_over_distance(leaf, rate)
     goal = TOP_SPEED if rate > 0.0 else 0.0
-    leaf.ctx.demand(leaf.member.name, Demand(0.0, max(rate, 0.0), max(-rate, 0.0)))
+    leaf.demand(max(rate, 0.0), max(-rate, 0.0))
     if duration is None or state.speed is None or not state.speed.is_known:
         # Whatever ends it cuts the change short.
         if state.speed is not None and state.speed.is_known:

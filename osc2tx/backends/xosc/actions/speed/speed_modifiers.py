@@ -260,7 +260,7 @@ def _distance(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[
     if end < 0.0:
         raise Inexpressible("it would stop before its time is over", call.span)
     rate = (end - start.low) / time
-    leaf.ctx.demand(leaf.member.name, Demand(0.0, max(rate, 0.0), max(-rate, 0.0)))
+    leaf.demand(max(rate, 0.0), max(-rate, 0.0))
     left = rate if end > 0.0 else 0.0
     after = replace(leaf.state.finished(LONGITUDINAL), speed=known(end), rate=left)
     during = replace(after, speed=start.over(known(end)))

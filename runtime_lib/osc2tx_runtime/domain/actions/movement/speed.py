@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar, Unpack
 from osc2tx_runtime.domain.modifiers import Modifier, PhysicalMovement, Value, value_of
 from osc2tx_runtime.domain.modifiers.groups import PLACES, SIDE_FREE
 from osc2tx_runtime.domain.planning.longitudinal.longitudinal_planning import (
-    hold_command,
+    jump_to,
     stop_command,
 )
 from osc2tx_runtime.domain.planning.motion_action import Assignment, Refused
@@ -64,7 +64,7 @@ class ChangeSpeed(RatedChange):
 
     def _change(self, target: float) -> SpeedChange:
         if self.may_jump:
-            return SpeedChange(target, "constant", None, 0.0)
+            return jump_to(target)
         change = SpeedChange(target, self.rate_profile, self.rate_peak)
         if self.duration is None or self.rate_profile == "asap" or change.rate_peak is not None:
             return change
@@ -89,7 +89,7 @@ class KeepSpeed(ModifiableAction):
 
     def on_start(self) -> None:
         """Commands it."""
-        self.command(LONGITUDINAL, hold_command(self))
+        self.command(LONGITUDINAL, jump_to(self.here.v))
 
 
 @action("movable_object", "assign_speed", ends="at_once", slots=(LONGITUDINAL,))

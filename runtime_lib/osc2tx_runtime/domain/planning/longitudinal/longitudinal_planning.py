@@ -109,7 +109,7 @@ def stop_command(action: ModifiedMotion, *, at_once: bool = False) -> Command:
         Refused: It rolls, and must not.
     """
     if action.may_jump:
-        return SpeedChange(0.0, "constant", None, 0.0)
+        return jump_to(0.0)
     speed = action.here.v
     if abs(speed) > STANDS and (at_once or action.option() == "must_be_physical"):
         raise Refused(
@@ -118,9 +118,9 @@ def stop_command(action: ModifiedMotion, *, at_once: bool = False) -> Command:
     return Standstill()
 
 
-def hold_command(action: ModifiedMotion) -> SpeedChange:
-    """The command to hold the present speed."""
-    return SpeedChange(action.here.v, "constant", None, 0.0)
+def jump_to(speed: float) -> SpeedChange:
+    """The command to have a speed (m/s) at once, and to hold it."""
+    return SpeedChange(speed, "constant", None, 0.0)
 
 
 def _says_how(action: ModifiedMotion) -> bool:
@@ -153,7 +153,7 @@ def _speed(action: ModifiedMotion) -> Command | None:
             return _acceleration(action, rate, start)
         if start is not None:
             _assign(action, start)
-        return None if one_of_kind(action.modifiers, KeepSpeed) is None else hold_command(action)
+        return None if one_of_kind(action.modifiers, KeepSpeed) is None else jump_to(action.here.v)
     speed = lasting[0]
     other = 0.0
     if speed.reference is not None:
@@ -239,7 +239,7 @@ def _to_speed(
     start: float | None = None,
 ) -> SpeedChange:
     if action.may_jump and start is None:
-        return SpeedChange(target, "constant", None, 0.0)
+        return jump_to(target)
     if rate is not None:
         return SpeedChange(target, "constant", _pace(action, target, speed, rate), start=start)
     profile, peak = speed.course
