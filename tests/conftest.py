@@ -3,7 +3,9 @@
 import gc
 import os
 from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -29,8 +31,20 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    if not hasattr(config, "workerinput"):  # those of pytest-xdist inherit it
+        config.add_cleanup(own_cache())
     if config.getoption("--update-golden") and os.environ.get("CI"):
         raise pytest.UsageError("--update-golden is refused when CI is set")
+
+
+def own_cache() -> Callable[[], None]:
+    """Let no test see what earlier ones, or the user, have in the cache; return the way back."""
+    stack = ExitStack()
+    folder = stack.enter_context(TemporaryDirectory(prefix="osc2tx-tests-"))
+    patch = stack.enter_context(pytest.MonkeyPatch.context())
+    for name in ("XDG_CACHE_HOME", "LOCALAPPDATA"):
+        patch.setenv(name, folder)
+    return stack.close
 
 
 def pytest_collection_finish() -> None:

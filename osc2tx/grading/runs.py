@@ -19,10 +19,8 @@ from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_shared.classes import dataclass
 
 MAPS_KEPT = 8
-OVER = 1.0
-"""Seconds that count behind the last action of a run that never ends; a player gets so much more
-time than a run took, and twice of it."""
-
+OVER = 1.0  # s: a player gets so much more time than the run in the world took, and twice of it
+SETTLED = 1.0  # s: so much counts behind the last action of a run that never ends
 
 _LINES = re.compile(r"\S+\.osc:\d+: | \(\S+\.osc:\d+\)")
 
@@ -93,7 +91,7 @@ def run_in_world(scenario: type[Scenario], settings: RunSettings) -> WorldRun:
     end = result.time if is_whole else math.inf
     if not is_whole:  # what it awaits never happens, and its actors stop where their road ends
         track = {
-            who: [row for row in rows if row[0] <= acted + OVER] for who, rows in track.items()
+            who: [row for row in rows if row[0] <= acted + SETTLED] for who, rows in track.items()
         }
     return WorldRun(Recording(end, starts, track, choices), is_whole)
 

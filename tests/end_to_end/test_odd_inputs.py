@@ -66,6 +66,7 @@ def test_a_build_removes_what_killed_ones_have_left(
     (tmp_path / "drive.osc").write_text(DRIVE.format(name="drive"))
     (tmp_path / "tmp").mkdir()
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "tmp"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))  # a result kept compiles nothing
     left = [tmp_path / "tmp" / f"{prefix}left" for prefix in (RUN, REVISION)]
     young, old = tmp_path / "tmp" / f"{RUN}young", time.time() - 2 * FRESH
     for folder in (*left, young):

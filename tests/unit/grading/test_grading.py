@@ -160,3 +160,11 @@ def test_what_a_run_cannot_show_is_said_without_lines(case: str, reason: str) ->
     (found,) = compilation.graded_xml
     assert found.xml is not None
     assert found.report.unmeasured.startswith(reason)
+
+
+def test_a_run_that_never_ends_counts_up_to_its_last_action(tmp_path: Path) -> None:
+    """Behind it, the world brakes for the end of the road, of which the standard says nothing."""
+    waits = TEXT.replace("keep(it in [10mps..20mps])", "keep(it == 15mps)")
+    found, _ = grade(tmp_path, text=waits + "            wait other.speed > 50mps\n")
+    assert found.xml is not None
+    assert found.report.obstacles == ()
