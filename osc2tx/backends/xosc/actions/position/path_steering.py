@@ -12,8 +12,7 @@ from osc2tx.backends.xosc.facts.actors import CRUISE
 from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.facts.followers import off_the_line
 from osc2tx.backends.xosc.facts.maps import Pose
-from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
-from osc2tx_runtime.domain.paths.path_curves import PathError
+from osc2tx.backends.xosc.report import Metres, Remedy
 
 NEAR = 0.05
 """Metres beside its line that count as on it."""
@@ -43,26 +42,20 @@ def note_steering(
         corners: Of the line.
         offsets: Metres that are left out at start and end.
         speed: m/s; by default what is known of the actor.
-
-    Raises:
-        Inexpressible: The way has no length, as that to where the actor is already.
     """
     start = _start(leaf, line, corners)
     here = Waypoint(0.0, start.x, start.y, start.z)
     is_there = math.hypot(corners[0].x - start.x, corners[0].y - start.y) < 1e-6
     speed = _speed(leaf) if speed is None else speed
-    try:
-        off = off_the_line(
-            tuple(line.points),
-            tuple(corners) if is_there else (here, *corners),
-            start,
-            speed,
-            (leaf.member.shape, leaf.limits),
-            is_smooth=line.is_smooth,
-            offsets=offsets,
-        )
-    except PathError as error:
-        raise Inexpressible(error.message, leaf.node.span) from None
+    off = off_the_line(
+        tuple(line.points),
+        tuple(corners) if is_there else (here, *corners),
+        start,
+        speed,
+        (leaf.member.shape, leaf.limits),
+        is_smooth=line.is_smooth,
+        offsets=offsets,
+    )
     if off > NEAR:
         leaf.ctx.report.approximate(
             leaf.construct,
