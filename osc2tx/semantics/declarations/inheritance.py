@@ -31,13 +31,14 @@ def check_inheritance(r: Resolution, symbol: Symbol, context: Context) -> None:
         symbol.base = None
         return
     if len(bases) >= MOST_LEVELS:
-        r.report(
-            "OSC324",
-            symbol.span,
-            f"`{symbol.name}` inherits through more than {MOST_LEVELS} types, the first of which "
-            f"is `{first.name}`",
-            labels=declared_here(first),
-        )
+        if len(bases) == MOST_LEVELS:  # those that inherit from it are not at fault
+            r.report(
+                "OSC324",
+                symbol.span,
+                f"`{symbol.name}` inherits through more than {MOST_LEVELS} types, the first of "
+                f"which is `{first.name}`",
+                labels=declared_here(first),
+            )
         symbol.base = first  # type: ignore[assignment]  # those in between count no more
         return
     if isinstance(symbol, ScenarioSymbol | ActionSymbol):
