@@ -16,7 +16,7 @@ SHIFT_FACTORS = {"sinusoidal": 0.5 * math.pi**2, "linear": 0.5 * math.pi**2, "cu
 
 
 class Offsets(Reader):
-    """Reads changes of the lane, and of the offset in it."""
+    """Reads lane changes and lane offsets."""
 
     def effects(self, node: Node, said: str, actor: Actor) -> Iterator[Effect]:
         """Return what a lateral action does."""
