@@ -137,8 +137,7 @@ class Starts:
         if self._is_at_point(said) and not self._others.get(said):
             modifiers = self._on_foot(said)
             return [Statement(f"{actor.verb}()", modifiers=modifiers, length=math.inf)]
-        last = Statement(actor.goes_on, length=math.inf)
-        return [*self.statements(said), *(self.lasting(said) or [last])]
+        return [*self.statements(said), *self.lasting(said)]
 
     def statements(self, said: str, then: list[Statement] | None = None) -> list[Statement]:
         """Return how an actor begins, at once.
@@ -154,8 +153,7 @@ class Starts:
             if self._is_at_point(said):
                 modifiers = self._on_foot(said)
                 return [Statement(f"{actor.verb}()", modifiers=modifiers, length=math.inf)]
-            last = Statement(actor.goes_on, length=math.inf)
-            return [*self.statements(said), last]
+            return self.statements(said)
         found: list[Statement] = []
         if said in self._spots:
             spot, node = self._spots[said]
@@ -171,10 +169,7 @@ class Starts:
         others = [each for each in self._others.get(said, []) if each.length != 0.0]
         if not others:
             return []
-        last = Statement(self._cast.actors[said].goes_on, length=math.inf)
-        found = composed("serial", [*others, last])
-        found.length = math.inf
-        return [found]
+        return [composed("serial", others)]
 
 
 def _at_start(modifier: str) -> str:

@@ -54,9 +54,12 @@ class Whole:
             if by_name[actor.name] or actor.kind == "movable_object" or not inits.places(said):
                 continue
             if said in placed:
-                members += inits.lasting(said) or structure.go_on([actor.name])
-            else:
-                members.append(composed("serial", inits.going_on(said)))
+                members += inits.lasting(said)
+            elif going_on := inits.going_on(said):
+                if all(each.length == 0.0 for each in going_on):
+                    leading += going_on
+                else:
+                    members.append(composed("serial", going_on))
         for branch in branches:
             branch_said = [said for said, actor in actors if by_name[actor.name] == [branch]]
             own = [
@@ -67,9 +70,6 @@ class Whole:
             if branch.members and branch.members[0].text.startswith("wait "):
                 lasting = [each for said in branch_said for each in inits.lasting(said)]
                 content = [*before, *lasting, *branch.members]
-            alone = [actor.name for _, actor in actors if by_name[actor.name] == [branch]]
-            if content:
-                content += structure.go_on(alone) if content[-1].length != math.inf else ()
             is_open = is_open and content[-1:] != [] and content[-1].length == math.inf
             if content:
                 members.append(composed("serial", content))
@@ -108,12 +108,26 @@ class Whole:
                 structure.lines.append(f"event {name}")
                 members.append(composed("serial", [*waits, Statement(f"emit {name}")]))
                 endings.append(f"@{name}")
-        if not is_open or not members:
-            if len(endings) == 1 and endings[0].startswith("elapsed("):
-                members.append(wait(endings[0]))
-            else:
-                structure.lines.append("event forever")
-                members.append(wait("@forever"))
-        whole = Statement("parallel", members=members)
-        whole.modifiers = [f"until {each}" for each in endings]
+        if members and not is_open and len(endings) > 1:
+            structure.lines.append("event forever")
+            members.append(wait("@forever"))
+            is_open = True
+        whole = _until(members, endings, is_open=is_open)
         return composed("serial", [*leading, whole]) if leading else whole
+
+
+def _until(members: list[Statement], endings: Sequence[str], *, is_open: bool) -> Statement:
+    """Return members side by side that end when one of some conditions is met.
+
+    Args:
+        members: What happens.
+        endings: The conditions.
+        is_open: Whether the members go on until then by themselves.
+    """
+    if not members:
+        return composed("one_of", [wait(each) for each in endings])
+    if not is_open:
+        members = [*members, wait(endings[0])]
+    whole = Statement("parallel", members=members)
+    whole.modifiers = [f"until {each}" for each in endings]
+    return whole

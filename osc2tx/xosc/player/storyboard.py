@@ -133,7 +133,8 @@ class Evaluator:
         """Play to the end; return when that is (s), infinite if it is not over in time."""
         while self.time < most:
             for name, body in self.bodies.items():
-                if body.pose is not None:
+                # of the end of a road the standard says nothing
+                if body.pose is not None and not body.is_at_end:
                     self.track[name].append((self.time, *body.here[:2], body.v))
             self.transitions.clear()
             self._run_cycles()
