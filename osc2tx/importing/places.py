@@ -23,6 +23,7 @@ from osc2tx.xosc.player.places import place_of
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap, read_map
 from osc2tx_shared.classes import dataclass
 
+LOOK, MOST_LOOKS = 10.0, 300  # m: how a lane is looked along
 STRAIGHT = 1e-4
 
 
@@ -110,6 +111,30 @@ class Places:
             AttributeError,
         ):
             return None
+
+    @staticmethod
+    def is_ahead(body: Body, other: Body) -> bool:
+        """Whether an entity begins ahead of another one."""
+        (x, y, h), there = other.here, body.here
+        return (there.x - x) * math.cos(h) + (there.y - y) * math.sin(h) > 0.0
+
+    def is_straight_ahead(self, said: str) -> bool:
+        """Whether the lane of an entity leads straight on from its place at the start."""
+        body = self.bodies.get(said)
+        if self.map is None or body is None or body.place is None:
+            return False
+        try:
+            place, heading = body.place, self.map.pose(body.place).h
+            for _ in range(MOST_LOOKS):
+                ahead = self.map.advance(place, LOOK * body.along)
+                place = ahead.position
+                if abs(_wrapped(self.map.pose(place).h - heading)) > STRAIGHT:
+                    return False
+                if abs(ahead.travelled) < LOOK:
+                    return True
+        except (MapError, LookupError):
+            return False
+        return True
 
     # --- forms ------------------------------------------------------------------------------------
 

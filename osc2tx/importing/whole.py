@@ -54,7 +54,7 @@ class Whole:
             if by_name[actor.name] or actor.kind == "movable_object" or not inits.places(said):
                 continue
             if said in placed:
-                members += inits.lasting(said)
+                members += inits.lasting(said) or inits.going(said)
             elif going_on := inits.going_on(said):
                 if all(each.length == 0.0 for each in going_on):
                     leading += going_on
@@ -70,6 +70,14 @@ class Whole:
             if branch.members and branch.members[0].text.startswith("wait "):
                 lasting = [each for said in branch_said for each in inits.lasting(said)]
                 content = [*before, *lasting, *branch.members]
+            last = [
+                each
+                for said, actor in actors
+                if by_name[actor.name] == [branch]
+                for each in inits.going(said)
+            ]
+            if content and content[-1].length != math.inf and last:
+                content.append(composed("parallel", last))
             is_open = is_open and content[-1:] != [] and content[-1].length == math.inf
             if content:
                 members.append(composed("serial", content))
@@ -87,9 +95,8 @@ class Whole:
         is_open: bool,
         branches: Sequence[Branch],
     ) -> Statement:
-        never = all(any(each.kind == "never" for each in group) for group in end.groups)
         endings: list[str] = []
-        if not end.groups or never:
+        if is_endless(end):
             self._report.add(
                 "approximated",
                 "<StopTrigger>",
@@ -97,7 +104,7 @@ class Whole:
                 self._document.root.place,
             )
             endings.append(f"elapsed({LONGEST})")
-        for group in end.groups if not never else ():
+        for group in () if is_endless(end) else end.groups:
             waits = structure.waits(Trigger([group]))
             if not waits:
                 endings.append("elapsed(0s)")
@@ -114,6 +121,11 @@ class Whole:
             is_open = True
         whole = _until(members, endings, is_open=is_open)
         return composed("serial", [*leading, whole]) if leading else whole
+
+
+def is_endless(end: Trigger) -> bool:
+    """Whether a trigger of the end is never met."""
+    return all(any(each.kind == "never" for each in group) for group in end.groups)
 
 
 def _until(members: list[Statement], endings: Sequence[str], *, is_open: bool) -> Statement:

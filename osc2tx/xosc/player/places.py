@@ -133,9 +133,7 @@ def waypoints(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> l
     return found
 
 
-def _on_route(
-    node: Element, bodies: Mapping[str, Body], road_map: RoadMap
-) -> LanePosition | Pose:
+def _on_route(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> LanePosition | Pose:
     """Return a place by the metres along a route."""
     route, position = node.children[0], node.children[-1].inner
     if position.get("entityRef") is not None:
