@@ -17,6 +17,7 @@ from osc2tx.importing.names import Names, snake
 from osc2tx.importing.places import Places
 from osc2tx.importing.program import Program, comment_lines
 from osc2tx.importing.report import ImportReport
+from osc2tx.importing.starting import is_straight_ahead
 from osc2tx.importing.starts import Starts
 from osc2tx.importing.steps import BoardReader
 from osc2tx.importing.structure import Structure
@@ -136,7 +137,7 @@ class _Import:
         kinds = {said: actor.name for said, actor in actors.items()}
         places = Places(self._document, self._values, self._names, kinds)
         for said, actor in actors.items():
-            actor.is_free = places.is_straight_ahead(said)
+            actor.is_free = is_straight_ahead(places.map, places.bodies.get(said))
         actions = Actions(self._values, places, actors, self._mark, self._emitted)
         conditions = Conditions(
             self._values, places, actors, self._mark, self._document.parameters.get

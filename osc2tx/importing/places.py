@@ -11,10 +11,11 @@ from dataclasses import field
 
 from osc2tx.importing.cast import bodies_of
 from osc2tx.importing.cursor import Node
-from osc2tx.importing.dimensions import ANGLE, LENGTH, Quantity, literal
+from osc2tx.importing.dimensions import ANGLE, LENGTH, PRODUCT, SUM, Quantity, literal
 from osc2tx.importing.document import Document
 from osc2tx.importing.names import Names
 from osc2tx.importing.program import declaration
+from osc2tx.importing.starting import STRAIGHT, privates, teleports, wrapped
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Element, Unresolved
 from osc2tx.xosc.player.bodies import Body, Pose, body_of
@@ -22,9 +23,6 @@ from osc2tx.xosc.player.errors import Unplayable
 from osc2tx.xosc.player.places import place_of
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap, read_map
 from osc2tx_shared.classes import dataclass
-
-LOOK, MOST_LOOKS = 10.0, 300  # m: how a lane is looked along
-STRAIGHT = 1e-4
 
 
 @dataclass
@@ -77,8 +75,8 @@ class Places:
             self.bodies[body.name] = body
         waiting = {
             private.get("entityRef") or "": teleport
-            for private in _privates(self._document.resolved)
-            for teleport in _teleports(private)
+            for private in privates(self._document.resolved)
+            for teleport in teleports(private)
         }
         for _ in range(len(waiting)):
             for name, position in list(waiting.items()):
@@ -112,30 +110,6 @@ class Places:
         ):
             return None
 
-    @staticmethod
-    def is_ahead(body: Body, other: Body) -> bool:
-        """Whether an entity begins ahead of another one."""
-        (x, y, h), there = other.here, body.here
-        return (there.x - x) * math.cos(h) + (there.y - y) * math.sin(h) > 0.0
-
-    def is_straight_ahead(self, said: str) -> bool:
-        """Whether the lane of an entity leads straight on from its place at the start."""
-        body = self.bodies.get(said)
-        if self.map is None or body is None or body.place is None:
-            return False
-        try:
-            place, heading = body.place, self.map.pose(body.place).h
-            for _ in range(MOST_LOOKS):
-                ahead = self.map.advance(place, LOOK * body.along)
-                place = ahead.position
-                if abs(_wrapped(self.map.pose(place).h - heading)) > STRAIGHT:
-                    return False
-                if abs(ahead.travelled) < LOOK:
-                    return True
-        except (MapError, LookupError):
-            return False
-        return True
-
     # --- forms ------------------------------------------------------------------------------------
 
     def spot(self, position: Node, name: str, *, at_start: bool) -> Spot | None:
@@ -153,6 +127,8 @@ class Places:
             return self._road(inner)
         if inner.tag == "RelativeLanePosition":
             found = self._beside(inner, name, at_start)
+            if found is None and at_start:
+                found = self._beside_in_road(inner)
             if found is not None:
                 return found
         if inner.tag == "WorldPosition" or at_start:
@@ -193,7 +169,7 @@ class Places:
                 orientation.approximate(f"{name} is that of the road here")
         h = self._values.nominal(orientation, "h")
         turned = h - of_lane if kind == "relative" else h - road - of_lane
-        turned = _wrapped(turned)
+        turned = wrapped(turned)
         if abs(turned) < STRAIGHT:
             return ""
         return f"yaw({literal(round(turned, 9), ANGLE)})"
@@ -256,6 +232,45 @@ class Places:
             f"position({ahead.text}, {side}: {reference})",
         ]
         return Spot(modifiers=modifiers)
+
+    def _beside_in_road(self, node: Node) -> Spot | None:
+        """Return a place on the road of another actor, whose own place says where that is."""
+        said = node.said("entityRef")
+        body, found = self.bodies.get(said), self._static_of(node)
+        start = next(
+            (
+                position.inner
+                for private in privates(self._document.root)
+                if private.get("entityRef") == said
+                for position in teleports(private)
+            ),
+            None,
+        )
+        if body is None or body.place is None or found is None or start is None:
+            return None
+        place, own = found[0], body.place
+        if not isinstance(place, LanePosition) or start.tag != "LanePosition":
+            return None
+        assert self.map is not None
+        s = self._values.quantity(node.other(start), "s", LENGTH)
+        along = "dsLane" if node.has("dsLane") else "ds"
+        ahead = self._values.quantity(node, along, LENGTH)
+        direction = self.map.travel_direction(own.road, own.lane) * body.along
+        sign = 1 if along == "ds" else direction
+        if place.road != own.road or abs(s.value + sign * ahead.value - place.s) > 1e-6:
+            return None
+        if (node.text("dLane") or "0").startswith("$"):
+            node.approximate(f"dLane keeps the nominal value of `{node.text('dLane')}`")
+        offset = self._values.quantity(node, "offset", LENGTH)
+        t = offset.text if direction > 0 else f"-{offset.within(PRODUCT)}"
+        way = f"{s.within(SUM)} {'+' if sign > 0 else '-'} {ahead.within(PRODUCT)}"
+        if not (s.is_open or ahead.is_open):
+            way = literal(place.s, LENGTH)
+        heading = found[1]
+        return Spot(
+            _odr_point(place.road, str(place.lane), way, t),
+            yaw="" if heading is None else _absolute(heading),
+        )
 
     def _beside_lane(self, node: Node, reference: str, lanes: int) -> str:
         text = node.text("dLane") or "0"
@@ -343,28 +358,4 @@ def _odr_point(road: str, lane: str, s: str, t: str) -> str:
 
 
 def _absolute(h: float) -> str:
-    return f"orientation(yaw: {literal(round(_wrapped(h), 9), ANGLE)}, measure_by: absolute)"
-
-
-def _wrapped(angle: float) -> float:
-    return math.atan2(math.sin(angle), math.cos(angle))
-
-
-def _privates(root: Element) -> list[Element]:
-    board = next((each for each in root.children if each.tag == "Storyboard"), None)
-    init = (
-        None
-        if board is None
-        else next((each for each in board.children if each.tag == "Init"), None)
-    )
-    return [] if init is None else [node for node in init.walk() if node.tag == "Private"]
-
-
-def _teleports(private: Element) -> list[Element]:
-    return [
-        position
-        for action in private.walk()
-        if action.tag == "TeleportAction"
-        for position in action.children
-        if position.tag == "Position"
-    ][-1:]
+    return f"orientation(yaw: {literal(round(wrapped(h), 9), ANGLE)}, measure_by: absolute)"

@@ -19,6 +19,7 @@ class Routes(Reader):
         """Return what a teleport in the run does."""
         spot = self._places.spot(node.one("Position"), actor.name, at_start=False)
         self._lanes[said] = None
+        self._offsets[said] = 0.0
         if spot is not None:
             if spot.yaw:
                 node.approximate("it looks along its lane")

@@ -20,6 +20,7 @@ from osc2tx.importing.dimensions import (
 )
 from osc2tx.importing.effects import LONGITUDINAL, PROFILES, Effect, Reader, of_dynamics
 from osc2tx.importing.program import Statement, composed
+from osc2tx.importing.starting import is_ahead
 from osc2tx.xosc.element import Unresolved
 
 COMFORT = {"maxAcceleration": 2.0, "maxDeceleration": 4.0, "maxAccelerationRate": 10.0}
@@ -213,7 +214,7 @@ class Speeds(Reader):
             return None
         if own.place[:2] != other.place[:2] or own.along != other.along:
             return None
-        ahead = self._places.is_ahead(own, other)
+        ahead = is_ahead(own, other)
         side = node.text("displacement")
         if side is not None:
             ahead = side.startswith("leading")
