@@ -7,7 +7,9 @@ language has no form for is computed where the reference is known: at the start.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import field
+from itertools import pairwise
 
 from osc2tx.importing.cast import bodies_of
 from osc2tx.importing.cursor import Node
@@ -20,7 +22,7 @@ from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Element, Unresolved
 from osc2tx.xosc.player.bodies import Body, Pose, body_of
 from osc2tx.xosc.player.errors import Unplayable
-from osc2tx.xosc.player.places import place_of
+from osc2tx.xosc.player.places import place_of, waypoints
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap, read_map
 from osc2tx_shared.classes import dataclass
 
@@ -334,6 +336,39 @@ class Places:
             for axis, v in zip("xyz", (x, y, 0.0), strict=True)
         ]
         self.lines += declaration(made, "pose_3d", told)
+        return made
+
+    def stops_of(self, route: Node) -> list[LanePosition]:
+        """Return the waypoints of a route in lanes; none if they are not known."""
+        try:
+            assert self.map is not None
+            return waypoints(self._document._resolve(route.element), self.bodies, self.map)
+        except (Unplayable, Unresolved, MapError, ValueError, LookupError, AssertionError):
+            return []
+
+    def is_way(self, stops: Sequence[LanePosition]) -> bool:
+        """Whether a lane leads from each place to the next one."""
+        road_map = self.map
+        if road_map is None:
+            return False
+        ways = (road_map.route_distance(a, b) for a, b in pairwise(stops))
+        return all(way is not None and way > 0.0 for way in ways)
+
+    def leads_on(self, start: LanePosition, goal: LanePosition) -> bool:
+        """Whether a lane leads to a place without a choice of branches."""
+        assert self.map is not None
+        length = self.map.route_distance(start, goal)
+        there = self.map.advance(start, length or 0.0).position
+        return there[:2] == goal[:2] and abs(there.s - goal.s) < 1.0
+
+    def way(self, stops: Sequence[LanePosition], name: str) -> str:
+        """Return the name of a route for an actor."""
+        made = self._names.new("", kind="route", base=f"{name}_way")
+        points = ", ".join(
+            _odr_point(each.road, str(each.lane), literal(each.s, LENGTH), "0m").partition(": ")[2]
+            for each in stops
+        )
+        self.lines.append(f"{made}: route = road.create_route([{points}])")
         return made
 
     def coordinates(self, position: Node) -> tuple[float, float] | None:

@@ -32,6 +32,7 @@ class Starts:
         self.world: list[Statement] = []
         self._spots: dict[str, tuple[Spot, Node]] = {}
         self._speeds: dict[str, Statement] = {}
+        self._ways: dict[str, Statement] = {}
         self._others: dict[str, list[Statement]] = {}
         self._references: dict[str, set[str]] = {}
         init = storyboard.find("Init")
@@ -68,6 +69,11 @@ class Starts:
                     spot = None
                 if spot is not None:
                     self._spots[said] = (spot, inner)
+                continue
+            if inner.tag == "RoutingAction" and inner.inner.tag == "AssignRouteAction":
+                way = self._actions.along_route(inner.inner, said, actor)
+                if way is not None:
+                    self._ways[said] = way
                 continue
             for effect in self._actions.effects(action, (said,), at_start=True):
                 if effect.statement.text.startswith(f"{actor.name}.assign_speed("):
@@ -172,6 +178,14 @@ class Starts:
             found.append(self._speeds[said])
         return [*found, *(each for each in others if each.length == 0.0)]
 
+    def ways(self) -> list[Statement]:
+        """Return what takes entities along routes from the start on."""
+        return list(self._ways.values())
+
+    def has_way(self, said: str) -> bool:
+        """Whether an entity has a route from the start on."""
+        return said in self._ways
+
     def lasting(self, said: str) -> list[Statement]:
         """Return what an entity does from the start on, and goes on with."""
         others = [each for each in self._others.get(said, []) if each.length != 0.0]
@@ -185,7 +199,11 @@ class Starts:
     def going(self, said: str) -> list[Statement]:
         """Return what lets an entity go on as it does where it would not do so by itself."""
         actor = self._cast.actors[said]
-        return [] if actor.is_free else [Statement(actor.goes_on, length=math.inf)]
+        return (
+            []
+            if actor.is_free or said in self._ways
+            else [Statement(actor.goes_on, length=math.inf)]
+        )
 
 
 def _at_start(modifier: str) -> str:

@@ -44,7 +44,9 @@ class Whole:
             actor = self._cast.actors[said]
             mine = by_name[actor.name]
             is_alone = not mine or (len(mine) == 1 and id(mine[0]) in single)
-            stays = is_alone and (not together or inits.turns_alone(said))
+            stays = (
+                is_alone and not inits.has_way(said) and (not together or inits.turns_alone(said))
+            )
             if actor.kind != "movable_object" and stays:
                 continue
             leading += inits.statements(said)
@@ -60,6 +62,9 @@ class Whole:
                     leading += going_on
                 else:
                     members.append(composed("serial", going_on))
+        ways = inits.ways()
+        members += ways
+        is_open = not ways
         for branch in branches:
             branch_said = [said for said, actor in actors if by_name[actor.name] == [branch]]
             own = [
