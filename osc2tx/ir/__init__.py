@@ -117,4 +117,4 @@ from osc2tx.ir.values import (
     ValueType,
     qualified,
 )
-from osc2tx.ir.verify import condition_expressions, verify, walk_behaviors
+from osc2tx.ir.verify import condition_expressions, invocations, verify, walk_behaviors

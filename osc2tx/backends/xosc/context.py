@@ -207,9 +207,7 @@ class Context:
         instead = self.profile.unsupported.get(feature)
         if instead is not None:
             raise Inexpressible(
-                f"{self.profile.name} does not carry out {feature}: {instead}",
-                span,
-                GENERIC,
+                f"{self.profile.name} does not carry out {feature}: {instead}", span, GENERIC
             )
 
     def can(self, feature: str, since: XmlVersion) -> bool:

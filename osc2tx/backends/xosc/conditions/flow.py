@@ -208,9 +208,7 @@ def at_time(seconds: float) -> Test:
 def state_of(kind: ElementKind, name: str, state: StoryboardElementState = "completeState") -> Test:
     """Return the test for the state of an element; running acts count as latched inside of them."""
     condition = xml.StoryboardElementStateCondition(
-        storyboardElementType=kind,
-        storyboardElementRef=name,
-        state=state,
+        storyboardElementType=kind, storyboardElementRef=name, state=state
     )
     is_moment = (kind, state) in (("event", "completeState"), ("act", "runningState"))
     return Test(xml.ByValueCondition(condition), latched=True, event=name if is_moment else None)

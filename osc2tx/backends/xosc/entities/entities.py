@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
+from osc2tx.backends.xosc.actions.trailers import couplings, towing
 from osc2tx.backends.xosc.actions.user_actions import check_model
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import MISC, PEDESTRIAN, VEHICLE, CastMember
@@ -14,7 +15,6 @@ from osc2tx.backends.xosc.entities.categories import (
     trailer_literal,
     vehicle_literal,
 )
-from osc2tx.backends.xosc.entities.towing import couplings, towing
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.report import GENERIC, Metres
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
@@ -130,10 +130,7 @@ def scenario_objects(ctx: Context) -> list[xml.ScenarioObject]:
 
 def _scenario_object(ctx: Context, member: CastMember) -> xml.ScenarioObject:
     check_model(ctx, member)
-    return xml.ScenarioObject(
-        _BODIES[member.kind](ctx, member),
-        name=member.name,
-    )
+    return xml.ScenarioObject(_BODIES[member.kind](ctx, member), name=member.name)
 
 
 def _vehicle(ctx: Context, member: CastMember) -> xml.Vehicle:

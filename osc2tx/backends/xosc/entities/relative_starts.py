@@ -11,8 +11,8 @@ from osc2tx.backends.xosc.entities.start_lanes import (
     in_lane,
     lane_number,
     lateral_of,
+    orientation_in_lane,
 )
-from osc2tx.backends.xosc.entities.start_orientations import orientation_in_lane
 from osc2tx.backends.xosc.entities.start_statements import Start, speed_at_start
 from osc2tx.backends.xosc.facts.actors import ALIGNED
 from osc2tx.backends.xosc.facts.maps import LanePosition, Roads
@@ -161,9 +161,7 @@ def _said(ctx: Context, start: Start) -> Said:
         same, side_of = lane.entity("same_as"), lane.entity("side_of")
         in_lane_of = same or side_of
         if side_of is not None:
-            count = lane.number("lane")
-            lanes = 1 if count is None else round(count)
-            lanes = lanes if lane.member("side", "left") == "left" else -lanes
+            lanes = lane.lanes_to_left()
         elif same is None:
             number = lane_number(start)
     ahead_of = behind = None

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 
-from osc2tx.backends.xosc.actions.leaf import Arguments
+from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.position.points_and_lines import points_along
 from osc2tx.backends.xosc.actions.registry import at_start
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment_of
 from osc2tx.backends.xosc.entities.relative_starts import beside
-from osc2tx.backends.xosc.entities.start_lanes import at_pose, in_lane, lane_number
-from osc2tx.backends.xosc.entities.start_orientations import turned
+from osc2tx.backends.xosc.entities.start_lanes import at_pose, in_lane, lane_number, turned
 from osc2tx.backends.xosc.entities.start_statements import Start, is_at_point
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 from osc2tx.backends.xosc.facts.run_options import read_spawn

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.registry import TAKES
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
@@ -43,16 +45,18 @@ def is_first(body: ir.Behavior, node: ir.Invoke) -> bool:
     return body is node
 
 
-def runs_beside(body: ir.Behavior, node: ir.Invoke) -> tuple[ir.Behavior, ...]:
-    """Return the members of compositions that may run while an invocation does."""
-    if not isinstance(body, ir.Serial | ir.Parallel | ir.OneOf):
-        return ()
-    (mine,) = (each for each in body.members if _holds(each, node))
-    others = () if isinstance(body, ir.Serial) else body.members
-    return (*(each for each in others if each is not mine), *runs_beside(mine, node))
+def runs_beside(
+    body: ir.Behavior,
+    node: ir.Behavior,
+    kinds: tuple[type[ir.Parallel | ir.OneOf], ...] = (ir.Parallel, ir.OneOf),
+) -> Iterator[ir.Behavior]:
+    """Yield the other members of the compositions around a member, which may run while it does."""
+    for each in ir.walk_behaviors(body):
+        if isinstance(each, kinds) and _holds(each, node):
+            yield from (member for member in each.members if not _holds(member, node))
 
 
-def _holds(body: ir.Behavior, node: ir.Invoke) -> bool:
+def _holds(body: ir.Behavior, node: ir.Behavior) -> bool:
     return any(each is node for each in ir.walk_behaviors(body))
 
 
@@ -156,28 +160,18 @@ def _domains(node: ir.Invoke) -> frozenset[str]:
 
 def shifts_beside(body: ir.Behavior, node: ir.Invoke, actor: str) -> bool:
     """Whether members beside an invocation may move an actor across the road; if in doubt, yes."""
-    is_found = False
-    for each in ir.walk_behaviors(body):
-        is_found = is_found or each is node
-        if not isinstance(each, ir.Parallel | ir.OneOf):
-            continue
-        holding = [any(n is node for n in ir.walk_behaviors(member)) for member in each.members]
-        beside = [m for m, holds in zip(each.members, holding, strict=True) if not holds]
-        if any(holding) and any(_shifts(member, actor) for member in beside):
-            return True
-    return not is_found
+    beside = runs_beside(body, node)
+    return not _holds(body, node) or any(_shifts(member, actor) for member in beside)
 
 
 def _shifts(member: ir.Behavior, actor: str) -> bool:
     for node in ir.walk_behaviors(member):
         if isinstance(node, ir.InvokeScenario):
             return True
-        if not (isinstance(node, ir.Invoke) and isinstance(node.actor, ir.FieldRef)):
+        if not isinstance(node, ir.Invoke) or node.actor_name != actor:
             continue
         going_on = (m for m in node.modifiers if m.at != "start" and m.name != "keep_lane")
-        if node.actor.name == actor and LATERAL in _domains(
-            replace(node, modifiers=tuple(going_on))
-        ):
+        if LATERAL in _domains(replace(node, modifiers=tuple(going_on))):
             return True
     return False
 
@@ -194,12 +188,8 @@ def _is_sideways(node: ir.Invoke) -> bool:
 
 def actors_of(node: ir.Behavior) -> tuple[str, ...]:
     """Return the actors of the actions in a tree, in source order."""
-    found = (
-        each.actor.name
-        for each in ir.walk_behaviors(node)
-        if isinstance(each, ir.Invoke) and isinstance(each.actor, ir.FieldRef)
-    )
-    return tuple(dict.fromkeys(found))
+    names = (each.actor_name for each in ir.invocations(node))
+    return tuple(dict.fromkeys(name for name in names if name is not None))
 
 
 def follows_route(node: ir.Behavior) -> bool:

@@ -43,8 +43,7 @@ def document(
     return xml.OpenSCENARIO(
         header,
         xml.ParameterValueDistribution(
-            xml.ScenarioFile(filepath=file),
-            xml.Deterministic(*distributions),
+            xml.ScenarioFile(filepath=file), xml.Deterministic(*distributions)
         ),
     )
 
@@ -56,7 +55,7 @@ def single(
     values: xml.DistributionSet | xml.DistributionRange
     if parameter.choices:
         values = xml.DistributionSet(
-            *(xml.Element(value=value_text(choice)) for choice in parameter.choices),
+            *(xml.Element(value=value_text(choice)) for choice in parameter.choices)
         )
     else:
         low, high = parameter.limits(domain.values(parameter))
@@ -81,8 +80,8 @@ def table(
                     *(_assigned(column.name, column.texts[index]) for column in following),
                 )
                 for index, row in enumerate(rows, start=1)
-            ),
-        ),
+            )
+        )
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.lateral.lanes import (
     NO_ONE_SIDE,
     along_t,
@@ -14,14 +15,13 @@ from osc2tx.backends.xosc.actions.lateral.lanes import (
     shape_of,
 )
 from osc2tx.backends.xosc.actions.lateral.slow_shifts import note_slow
-from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
+from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
-from osc2tx.backends.xosc.facts.actors import Linear, course_of_shift, fastest
-from osc2tx.backends.xosc.facts.maps import LanePosition
-from osc2tx.backends.xosc.facts.oncoming_lanes import is_oncoming
+from osc2tx.backends.xosc.facts.actors import Linear, Pace, course_of_shift, fastest
+from osc2tx.backends.xosc.facts.maps import LanePosition, is_oncoming
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LATERAL, known
 from osc2tx.xosc import elements as xml
@@ -34,29 +34,23 @@ INSIDE = 1.2
 @action("follow_lane")
 def _follow_lane(leaf: Leaf) -> Performance:
     arguments = leaf.arguments
-    offset = arguments.number("offset") or 0.0
-    profile = arguments.member("rate_profile", "none")
-    peak = arguments.number("rate_peak")
+    offset, pace = arguments.number("offset") or 0.0, arguments.pace()
     target = segment_of(leaf.ctx, arguments.get("target"))
     if target is not None and lanes_to_segment(leaf, target) != 0:
         raise Inexpressible("it is in another lane; a lane change has to come before")
     changes = apply_modifiers(leaf)
     if leaf.state.offset == known(offset):
         return Performance(changes, "open")
-    return Performance((offset_change(leaf, offset, profile, peak), *changes), "open")
+    return Performance((offset_change(leaf, offset, pace), *changes), "open")
 
 
-def offset_change(
-    leaf: Leaf, offset: float, profile: str, peak: float | None, duration: float | None = None
-) -> Change:
+def offset_change(leaf: Leaf, offset: float, pace: Pace) -> Change:
     """Return the change of the place in the lane.
 
     Args:
         leaf: The invocation.
         offset: Metres to the left of the centre.
-        profile: Of the change (§8.8.2.18).
-        peak: Of its speed (m/s).
-        duration: Seconds that it takes; `None`: as the profile has it.
+        pace: Of the change.
 
     Raises:
         Inexpressible: It is in a lane of oncoming traffic, or reaches over the line to one.
@@ -67,14 +61,12 @@ def offset_change(
         if is_oncoming(roads.map, lane) or is_oncoming(roads.map, reached):
             raise Inexpressible(NO_ONE_SIDE, leaf.node.span)
     way = abs(offset - offset_of(leaf.state))
-    course = course_of_shift(way, profile, peak, duration, leaf.limits)
-    note_drift(leaf, way, (profile, peak, duration), course)
+    course = course_of_shift(way, pace, leaf.limits)
+    note_drift(leaf, way, pace, course)
     note_slow(leaf, way, course)
-    shape = shape_of(leaf, course, profile)
+    shape = shape_of(leaf, course, pace)
     if isinstance(course, Linear):
-        leaf.ctx.report.approximate(
-            leaf.construct,
-            leaf.node.span,
+        leaf.approximate(
             "the XML states no length for a change of the offset, and a steady one has no peak that"
             " gives it",
             Metres(way, "beside, until it is there"),
@@ -84,10 +76,7 @@ def offset_change(
     peak_rate = 0.5 * way * half_turn * half_turn
     action = lateral(
         xml.LaneOffsetAction(
-            xml.LaneOffsetActionDynamics(
-                dynamicsShape=shape,
-                maxLateralAcc=round(peak_rate, 6),
-            ),
+            xml.LaneOffsetActionDynamics(dynamicsShape=shape, maxLateralAcc=round(peak_rate, 6)),
             xml.LaneOffsetTarget(xml.AbsoluteTargetLaneOffset(value=along_t(leaf, offset))),
             continuous=False,
         )
@@ -127,11 +116,9 @@ def left_of(arguments: Arguments, own: float, theirs: float | None) -> float:
     Raises:
         Inexpressible: As of `offset_in_lane`.
     """
-    distance = arguments.number("distance")
+    distance = arguments.size("distance")
     if distance is None:
-        distance = arguments.number("distance_range")
-    if distance is None:
-        raise Inexpressible("no distance is stated", arguments.source.span)
+        raise Inexpressible("no distance is stated", arguments.span)
     side = arguments.member("side", "left")
     left = -distance if side == "right" else distance
     measured = arguments.member("measure_by", "center_to_center")

@@ -9,8 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import Arguments, Leaf
+from osc2tx.backends.xosc.actions.arguments import Arguments
+from osc2tx.backends.xosc.actions.leaf import Leaf
 from osc2tx.backends.xosc.facts.actors import SIDEWAYS, TOP_SPEED, Profile, fastest
+from osc2tx.backends.xosc.flattening.tree_queries import runs_beside
 from osc2tx.backends.xosc.report import Inexpressible
 
 PACING = ("assign_speed", "change_speed", "drive", "move", "remain_stationary")
@@ -36,21 +38,26 @@ def note_slow(leaf: Leaf, way: float, course: Profile) -> None:
     late = "it is not over as long as it stands, and later if it is slow"
     if slowest > 0.0:
         late = f"it is over at most {way / (SIDEWAYS * slowest):.2g} s later"
-    leaf.ctx.report.approximate(leaf.construct, leaf.node.span, reason, late)
+    leaf.approximate(reason, late)
 
 
 def _beside(leaf: Leaf) -> Iterator[float]:
     """Yield the speeds (m/s) that it is told meanwhile, without signs."""
-    for node in _meanwhile(leaf.ctx.scope.scenario.body, leaf.node):
-        yield from _goals(leaf, node)
-        for modifier in node.modifiers:
-            yield from _goals(leaf, modifier)
+    name = leaf.node.actor_name
+    if name is None:
+        return
+    for member in runs_beside(leaf.ctx.scope.scenario.body, leaf.node, (ir.Parallel,)):
+        for node in ir.invocations(member):
+            if node.actor_name == name and node.action in PACING:
+                yield from _goals(leaf, node)
+                for modifier in node.modifiers:
+                    yield from _goals(leaf, modifier)
 
 
 def _goals(leaf: Leaf, source: ir.Invoke | ir.ModifierCall) -> Iterator[float]:
     if isinstance(source, ir.Invoke) and source.action == "remain_stationary":
         yield 0.0
-    arguments = Arguments(leaf.ctx, source.arguments, source)
+    arguments = Arguments(leaf.ctx, source)
     for name in ("speed", "target"):
         if name in arguments:
             try:
@@ -59,25 +66,3 @@ def _goals(leaf: Leaf, source: ir.Invoke | ir.ModifierCall) -> Iterator[float]:
                 continue
             if value is not None:
                 yield abs(value)
-
-
-def _meanwhile(body: ir.Behavior, node: ir.Invoke) -> Iterator[ir.Invoke]:
-    """Yield what the same actor does in other members of the compositions around."""
-    for composition in ir.walk_behaviors(body):
-        if not isinstance(composition, ir.Parallel):
-            continue
-        inside = [list(ir.walk_behaviors(member)) for member in composition.members]
-        holding = [any(each is node for each in member) for member in inside]
-        if not any(holding):
-            continue
-        for member, holds in zip(inside, holding, strict=True):
-            for each in () if holds else member:
-                if isinstance(each, ir.Invoke) and _paces(each, node):
-                    yield each
-
-
-def _paces(each: ir.Invoke, node: ir.Invoke) -> bool:
-    """Whether an action is about the speed of the same actor."""
-    if not isinstance(each.actor, ir.FieldRef) or not isinstance(node.actor, ir.FieldRef):
-        return False
-    return each.actor.name == node.actor.name and each.action in PACING

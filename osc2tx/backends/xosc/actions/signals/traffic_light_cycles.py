@@ -11,7 +11,8 @@ from itertools import cycle as endless
 from typing import NamedTuple
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import Arguments, Global, Later
+from osc2tx.backends.xosc.actions.arguments import Arguments
+from osc2tx.backends.xosc.actions.leaf import Global, Globals, Later
 from osc2tx.backends.xosc.actions.registry import global_action
 from osc2tx.backends.xosc.actions.signals.traffic_lights import (
     States,
@@ -71,10 +72,10 @@ class _Cycle(NamedTuple):
 
 
 @global_action("play_cycles")
-def _play_cycles(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Global | Later, ...]:
+def _play_cycles(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     given = arguments.get("cycles")
     if not isinstance(given, tuple):
-        raise Inexpressible("the cycles are not known before the run", node.span)
+        raise Inexpressible("the cycles are not known before the run")
     cycles = [_cycle(ctx, each) for each in given]
     body = ctx.scenario.body
     has_end = node.duration is not None or bool(node.until)
@@ -84,11 +85,9 @@ def _play_cycles(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[G
     is_alone = not any(_switches(other) for other in ir.walk_behaviors(body) if other is not node)
     if not (spans_run and is_supported) and lasting is not None and not node.until and is_alone:
         return tuple(each for cycle in cycles for each in _written_out(ctx, cycle, lasting))
-    ctx.require_support(CONTROLLER, node.span)
+    ctx.require_support(CONTROLLER)
     if not spans_run:
-        ctx.report.approximate(
-            f"action {node.action}",
-            node.span,
+        arguments.approximate(
             "controllers of the XML play their cycles from the start of the run to its end",
             "phases and their lengths are exact; the lights also change before and after",
         )

@@ -10,7 +10,8 @@ from collections.abc import Mapping
 from typing import TypeAlias
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import Arguments
+from osc2tx.backends.xosc.actions.arguments import Arguments
+from osc2tx.backends.xosc.actions.leaf import Globals
 from osc2tx.backends.xosc.actions.registry import global_action
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.maps import Roads
@@ -31,9 +32,7 @@ States: TypeAlias = tuple[str, ...]
 
 
 @global_action("set_semantic_state", "set_group_semantic_state")
-def _set_meaning(
-    ctx: Context, node: ir.Invoke, arguments: Arguments
-) -> tuple[xml.GlobalAction, ...]:
+def _set_meaning(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     meaning = arguments.member("state", "off")
     actions = []
     for signal in _addressed(ctx, node, arguments):
@@ -44,14 +43,14 @@ def _set_meaning(
 
 
 @global_action("set_state", "set_group_state")
-def _set_state(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[xml.GlobalAction, ...]:
+def _set_state(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     given = arguments.get("state")
     signals = _addressed(ctx, node, arguments)
     return tuple(switch(ctx, signal, states_of(ctx, given, signal)) for signal in signals)
 
 
 @global_action("set_bulb_state", "set_group_bulb_state")
-def _set_lamp(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[xml.GlobalAction, ...]:
+def _set_lamp(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     color = arguments.member("bulb_color", "unknown")
     icon = arguments.member("bulb_kind", "unknown")
     wanted = arguments.member("bulb_state", OFF)
@@ -75,10 +74,7 @@ def switch(ctx: Context, signal: str, states: States) -> xml.GlobalAction:
     """Return the action that lets a light show something, and note that it does."""
     ctx.lamps[signal] = states
     return infrastructure(
-        xml.TrafficSignalStateAction(
-            name=_name(ctx, signal),
-            state=state_text(ctx, signal, states),
-        )
+        xml.TrafficSignalStateAction(name=_name(ctx, signal), state=state_text(ctx, signal, states))
     )
 
 
@@ -126,9 +122,7 @@ def shows(ctx: Context, call: ir.MethodCall) -> tuple[xml.ConditionPart, ...]:
     signals = lights_of_group(ctx, owner) if is_group else (_map_id(ctx, owner),)
     texts = [(signal, state_text(ctx, signal, states_of(ctx, given, signal))) for signal in signals]
     return tuple(
-        xml.ByValueCondition(
-            xml.TrafficSignalCondition(name=_name(ctx, signal), state=text),
-        )
+        xml.ByValueCondition(xml.TrafficSignalCondition(name=_name(ctx, signal), state=text))
         for signal, text in texts
     )
 
@@ -139,7 +133,7 @@ def shows(ctx: Context, call: ir.MethodCall) -> tuple[xml.ConditionPart, ...]:
 def _addressed(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[str, ...]:
     """Return the lights that an action mentions."""
     if arguments.get("sync"):
-        raise Inexpressible("a switch in step with a cycle", node.span)
+        raise Inexpressible("a switch in step with a cycle")
     light = arguments.get("traffic_light")
     if light is not None:
         signal = _map_id(ctx, light)

@@ -19,11 +19,7 @@ def speed_action(
     """Return a `SpeedAction` to an absolute speed."""
     return longitudinal(
         xml.SpeedAction(
-            xml.SpeedActionDynamics(
-                dynamicsShape=shape,
-                dynamicsDimension=dimension,
-                value=value,
-            ),
+            xml.SpeedActionDynamics(dynamicsShape=shape, dynamicsDimension=dimension, value=value),
             xml.SpeedActionTarget(xml.AbsoluteTargetSpeed(value=target)),
         )
     )
@@ -51,17 +47,10 @@ def relative_speed(
         length: That length: seconds, or m/s^2 for a rate.
     """
     goal = xml.RelativeTargetSpeed(
-        entityRef=reference,
-        value=value,
-        speedTargetValueType=kind,
-        continuous=continuous,
+        entityRef=reference, value=value, speedTargetValueType=kind, continuous=continuous
     )
     action = xml.SpeedAction(
-        xml.SpeedActionDynamics(
-            dynamicsShape=shape,
-            dynamicsDimension=dimension,
-            value=length,
-        ),
+        xml.SpeedActionDynamics(dynamicsShape=shape, dynamicsDimension=dimension, value=length),
         xml.SpeedActionTarget(goal),
     )
     return longitudinal(action)
@@ -104,9 +93,7 @@ def in_steps(leaf: Leaf, performance: Performance) -> tuple[xml.ActionPart, ...]
     length = course.duration / max(count, 1)
     if count < 2 or length <= 2.0 * TICK:
         return ()
-    leaf.ctx.report.approximate(
-        leaf.construct,
-        leaf.node.span,
+    leaf.approximate(
         f"{leaf.ctx.profile.name} takes up a speed at once, so it changes in {count} steps",
         "off by the way that each of them takes, more where throttle and brakes are not enough",
         GENERIC,

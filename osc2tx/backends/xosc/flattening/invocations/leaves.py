@@ -5,7 +5,8 @@ from __future__ import annotations
 from math import inf
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Global, Later, Leaf, Performance
+from osc2tx.backends.xosc.actions.arguments import Arguments
+from osc2tx.backends.xosc.actions.leaf import Change, Globals, Later, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, WITHOUT_FORM
 from osc2tx.backends.xosc.actions.signals.vehicle_lights import followed_lights
 from osc2tx.backends.xosc.actions.speed.speed_elements import in_steps
@@ -19,8 +20,8 @@ from osc2tx.backends.xosc.flattening.storyboard.builder import (
     StoryboardBuilder,
     construct_of,
 )
-from osc2tx.backends.xosc.flattening.storyboard.member_names import event_name
 from osc2tx.backends.xosc.flattening.tree_queries import entry_of, is_first
+from osc2tx.backends.xosc.names import event_name
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL
 from osc2tx.xosc import elements as xml
@@ -151,9 +152,9 @@ def _is_over(change: Change, lasting: float | None) -> bool:
 def _invoke_global(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     """Write down an action that concerns no entity; at the very start it goes to `Init`."""
     ctx, entry = builder.ctx, entry_of(node)
-    actions: tuple[Global | Later, ...] = ()
+    actions: Globals = ()
     with ctx.report_as(construct_of(node), node.span):
-        arguments = Arguments(ctx, node.arguments, node)
+        arguments = Arguments(ctx, node)
         perform = global_command if entry is None else GLOBAL_ACTIONS[node.action]
         actions = perform(ctx, node, arguments)
         arguments.finish()
@@ -171,9 +172,7 @@ def _invoke_global(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> 
     return builder.mark_end(node, builder.limit(node, start))
 
 
-def _act_globally(
-    builder: StoryboardBuilder, name: str, actions: tuple[Global | Later, ...], start: Flow
-) -> Flow:
+def _act_globally(builder: StoryboardBuilder, name: str, actions: Globals, start: Flow) -> Flow:
     """Add an event for actions that concern no entity; return when they are done."""
     ctx = builder.ctx
     at_once = tuple(action for action in actions if not isinstance(action, Later))
