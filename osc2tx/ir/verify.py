@@ -244,11 +244,6 @@ def condition_expressions(condition: Condition) -> tuple[Expression, ...]:
             return (period,) if offset is None else (period, offset)
 
 
-def invocations(root: Behavior) -> Iterator[Invoke]:
-    """Yield the invocations of actions in a behavior, in source order."""
-    return (node for node in walk_behaviors(root) if isinstance(node, Invoke))
-
-
 def walk_behaviors(root: Behavior) -> tuple[Behavior, ...]:
     """Return a behavior and everything below it in source order, without recursion."""
     found: list[Behavior] = []

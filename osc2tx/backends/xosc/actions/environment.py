@@ -15,7 +15,6 @@ from osc2tx.backends.xosc.actions.leaf import Globals
 from osc2tx.backends.xosc.actions.registry import global_action
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.actors import ADHESION, road_condition
-from osc2tx.backends.xosc.flattening.tree_queries import actors_of, is_first, runs_beside
 from osc2tx.backends.xosc.names import event_name
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Constant, MethodResult
@@ -244,7 +243,7 @@ def _stated_again(ctx: Context, source: ir.Invoke | ir.Actor) -> xml.TimeOfDay:
     clock = time_of_day(ctx)
     if clock is None:
         return xml.TimeOfDay(animation=False, dateTime=NOON)
-    if isinstance(source, ir.Invoke) and not is_first(ctx.scenario.body, source):
+    if isinstance(source, ir.Invoke) and not ir.is_first(ctx.scenario.body, source):
         ctx.report.approximate(
             f"action {source.action}",
             source.span,
@@ -268,15 +267,15 @@ def _road(ctx: Context, source: ir.Invoke | ir.Actor) -> xml.RoadCondition | Non
     if adhesion is not None:
         is_new = ctx.weather.get("adhesion") != adhesion
         ctx.weather["adhesion"] = adhesion
-        if is_new and isinstance(source, ir.Invoke) and not is_first(ctx.scenario.body, source):
+        if is_new and isinstance(source, ir.Invoke) and not ir.is_first(ctx.scenario.body, source):
             _report_lost_grip(ctx, source, adhesion)
     return xml.RoadCondition(frictionScaleFactor=1.0 if adhesion is None else adhesion)
 
 
 def _report_lost_grip(ctx: Context, source: ir.Invoke, adhesion: float) -> None:
     """Report that vehicles lose grip amid an action: the XML does not define the rest of it."""
-    beside = runs_beside(ctx.scenario.body, source)
-    names = {name for member in beside for name in actors_of(member)}
+    beside = ir.runs_beside(ctx.scenario.body, source)
+    names = {name for member in beside for name in ir.actors_of(member)}
     if any(name in ctx.cast and not ctx.cast[name].walks for name in names):
         ctx.report.approximate(
             f"action {source.action}",

@@ -10,12 +10,12 @@ from collections.abc import Mapping, Sequence
 from math import floor, prod
 from typing import TypeAlias
 
-from osc2tx.backends.xosc.logical.comparison import Place, story_of, with_texts
 from osc2tx.backends.xosc.logical.parameters import STEPS, OpenParameter, declared, value_text
 from osc2tx.backends.xosc.logical.sampling import Domain, Row
 from osc2tx.backends.xosc.names import Names
 from osc2tx.options import XmlVersion
 from osc2tx.xosc import elements as xml
+from osc2tx.xosc.comparison import Place, story_of, with_texts
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.literals import ParameterType
 from osc2tx.xosc.schema import ROOT_TYPE, element_type

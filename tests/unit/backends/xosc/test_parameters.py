@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from osc2tx.backends.xosc.logical.comparison import evaluated
+from osc2tx.xosc.comparison import evaluated
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions, XmlOptions, XmlVersion
 from osc2tx.xosc.expressions import Symbol

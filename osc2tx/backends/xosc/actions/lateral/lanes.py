@@ -7,14 +7,13 @@ import math
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.lateral.slow_shifts import note_slow
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
-from osc2tx.backends.xosc.actions.position.other_actors import lane_of
 from osc2tx.backends.xosc.actions.registry import action, to_goal
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.facts.actors import Linear, Pace, Profile, apart, course_of_shift, fastest
 from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import LanePosition, is_oncoming, number_of_oncoming
-from osc2tx.backends.xosc.flattening.tree_queries import runs_beside
+from osc2tx.backends.xosc.flattening.tree_queries import shifts_beside
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres
 from osc2tx.backends.xosc.state import LATERAL, ActorState, known
 from osc2tx.xosc import elements as xml
@@ -254,9 +253,22 @@ def lanes_to(leaf: Leaf, reference: CastMember, lanes: int) -> int | None:
     return between - lanes if roads.are_opposed(mine, theirs) else between + lanes
 
 
+def lane_of(leaf: Leaf, other: CastMember) -> LanePosition | None:
+    """Return the lane in which another actor is at that time; `None` if only the run shows it.
+
+    Members beside one another are written down one after the other: what the state of an actor is
+    then may be that before or after what such a member does.
+    """
+    if leaf.is_start:
+        return leaf.ctx.at_start[other.name].lane
+    if shifts_beside(leaf.ctx.scenario.body, leaf.node, other.actor.name):
+        return None
+    return leaf.ctx.states[other.name].lane
+
+
 def _may_change_lanes(leaf: Leaf, actor: str) -> bool:
     """Return whether an actor may go to another lane while an invocation runs."""
-    beside = runs_beside(leaf.ctx.scenario.body, leaf.node)
+    beside = ir.runs_beside(leaf.ctx.scenario.body, leaf.node)
     return any(_leaves_lane(node, actor) for each in beside for node in ir.invocations(each))
 
 

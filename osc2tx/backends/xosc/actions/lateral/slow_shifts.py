@@ -12,7 +12,6 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import Leaf
 from osc2tx.backends.xosc.facts.actors import SIDEWAYS, TOP_SPEED, Profile, fastest
-from osc2tx.backends.xosc.flattening.tree_queries import runs_beside
 from osc2tx.backends.xosc.report import Inexpressible
 
 PACING = ("assign_speed", "change_speed", "drive", "move", "remain_stationary")
@@ -46,7 +45,7 @@ def _beside(leaf: Leaf) -> Iterator[float]:
     name = leaf.node.actor_name
     if name is None:
         return
-    for member in runs_beside(leaf.ctx.scope.scenario.body, leaf.node, (ir.Parallel,)):
+    for member in ir.runs_beside(leaf.ctx.scope.scenario.body, leaf.node, (ir.Parallel,)):
         for node in ir.invocations(member):
             if node.actor_name == name and node.action in PACING:
                 yield from _goals(leaf, node)

@@ -10,12 +10,12 @@ import math
 from collections.abc import Sequence
 from itertools import pairwise
 
+from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Leaf
 from osc2tx.backends.xosc.actions.position.points_and_lines import Line
 from osc2tx.backends.xosc.facts.actors import CRUISE, Linear, Pace, apart, course_of_shift
 from osc2tx.backends.xosc.facts.curves import Waypoint, off_the_line
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
-from osc2tx.backends.xosc.flattening.tree_queries import is_first, is_last, predecessor
 from osc2tx.backends.xosc.report import Metres, Remedy
 
 NEAR = 0.05
@@ -143,8 +143,8 @@ def _place(leaf: Leaf) -> Pose | None:
         return state.pose
     if leaf.is_start:
         return ctx.roads.pose(start.lane)
-    before = predecessor(ctx.scenario.body, leaf.node)
-    if before is None or before.duration is None or not is_first(ctx.scenario.body, before):
+    before = ir.predecessor(ctx.scenario.body, leaf.node)
+    if before is None or before.duration is None or not ir.is_first(ctx.scenario.body, before):
         return None
     speed = state.known_speed
     if speed is None or state.speed != start.speed or state.offset != start.offset:
@@ -174,7 +174,7 @@ def note_slant(
     drift = abs(speed * math.sin(heading))
     course = course_of_shift(0.0, Pace(), leaf.limits, drift)
     off = apart(course, Linear(0.0, 0.0, course.duration)) if course.duration > 0.0 else 0.0
-    if off <= NEAR or leaf.member.walks or is_last(leaf.ctx.scenario.body, leaf.node):
+    if off <= NEAR or leaf.member.walks or ir.is_last(leaf.ctx.scenario.body, leaf.node):
         return 0.0
     leaf.approximate(
         "at its end it is on a slant, and its speed across the lane runs out; in the XML it stops",

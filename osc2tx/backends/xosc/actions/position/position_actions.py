@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from osc2tx.backends.xosc.actions.arguments import Arguments, Call
+from osc2tx.backends.xosc.actions.lateral.lanes import lane_of
 from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance
-from osc2tx.backends.xosc.actions.position.other_actors import lane_of
 from osc2tx.backends.xosc.actions.position.path_steering import note_steering
 from osc2tx.backends.xosc.actions.position.paths import follow
 from osc2tx.backends.xosc.actions.position.points_and_lines import Line, xml_position

@@ -24,7 +24,6 @@ from osc2tx.backends.xosc.actions.signals.traffic_lights import (
     switch,
 )
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.flattening.tree_queries import is_first, is_last
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Named
 from osc2tx.xosc import elements as xml
@@ -79,7 +78,7 @@ def _play_cycles(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals
     cycles = [_cycle(ctx, each) for each in given]
     body = ctx.scenario.body
     has_end = node.duration is not None or bool(node.until)
-    spans_run = is_first(body, node) and (not has_end or is_last(body, node))
+    spans_run = ir.is_first(body, node) and (not has_end or ir.is_last(body, node))
     is_supported = ctx.can(CONTROLLER, "1.0")
     lasting = None if node.duration is None else ctx.values.number(node.duration)
     is_alone = not any(_switches(other) for other in ir.walk_behaviors(body) if other is not node)

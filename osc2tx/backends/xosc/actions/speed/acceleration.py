@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from osc2tx import ir
 from osc2tx.backends.xosc.actions.arguments import Call
 from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance, Uneven
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, modifier, to_goal
@@ -24,7 +25,6 @@ from osc2tx.backends.xosc.facts.actors import (
     course_of_acceleration,
     way_between,
 )
-from osc2tx.backends.xosc.flattening.tree_queries import follower
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
 from osc2tx.xosc import elements as xml
@@ -34,7 +34,7 @@ from osc2tx_shared.classes import dataclass, replace
 @action("assign_acceleration")
 def _assign_acceleration(leaf: Leaf) -> Performance:
     rate = leaf.arguments.required("acceleration", "no acceleration is stated")
-    after = follower(leaf.ctx.scenario.body, leaf.node)
+    after = ir.follower(leaf.ctx.scenario.body, leaf.node)
     if after is None or after.action != "keep_acceleration":
         raise Inexpressible(
             "the XML has no acceleration, only changes of the speed: `keep_acceleration` has to"

@@ -9,12 +9,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import inf
 
+from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.speed.speed_elements import longitudinal, relative_speed
 from osc2tx.backends.xosc.actions.speed.speed_notes import steady_speed
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
-from osc2tx.backends.xosc.flattening.tree_queries import predecessor
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
 from osc2tx.xosc import elements as xml
@@ -224,7 +224,7 @@ def _require_side(leaf: Leaf, gap: Gap) -> None:
 
 def _side_at_start(leaf: Leaf, gap: Gap) -> str | None:
     """Return the side on which an actor is, where nothing has changed it since the start."""
-    before = predecessor(leaf.ctx.scenario.body, leaf.node)
+    before = ir.predecessor(leaf.ctx.scenario.body, leaf.node)
     if before is not None and before.action.startswith(("change_space_", "change_time_")):
         return gap.side if leaf.node.action.startswith("keep_") else None
     if not leaf.is_start or gap.is_lateral:

@@ -13,7 +13,6 @@ from osc2tx.backends.xosc.actions.leaf import Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
 from osc2tx.backends.xosc.actions.speed.gap_elements import ACROSS, ALONG, Gap, reach
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.flattening.tree_queries import predecessor
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_shared.classes import replace
 
@@ -75,7 +74,7 @@ def _reached_before(
     leaf: Leaf, reference: CastMember, direction: str, is_time: bool, is_headway: bool
 ) -> Gap | None:
     """Return the gap that the invocation before has made."""
-    before = predecessor(leaf.ctx.scenario.body, leaf.node)
+    before = ir.predecessor(leaf.ctx.scenario.body, leaf.node)
     if before is None or not before.action.startswith(("change_space_", "change_time_")):
         return None
     if before.until or before.actor is None:

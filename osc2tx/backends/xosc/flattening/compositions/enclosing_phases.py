@@ -63,8 +63,7 @@ def _around(body: ir.Behavior, node: ir.Invoke) -> Sequence[ir.Composition]:
     return [
         each
         for each in ir.walk_behaviors(body)
-        if isinstance(each, compositions)
-        and any(inner is node for inner in ir.walk_behaviors(each))
+        if isinstance(each, compositions) and ir.holds(each, node)
     ]
 
 

@@ -20,7 +20,7 @@ from osc2tx.backends.xosc.flattening.storyboard.builder import (
     StoryboardBuilder,
     construct_of,
 )
-from osc2tx.backends.xosc.flattening.tree_queries import entry_of, is_first
+from osc2tx.backends.xosc.flattening.tree_queries import entry_of
 from osc2tx.backends.xosc.names import event_name
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL
@@ -46,7 +46,7 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     if node.until or overriding or node.duration is not None or is_measured:
         start = builder.latched(start, builder.name_of(node))
     name = ctx.names.new(event_name(ctx.scope.deeds, node, member.name))
-    is_start = start == RUN_START or is_first(ctx.scenario.body, node)
+    is_start = start == RUN_START or ir.is_first(ctx.scenario.body, node)
     leaf = Leaf(ctx, node, member, name, is_start=is_start, time_left=time_left(ctx, node))
     ctx.present.add(member.name)
     performance = Performance((), "instant")

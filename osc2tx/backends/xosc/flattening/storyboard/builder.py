@@ -9,7 +9,7 @@ from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Test, run_start, s
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.events.events import EventTable
 from osc2tx.backends.xosc.flattening.storyboard.storyboard import ACTION, Act, Event
-from osc2tx.backends.xosc.flattening.tree_queries import actors_of, claims
+from osc2tx.backends.xosc.flattening.tree_queries import claims
 from osc2tx.backends.xosc.names import member_name
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LATERAL, ActorState, merged
@@ -273,7 +273,7 @@ class StoryboardBuilder:
     def acting(self, member: ir.Behavior) -> list[str]:
         """Return the entities that act in a member, in source order."""
         cast = self.ctx.cast
-        found = [cast[name].name for name in actors_of(member) if name in cast]
+        found = [cast[name].name for name in ir.actors_of(member) if name in cast]
         for node in ir.walk_behaviors(member):
             if isinstance(node, ir.InvokeScenario):
                 with self.ctx.within(self.ctx.scope.of(node)):
