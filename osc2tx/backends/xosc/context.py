@@ -166,7 +166,7 @@ class Context:
     def _map_file(self) -> str | None:
         for declaration in self.scenario.declarations:
             if isinstance(declaration, ir.Actor) and "map" in declaration.lineage:
-                value = self.values.field(declaration.name, ("map_file",))
+                value = self.values.field(declaration.name, "map_file")
                 if isinstance(value, str):
                     return value
         for placement in self.scenario.placements:

@@ -101,8 +101,8 @@ class Arguments:
             return Pace(), None
         if not isinstance(shape, Named) or not values.is_library_shape(shape.name):
             raise Inexpressible("a user-defined shape is computed during the run")
-        profile = values.field(shape.name, ("rate_profile",))
-        peak, target = (values.field(shape.name, (name,)) for name in ("rate_peak", "target"))
+        profile = values.field(shape.name, "rate_profile")
+        peak, target = (values.field(shape.name, name) for name in ("rate_peak", "target"))
         pace = Pace(
             profile.name if isinstance(profile, Member) else "none",
             float(peak) if isinstance(peak, (int, float)) else None,

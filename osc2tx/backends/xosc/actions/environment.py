@@ -17,7 +17,7 @@ from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.actors import ADHESION, road_condition
 from osc2tx.backends.xosc.names import event_name
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
-from osc2tx.backends.xosc.values.constants import Constant, MethodResult
+from osc2tx.backends.xosc.values.constants import Constant, MethodResult, as_number
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import CloudState, FractionalCloudCover, PrecipitationType
 
@@ -307,7 +307,7 @@ def time_of_day(ctx: Context) -> xml.TimeOfDay | None:
     text, for there are tools that cannot read them.
     """
     for actor in environments(ctx):
-        date = _date(ctx.values.field(actor.name, ("datetime",)))
+        date = _date(ctx.values.field(actor.name, "datetime"))
         if date is not None:
             return xml.TimeOfDay(animation=True, dateTime=date.isoformat())
     return None
@@ -330,6 +330,7 @@ def _date(given: Constant | None) -> datetime | None:
 
 
 def _number(value: Constant | None) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
+    number = as_number(value)
+    if number is None:
         raise Inexpressible("the date is only known during the run")
-    return float(value)
+    return number

@@ -146,13 +146,6 @@ class Leaf:
         self.uneven: Uneven | None = None
         self.others: list[tuple[CastMember, xml.ActionPart, str]] = []
 
-    def on_me(self, condition: xml.EntityConditionPart) -> xml.ByEntityCondition:
-        """Return a condition on the actor."""
-        me = xml.EntityRef(entityRef=self.member.name)
-        return xml.ByEntityCondition(
-            xml.TriggeringEntities(me, triggeringEntitiesRule="any"), xml.EntityCondition(condition)
-        )
-
     @property
     def limits(self) -> Limits:
         """What the actor can do on roads that the weather has wetted."""

@@ -22,7 +22,7 @@ DEFAULT = "steady_driver"
 
 def check_model(ctx: Context, member: CastMember) -> None:
     """Refuse an entity that starts with another model than the default one."""
-    name = ctx.values.field(member.actor.name, ("initial_bm", "bm_engine", "name"))
+    name = ctx.values.field(member.actor.name, "initial_bm", "bm_engine", "name")
     if name not in (None, DEFAULT):
         raise no_model(f"what a `{name}` does", member.actor.span)
 

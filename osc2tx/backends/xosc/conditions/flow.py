@@ -125,7 +125,7 @@ class Flow:
         return all_of((self, other))
 
     def __or__(self, other: Flow) -> Flow:
-        return Flow(tuple(dict.fromkeys((*self.groups, *other.groups))))
+        return any_of((self, other))
 
 
 NEVER = Flow(())
@@ -152,6 +152,11 @@ def all_of(flows: Sequence[Flow]) -> Flow:
         )
     choices = product(*(flow.groups for flow in flows))
     return Flow(tuple(_without_implied(chain.from_iterable(groups)) for groups in choices))
+
+
+def any_of(flows: Iterable[Flow]) -> Flow:
+    """Return when one of the flows is true."""
+    return Flow(tuple(dict.fromkeys(group for flow in flows for group in flow.groups)))
 
 
 def _without_implied(tests: Iterable[Test]) -> Group:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from osc2tx.backends.xosc.actions.position.xml_positions import relative_lane
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.start_lanes import (
@@ -84,14 +85,8 @@ def _relative(
     ctx: Context, start: Start, said: Said, lanes: int, mine: LanePosition | None
 ) -> tuple[xml.PositionPart, ActorState]:
     offset = lateral_of(ctx, start, mine)
-    distance = {"ds" if ctx.version == "1.0" else "dsLane": said.along}
-    position = xml.RelativeLanePosition(
-        orientation_in_lane(ctx, start, mine),
-        entityRef=said.reference.name,
-        dLane=lanes,
-        **distance,
-        offset=offset,
-    )
+    turn = orientation_in_lane(ctx, start, mine)
+    position = relative_lane(ctx, said.reference.name, lanes, said.along, offset, turn)
     return position, ActorState(speed=known(0.0), offset=known(offset), lane=mine)
 
 

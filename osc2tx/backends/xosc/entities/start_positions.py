@@ -21,7 +21,7 @@ from osc2tx.backends.xosc.facts.start_places import (
 )
 from osc2tx.backends.xosc.report import Inexpressible, NoPlace
 from osc2tx.backends.xosc.state import ActorState
-from osc2tx.backends.xosc.values.constants import Constant, Named
+from osc2tx.backends.xosc.values.constants import Constant, Named, as_number
 from osc2tx.xosc import elements as xml
 
 at_start("location", "position", "along", "lane", "lateral", "on_path")
@@ -81,10 +81,7 @@ def _at_pose(
 
 
 def _part(ctx: Context, owner: str, path: tuple[str, ...]) -> float | None:
-    value = ctx.values.field(owner, path)
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return None
-    return float(value)
+    return as_number(ctx.values.field(owner, *path))
 
 
 def _at_point(

@@ -12,7 +12,7 @@ from functools import partial
 from typing import assert_never
 
 from osc2tx import ir
-from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, all_of, are_few, chosen
+from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, all_of, any_of, are_few, chosen
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.compositions.durations import Role, end_within_duration
 from osc2tx.backends.xosc.flattening.compositions.overridden_members import unless_active
@@ -188,11 +188,8 @@ class Flattener:
                 ends[mark] = self._builder.keep(mark, end) if races else end
         for act in acts:  # the first one stops the others
             act.stops.extend(mark for mark in ends if mark not in act.stops)
-        end = NEVER
-        for each in ends.values():
-            end = end | each
         self._ctx.report.exact("one_of", node.span)
-        return end
+        return any_of(ends.values())
 
     def _choice(self, node: ir.OneOf, start: Flow) -> Flow:
         """Flatten members of which a parameter of the document chooses one for each run."""

@@ -21,7 +21,7 @@ from osc2tx.backends.xosc.actions.position.points_and_lines import (
     line_of_route,
     relative_line,
 )
-from osc2tx.backends.xosc.actions.position.xml_positions import at_place
+from osc2tx.backends.xosc.actions.position.xml_positions import at_place, relative_lane
 from osc2tx.backends.xosc.actions.registry import action, modifier, to_goal
 from osc2tx.backends.xosc.actions.speed.speed_changes import may_jump
 from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment_of
@@ -88,8 +88,8 @@ def _along_segment(leaf: Leaf, segment: MapSegment, offsets: tuple[float, float]
         raise Inexpressible("a route of the map that is left before its end", leaf.node.span)
     action, goal = assign_route(leaf, segment)
     if leaf.duration is None:
-        there = at_place(leaf.ctx, lane_position(goal), goal, leaf.construct, leaf.node.span)
-        leaf.reached = tuple(map(leaf.on_me, there))
+        there = lane_position(goal)
+        leaf.reached = at_place(leaf.ctx, leaf.arguments, leaf.member.name, there, goal)
     after = replace(leaf.state, lane=None).finished(LATERAL)
     return (Change(LATERAL, (action,), None, after, after),)
 
@@ -216,15 +216,7 @@ def _road_relative(leaf: Leaf, reference: str, point: Waypoint) -> xml.RelativeR
 
 
 def _lane_relative(leaf: Leaf, reference: str, point: Waypoint) -> xml.RelativeLanePosition:
-    along = round(point.x, 6)
-    newer = leaf.ctx.version >= "1.1"
-    return xml.RelativeLanePosition(
-        entityRef=reference,
-        dLane=0,
-        dsLane=along if newer else None,
-        ds=None if newer else along,
-        offset=round(point.y, 6),
-    )
+    return relative_lane(leaf.ctx, reference, 0, round(point.x, 6), round(point.y, 6))
 
 
 _FRAMES: Mapping[str, Callable[[Leaf, str, Waypoint], xml.PositionPart]] = {

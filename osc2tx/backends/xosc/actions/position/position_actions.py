@@ -13,6 +13,7 @@ from osc2tx.backends.xosc.actions.position.points_and_lines import Line, xml_pos
 from osc2tx.backends.xosc.actions.position.xml_positions import (
     XmlPosition,
     at_place,
+    relative_lane,
     world_position,
 )
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
@@ -103,19 +104,12 @@ def beside(
     """Return the place so many lanes to the left of another actor and so far ahead of it (m)."""
     ctx = leaf.ctx
     lane = lane_of(leaf, reference)
-    newer = ctx.version >= "1.1"
-    if not newer and (lane is None or lane.lane > 0):
+    if ctx.version == "1.0" and (lane is None or lane.lane > 0):
         raise Inexpressible(
             "OpenSCENARIO XML 1.0 counts along the road, not in the direction of travel",
             remedy=Remedy(version="1.1"),
         )
-    return xml.RelativeLanePosition(
-        entityRef=reference.name,
-        dLane=lanes,
-        dsLane=along if newer else None,
-        ds=None if newer else along,
-        offset=offset,
-    )
+    return relative_lane(ctx, reference.name, lanes, along, offset)
 
 
 def _teleport(leaf: Leaf, place: xml.PositionPart) -> xml.PrivateAction:
@@ -134,7 +128,7 @@ def _assign_orientation(leaf: Leaf) -> Performance:
         raise Inexpressible("a vehicle follows its lane, whatever its orientation")
     angles = {}
     for attribute, name in (("h", "yaw"), ("p", "pitch"), ("r", "roll")):
-        value = ctx.values.field(given.name, (name,))
+        value = ctx.values.field(given.name, name)
         angles[attribute] = float(value) if isinstance(value, (int, float)) else 0.0
     h, pose = round(angles["h"], 9), leaf.state.pose
     place: xml.PositionPart
@@ -180,8 +174,8 @@ def _acquire(leaf: Leaf, target: XmlPosition) -> Performance:
     acquire = xml.RoutingAction(xml.AcquirePositionAction(position))
     after = replace(state, lane=target.lane, offset=known(0.0)).finished(LATERAL)
     change = Change(LATERAL, (xml.PrivateAction(acquire),), None, replace(state, lane=None), after)
-    there = at_place(leaf.ctx, target.element, target.lane, leaf.construct, leaf.node.span)
-    reached = tuple(map(leaf.on_me, there))
+    name = leaf.member.name
+    reached = at_place(leaf.ctx, leaf.arguments, name, target.element, target.lane)
     return to_goal(leaf, change, reached=reached)
 
 

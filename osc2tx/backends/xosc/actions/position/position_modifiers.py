@@ -5,7 +5,7 @@ from __future__ import annotations
 from osc2tx.backends.xosc.actions.arguments import Call
 from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf
 from osc2tx.backends.xosc.actions.position.points_and_lines import xml_position
-from osc2tx.backends.xosc.actions.position.xml_positions import at_place
+from osc2tx.backends.xosc.actions.position.xml_positions import at_place, lane_place
 from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed.gap_elements import Gap, hold, missing_at_start
 from osc2tx.backends.xosc.actions.speed.speed_changes import through_points
@@ -19,7 +19,6 @@ from osc2tx.backends.xosc.actions.speed.speed_notes import (
 from osc2tx.backends.xosc.facts.actors import Linear, way_between
 from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
-from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass, replace
 
 
@@ -70,8 +69,7 @@ def _at_point(leaf: Leaf, call: Call) -> Changes:
     call.get("project_on_route")
     if call.at != "end" or leaf.duration is not None:
         raise Inexpressible("a point that is not the end of the way")
-    there = at_place(leaf.ctx, point.element, point.lane, call.construct, call.span)
-    leaf.reached = tuple(map(leaf.on_me, there))
+    leaf.reached = at_place(leaf.ctx, call, leaf.member.name, point.element, point.lane)
     return ()
 
 
@@ -85,14 +83,8 @@ def _along_road(leaf: Leaf, call: Call, distance: float) -> Changes:
     place = roads.from_entry(lane, distance)
     if place is None:
         raise Inexpressible(f"the road ends before {distance:g} m")
-    goal = xml.LanePosition(
-        roadId=place.road,
-        laneId=place.lane,
-        s=round(place.s, 6),
-        offset=round(place.offset * (roads.leftwards(place) or 1), 6) or 0.0,
-    )
-    there = at_place(leaf.ctx, goal, place, call.construct, call.span)
-    leaf.reached = tuple(map(leaf.on_me, there))
+    goal = lane_place(roads, place)
+    leaf.reached = at_place(leaf.ctx, call, leaf.member.name, goal, place)
     return ()
 
 

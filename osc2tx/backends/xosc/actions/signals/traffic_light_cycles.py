@@ -104,21 +104,21 @@ def _switches(node: ir.Behavior) -> bool:
 def _cycle(ctx: Context, cycle: Constant) -> _Cycle:
     if not isinstance(cycle, Named):
         raise Inexpressible("a cycle is not known before the run")
-    phases = ctx.values.field(cycle.name, ("phases",))
+    phases = ctx.values.field(cycle.name, "phases")
     named = [each for each in phases if isinstance(each, Named)] if type(phases) is tuple else []
     if not named:
         raise Inexpressible(f"cycle `{cycle.name}` has no phases")
-    offset = ctx.values.field(cycle.name, ("start_offset",))
+    offset = ctx.values.field(cycle.name, "start_offset")
     late = float(offset) if isinstance(offset, (int, float)) else 0.0
     return _Cycle(cycle.name, tuple(_phase(ctx, phase.name) for phase in named), late)
 
 
 def _phase(ctx: Context, name: str) -> _Phase:
-    duration = ctx.values.field(name, ("duration",))
+    duration = ctx.values.field(name, "duration")
     if not isinstance(duration, (int, float)) or duration <= 0.0:
         raise Inexpressible(f"phase `{name}` has no duration")
-    shown = ctx.values.field(name, ("bulbs_state",))
-    signals = lights_of_group(ctx, ctx.values.field(name, ("group",)))
+    shown = ctx.values.field(name, "bulbs_state")
+    signals = lights_of_group(ctx, ctx.values.field(name, "group"))
     states = tuple((signal, states_of(ctx, shown, signal)) for signal in signals)
     return _Phase(name, float(duration), states)
 

@@ -142,7 +142,7 @@ def _addressed(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[str
 
 
 def _group_of(ctx: Context, light: Constant) -> tuple[str, ...]:
-    group = ctx.values.field(light.name, ("group",)) if isinstance(light, Named) else None
+    group = ctx.values.field(light.name, "group") if isinstance(light, Named) else None
     return (
         roads_of(ctx).group_of(_map_id(ctx, light))
         if group is None
@@ -152,14 +152,14 @@ def _group_of(ctx: Context, light: Constant) -> tuple[str, ...]:
 
 def lights_of_group(ctx: Context, group: Constant | None) -> tuple[str, ...]:
     """Return the ids of the lights of a group."""
-    listed = ctx.values.field(group.name, ("traffic_lights",)) if isinstance(group, Named) else None
+    listed = ctx.values.field(group.name, "traffic_lights") if isinstance(group, Named) else None
     if isinstance(listed, tuple):
         return tuple(_map_id(ctx, light) for light in listed)
     return roads_of(ctx).group(_map_id(ctx, group))
 
 
 def _map_id(ctx: Context, value: Constant | None) -> str:
-    id_ = ctx.values.field(value.name, ("map_id",)) if isinstance(value, Named) else None
+    id_ = ctx.values.field(value.name, "map_id") if isinstance(value, Named) else None
     if not isinstance(id_, str):
         raise Inexpressible("a traffic light without `map_id` is in no map")
     return id_
@@ -180,15 +180,15 @@ def _lamps(ctx: Context, signal: str) -> tuple[tuple[str, str], ...]:
     for declaration in ctx.scenario.declarations:
         if isinstance(declaration, ir.Struct) and declaration.type == "traffic_light":
             light = Named(declaration.name)
-            listed = ctx.values.field(light.name, ("bulbs",))
-            if isinstance(listed, tuple) and ctx.values.field(light.name, ("map_id",)) == signal:
+            listed = ctx.values.field(light.name, "bulbs")
+            if isinstance(listed, tuple) and ctx.values.field(light.name, "map_id") == signal:
                 return tuple(_lamp(ctx, bulb) for bulb in listed)
     return tuple((lamp.color, lamp.icon) for lamp in roads_of(ctx).lamps(signal))
 
 
 def _lamp(ctx: Context, bulb: Constant) -> tuple[str, str]:
     name = bulb.name if isinstance(bulb, Named) else ""
-    color, icon = (ctx.values.field(name, (part,)) for part in ("color", "icon"))
+    color, icon = (ctx.values.field(name, part) for part in ("color", "icon"))
     if not isinstance(color, Member) or not isinstance(icon, Member):
         raise Inexpressible("a lamp needs `color` and `icon`")
     return color.name, icon.name
@@ -212,7 +212,7 @@ def states_of(ctx: Context, given: Constant | None, signal: str) -> States:
 
 
 def _state(ctx: Context, given: Constant) -> str:
-    state = ctx.values.field(given.name, ("state",)) if isinstance(given, Named) else given
+    state = ctx.values.field(given.name, "state") if isinstance(given, Named) else given
     if not isinstance(state, Member):
         raise Inexpressible("the state of a lamp is not known before the run")
     return state.name

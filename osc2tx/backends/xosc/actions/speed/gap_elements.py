@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from math import inf
 
 from osc2tx import ir
+from osc2tx.backends.xosc.actions.lateral.lanes import lateral
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.speed.speed_elements import longitudinal, relative_speed
 from osc2tx.backends.xosc.actions.speed.speed_notes import steady_speed
@@ -262,12 +263,8 @@ def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None)
         coordinateSystem="road" if newer else None,
     )
     after = replace(leaf.state, offset=None, lane=None).finished(LATERAL)
-    return Change(LATERAL, (_lateral(action),), inf if keeps else None, after, after)
+    return Change(LATERAL, (lateral(action),), inf if keeps else None, after, after)
 
 
 LATERAL_SPEED = 3.0
 """m/s across the road; the DSL says none."""
-
-
-def _lateral(action: xml.LateralActionPart) -> xml.PrivateAction:
-    return xml.PrivateAction(xml.LateralAction(action))

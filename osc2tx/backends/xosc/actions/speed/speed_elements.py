@@ -17,12 +17,7 @@ def speed_action(
     target: float, shape: DynamicsShape, dimension: DynamicsDimension, value: float
 ) -> xml.PrivateAction:
     """Return a `SpeedAction` to an absolute speed."""
-    return longitudinal(
-        xml.SpeedAction(
-            xml.SpeedActionDynamics(dynamicsShape=shape, dynamicsDimension=dimension, value=value),
-            xml.SpeedActionTarget(xml.AbsoluteTargetSpeed(value=target)),
-        )
-    )
+    return _speed_action(xml.AbsoluteTargetSpeed(value=target), shape, dimension, value)
 
 
 def relative_speed(
@@ -49,11 +44,19 @@ def relative_speed(
     goal = xml.RelativeTargetSpeed(
         entityRef=reference, value=value, speedTargetValueType=kind, continuous=continuous
     )
-    action = xml.SpeedAction(
-        xml.SpeedActionDynamics(dynamicsShape=shape, dynamicsDimension=dimension, value=length),
-        xml.SpeedActionTarget(goal),
+    return _speed_action(goal, shape, dimension, length)
+
+
+def _speed_action(
+    goal: xml.SpeedActionTargetPart,
+    shape: DynamicsShape,
+    dimension: DynamicsDimension,
+    value: float,
+) -> xml.PrivateAction:
+    dynamics = xml.SpeedActionDynamics(
+        dynamicsShape=shape, dynamicsDimension=dimension, value=value
     )
-    return longitudinal(action)
+    return longitudinal(xml.SpeedAction(dynamics, xml.SpeedActionTarget(goal)))
 
 
 def hold_speed(entity: str) -> xml.PrivateAction:

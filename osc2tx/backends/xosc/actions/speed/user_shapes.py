@@ -16,6 +16,7 @@ from osc2tx.backends.xosc.actions.speed.speed_changes import through_points
 from osc2tx.backends.xosc.actions.speed.speed_notes import PROFILE_ACTION
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
+from osc2tx.backends.xosc.values.constants import as_number
 from osc2tx_shared.classes import dataclass, replace
 
 NEAR = 0.02
@@ -129,7 +130,7 @@ def _number(leaf: Leaf, shape: ir.UserShape, name: str, *given: float) -> float:
     method = next(method for method in scenario.methods if method.name == name)
     arguments = (values.of(shape.operand), *given)
     names = (parameter.name for parameter in method.parameters)
-    value = values.result_of(method, dict(zip(names, arguments, strict=False)))
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
+    value = as_number(values.result_of(method, dict(zip(names, arguments, strict=False))))
+    if value is None:
         raise Inexpressible(f"`{name}` gives no number", method.span)
-    return float(value)
+    return value

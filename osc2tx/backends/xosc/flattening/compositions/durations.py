@@ -15,7 +15,6 @@ from osc2tx.backends.xosc.flattening.compositions.parallel_overlaps import is_op
 from osc2tx.backends.xosc.flattening.events.directives import VERDICT
 from osc2tx.backends.xosc.flattening.storyboard.builder import StoryboardBuilder, construct_of
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
-from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 
@@ -35,7 +34,7 @@ def end_within_duration(
     until = builder.until(node, start)
     if node.duration is None:
         return content | until
-    low, high = _bounds(builder, node.duration)
+    low, high = builder.ctx.values.bounds(node.duration)
     builder.ctx.report.exact("duration", node.duration.span)
     if content.is_never:  # it goes on for as long as one likes
         return start.later(low) | until
@@ -75,14 +74,6 @@ def _always_fails(length: float, low: float, high: float) -> str:
     if length < low:
         return f"it is over after {length:g} s, and nothing fills the rest: every run fails"
     return f"it takes {length:g} s, longer than {high:g} s: every run fails"
-
-
-def _bounds(builder: StoryboardBuilder, duration: ir.Expression) -> tuple[float, float]:
-    value = builder.ctx.values.of(duration)
-    if isinstance(value, Bounds):
-        return value.lower, value.upper
-    number = builder.ctx.values.number(duration)
-    return number, number
 
 
 def _length(builder: StoryboardBuilder, node: Timed) -> float | None:

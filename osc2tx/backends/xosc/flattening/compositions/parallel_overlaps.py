@@ -39,13 +39,7 @@ def starts_of(ctx: Context, node: ir.Parallel) -> list[float | None]:
 
 
 def _bounds(ctx: Context, expression: ir.Expression | None) -> tuple[float, float] | None:
-    if expression is None:
-        return None
-    value = ctx.values.of(expression)
-    if isinstance(value, Bounds):
-        return value.lower, value.upper
-    number = ctx.values.number(expression)
-    return number, number
+    return None if expression is None else ctx.values.bounds(expression)
 
 
 def is_open(node: ir.Behavior) -> bool:

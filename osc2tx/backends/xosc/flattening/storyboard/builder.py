@@ -13,7 +13,6 @@ from osc2tx.backends.xosc.flattening.tree_queries import claims
 from osc2tx.backends.xosc.names import member_name
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LATERAL, ActorState, merged
-from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 
@@ -264,9 +263,9 @@ class StoryboardBuilder:
         """Return the duration (s) that is written for a member; of a range the least."""
         if node.duration is None:
             return None
-        value = self.ctx.values.of(node.duration)
+        least, _ = self.ctx.values.bounds(node.duration)
         self.ctx.report.exact("duration", node.duration.span)
-        return value.lower if isinstance(value, Bounds) else self.ctx.values.number(node.duration)
+        return least
 
     # --- actors -----------------------------------------------------------------------------------
 
