@@ -13,11 +13,11 @@ from osc2tx.backends.xosc.entities.relative_starts import beside
 from osc2tx.backends.xosc.entities.start_lanes import at_pose, in_lane, lane_number, turned
 from osc2tx.backends.xosc.entities.start_statements import Start, is_at_point
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
-from osc2tx.backends.xosc.facts.run_options import read_spawn
 from osc2tx.backends.xosc.facts.start_places import (
     TakenBy,
     given_place,
     open_place,
+    read_spawn,
 )
 from osc2tx.backends.xosc.report import Inexpressible, NoPlace
 from osc2tx.backends.xosc.state import ActorState

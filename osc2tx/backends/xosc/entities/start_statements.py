@@ -9,7 +9,7 @@ from osc2tx.backends.xosc.actions.trailers import towing
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import check_declared, check_map, is_map
-from osc2tx.backends.xosc.facts.run_options import read_spawn
+from osc2tx.backends.xosc.facts.start_places import read_spawn
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope
 from osc2tx.diagnostics import Span

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.lateral.slow_shifts import note_slow
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, to_goal
+from osc2tx.backends.xosc.actions.speed.speed_notes import note_slow
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.facts.actors import Linear, Pace, Profile, apart, course_of_shift, fastest

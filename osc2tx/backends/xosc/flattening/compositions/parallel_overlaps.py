@@ -11,7 +11,7 @@ from itertools import product
 
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.facts.run_options import plan_starts
+from osc2tx.backends.xosc.facts.start_places import plan_starts
 from osc2tx.backends.xosc.flattening.tree_queries import claims, entry_of, is_instant
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Bounds

@@ -13,7 +13,7 @@ from osc2tx.backends.xosc.actions.speed.speed_elements import in_steps
 from osc2tx.backends.xosc.actions.speed.speed_notes import note_cut
 from osc2tx.backends.xosc.actions.user_actions import global_command, user_action
 from osc2tx.backends.xosc.conditions.flow import Flow, Test
-from osc2tx.backends.xosc.flattening.compositions.enclosing_phases import time_left
+from osc2tx.backends.xosc.flattening.compositions.durations import time_left
 from osc2tx.backends.xosc.flattening.invocations.action_endings import record_end_state
 from osc2tx.backends.xosc.flattening.storyboard.builder import (
     RUN_START,
