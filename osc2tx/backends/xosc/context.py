@@ -198,6 +198,20 @@ class Context:
                 f"{what} is not in OpenSCENARIO XML {self.version}", span, Remedy(version=since)
             )
 
+    def required_roads(self, what: str, span: Span | None = None, otherwise: str = "") -> Roads:
+        """Return the map.
+
+        Raises:
+            Inexpressible: It is not at hand, though something needs it.
+        """
+        if self.roads is None:
+            raise Inexpressible(
+                f"{what} the map {self.map_file}, which is not at hand: give its folder with"
+                f" --map-path{otherwise}",
+                span,
+            )
+        return self.roads
+
     def require_support(self, feature: str, span: Span | None = None) -> None:
         """Refuse what the tool does not carry out; `feature` as in `ToolProfile.unsupported`.
 

@@ -14,7 +14,7 @@ from osc2tx.backends.xosc.actions.lateral.lateral_offsets import left_of, offset
 from osc2tx.backends.xosc.actions.registry import at_start
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.entities.start_statements import Start
+from osc2tx.backends.xosc.entities.start_statements import Start, StartPlace
 from osc2tx.backends.xosc.facts.actors import (
     ALIGNED,
     Linear,
@@ -30,7 +30,7 @@ from osc2tx.backends.xosc.state import ActorState, known
 from osc2tx.xosc import elements as xml
 
 
-def in_lane(ctx: Context, start: Start, place: LanePosition) -> tuple[xml.PositionPart, ActorState]:
+def in_lane(ctx: Context, start: Start, place: LanePosition) -> StartPlace:
     """Return the place in a lane; where it is across the lane and turned to comes from others.
 
     Who walks is put to the point: tools would take it along the lane, and it goes straight on.
@@ -54,9 +54,7 @@ def in_lane(ctx: Context, start: Start, place: LanePosition) -> tuple[xml.Positi
     return element_, ActorState(speed=known(0.0), offset=known(offset), lane=known_lane)
 
 
-def at_pose(
-    pose: Pose, pitch: float | None, roll: float | None
-) -> tuple[xml.PositionPart, ActorState]:
+def at_pose(pose: Pose, pitch: float | None, roll: float | None) -> StartPlace:
     """Return a point in the world, on a lane or not."""
     position = xml.WorldPosition(
         x=pose.x, y=pose.y, z=pose.z, h=pose.h, p=pitch or None, r=roll or None

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.registry import WITHOUT_FORM
@@ -12,7 +14,9 @@ from osc2tx.backends.xosc.entities.declared_roads import check_declared, check_m
 from osc2tx.backends.xosc.facts.start_places import read_spawn
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope
+from osc2tx.backends.xosc.state import ActorState
 from osc2tx.diagnostics import Span
+from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass, replace
 
 
@@ -61,6 +65,9 @@ class Start:
         """Where its start is said, or the actor declared."""
         return self.member.actor.span if self.placement is None else self.placement.span
 
+
+StartPlace: TypeAlias = tuple[xml.PositionPart, ActorState]
+"""Where an actor starts: the element, and what is known about the actor there."""
 
 RELATIVE = ("same_as", "side_of", "ahead_of", "behind", "relative_to")
 FASTER = {"faster_than": 1.0, "slower_than": -1.0}

@@ -167,12 +167,7 @@ def _map_id(ctx: Context, value: Constant | None) -> str:
 
 def roads_of(ctx: Context) -> Roads:
     """Return the map, which has the lights."""
-    if ctx.roads is None:
-        raise Inexpressible(
-            f"traffic lights need the map {ctx.map_file}, which is not at hand: give its folder"
-            " with --map-path"
-        )
-    return ctx.roads
+    return ctx.required_roads("traffic lights need")
 
 
 def _lamps(ctx: Context, signal: str) -> tuple[tuple[str, str], ...]:
