@@ -157,7 +157,7 @@ class Phase:
         for condition in conditions:
             entry = condition, self._tolerance(condition)
             match condition.at:
-                case "start":
+                case "start" if not condition.is_late:
                     self._check(*entry, now)
                 case "end":
                     self._last.append(entry)
