@@ -72,7 +72,7 @@ compiled: $(STAMP)
 SECONDS ?= 600
 SEED ?= 1
 fuzz: $(STAMP)
-	$(BIN)/python tests/fuzz/run.py --quick --seconds $(SECONDS) --seed $(SEED)
+	$(BIN)/python tests/fuzz/run.py --look quick --seconds $(SECONDS) --seed $(SEED)
 
 lint: $(STAMP)
 	$(BIN)/ruff check .

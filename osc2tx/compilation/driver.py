@@ -242,15 +242,18 @@ class Compilation:
         """Whether a folder of the project or of libraries has a file of this name."""
         own = Path(self.path.parent, *[".."] * self.name.count("/"))
         places = [Path(root, name) for root in (own, *self._roots, *self.options.import_paths)]
-        self.lookups |= {place: look_up(place) for place in places}
+        self.lookups |= {each: look_up(each) for each in places if each not in self.lookups}
         return any(self.lookups[place].text is not None for place in places)
 
     def is_of(self, source: SourceFile, lookups: Mapping[Path, Lookup]) -> bool:
-        """Whether a text, and what was just found for its imports, is what was compiled here."""
-        same = all(lookups.get(asked) == found for asked, found in self.lookups.items())
-        return same and self.source is not None and self.source.text == source.text
+        """Whether a text, and what is found for its imports, is what was compiled here."""
+        if self.source is None or self.source.text != source.text:
+            return False
+        return all(
+            (lookups.get(asked) or look_up(asked)) == found for asked, found in self.lookups.items()
+        )
 
-    @property
+    @cached_property
     def files(self) -> frozenset[Path]:
         """The files of the program, links followed."""
         if self.model is None:
@@ -287,12 +290,12 @@ class Compilation:
             return graded(self.xml, source, self.sink)
 
     def whole_module(self) -> GeneratedModule:
-        """Return the Python module, with the declarations of imported files in it."""
+        """Return a module to run, with the declarations of imported files in it."""
         from osc2tx.backends.py_trees import emit
 
         assert self.ir is not None, "there is something to run"
         module = self.module if self.has_module and not self.sharing.homes else None
-        return module or emit(self.ir)
+        return module or emit(self.ir, is_formatted=False)
 
     @property
     def stem(self) -> str:

@@ -133,7 +133,10 @@ class Element:
 
     def get(self, attribute: str) -> str | None:
         """Return the text of an attribute."""
-        return next((text for name, text in self.attributes if name == attribute), None)
+        for name, text in self.attributes:  # a loop: players ask for millions of them
+            if name == attribute:
+                return text
+        return None
 
     def said(self, attribute: str) -> str:
         """Return the text of an attribute, which has to be there.
@@ -165,7 +168,10 @@ class Element:
 
     def find(self, kind: type[E]) -> E | None:
         """Return the first child of a kind."""
-        return next(self.all(kind), None)
+        for child in self.children:
+            if isinstance(child, kind):
+                return child
+        return None
 
     def one(self, kind: type[E]) -> E:
         """Return the first child of a kind, which has to be there.
@@ -173,9 +179,10 @@ class Element:
         Raises:
             Unresolved: There is none.
         """
-        for child in self.all(kind):
-            return child
-        raise Unresolved(f"<{self.tag}> has no <{kind.__name__}>", self.place)
+        child = self.find(kind)
+        if child is None:
+            raise Unresolved(f"<{self.tag}> has no <{kind.__name__}>", self.place)
+        return child
 
     def walk(self) -> Iterator[Element]:
         """Yield the element and all below it, in the order of the document."""

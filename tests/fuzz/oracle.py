@@ -10,13 +10,13 @@ import os
 import signal
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from traceback import extract_tb, format_exception
 from types import FrameType
-from typing import Literal
+from typing import Literal, get_args
 
 from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.compilation.driver import Compilation
@@ -29,7 +29,8 @@ from osc2tx_runtime import RunSettings, ScenarioError, run_scenario
 from osc2tx_runtime.report.page import render_report
 from tests.fuzz.inputs import Input
 
-Look = Literal["whole", "quick"]
+Look = Literal["whole", "quick", "check"]
+LOOKS: tuple[Look, ...] = get_args(Look)
 
 # Of the processor's time: the machine may be busy.
 SECONDS = 5.0
@@ -75,7 +76,7 @@ def try_text(
         options: How to compile it.
         execute: Import the module, if there is one, and run its scenarios for a moment.
         look: A quick look prints no products and does without black and the second compilation,
-            which take most of the time.
+            which take most of the time; a check makes no outputs.
         place: The file that has the text; a file of its own if left out.
         simulated: Seconds that its scenarios run.
     """
@@ -88,7 +89,7 @@ def try_text(
         def compilation() -> Compilation:
             return Compilation(path, path.name, options, text=text if place else None)
 
-        module = _compile(compilation) if look == "whole" else _compile_quickly(compilation)
+        module = MAKE[look](compilation)
         if module is not None and execute:
             _execute(module, path.parent, simulated)
 
@@ -173,6 +174,19 @@ def _compile_quickly(compilation_of: Callable[[], Compilation]) -> GeneratedModu
     module = emit(compilation.ir, compilation.sharing)
     compile(module.python, "fuzzed.py", "exec")
     return module
+
+
+def _check(compilation_of: Callable[[], Compilation]) -> None:
+    compilation = compilation_of()
+    compilation.check()
+    render_all(compilation.diagnostics, color=False, folder=compilation.path.parent)
+
+
+MAKE: Mapping[Look, Callable[[Callable[[], Compilation]], GeneratedModule | None]] = {
+    "whole": _compile,
+    "quick": _compile_quickly,
+    "check": _check,
+}
 
 
 def _execute(module: GeneratedModule, maps: Path, simulated: float) -> None:

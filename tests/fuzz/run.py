@@ -16,8 +16,9 @@ for a moment. What must not happen is in tests/fuzz/oracle.py: an exception, a m
 does not take or that differs the second time, a diagnostic that points nowhere, slowness. Other
 inputs (maps, traces, settings, stores, ...: tests/fuzz/inputs.py) are read by what reads them.
 
-Each gets its share of a round (`SHARES`). With `--quick` only one text of fifty gets the whole
-look, so that a million inputs are some hours of a processor.
+Each gets its share of a round (`SHARES`). With `--look quick` only one text of fifty gets the whole
+look, so that a million inputs are some hours of a processor. With `--look check` nine of ten of the
+others are only checked, which takes half of that time.
 
 Findings go to `--out`, one folder for each kind of failure and place: `input.osc`, the smallest
 text of that kind, cut down line by line, and `report.txt` with options, seed and traceback. The
@@ -47,11 +48,19 @@ from tests.fuzz.extremes import SECONDS, write_extreme  # noqa: E402
 from tests.fuzz.grammar import write_text  # noqa: E402
 from tests.fuzz.inputs import INPUTS  # noqa: E402
 from tests.fuzz.mutations import any_tokens, mutate, seed_texts  # noqa: E402
-from tests.fuzz.oracle import SIMULATED_SECONDS, Finding, Look, try_input, try_text  # noqa: E402
+from tests.fuzz.oracle import (  # noqa: E402
+    LOOKS,
+    SIMULATED_SECONDS,
+    Finding,
+    Look,
+    try_input,
+    try_text,
+)
 from tests.fuzz.programs import write_program  # noqa: E402
 
 ATTEMPTS = 400  # compilations to cut one finding down
-WHOLE = 50  # of so many texts of a quick run one gets the whole look
+WHOLE = 50  # of so many texts one gets the whole look
+BUILT = 10  # of so many one is built and run, if most are only checked
 
 SHARES = {
     **{"programs": 1, "grammar": 2, "mutations": 8, "tokens": 40, "extremes": 3},
@@ -69,26 +78,25 @@ class Case:
     seed: str
     text: str
     options: CompileOptions
-    is_whole: bool = True
+    look: Look = "whole"
     place: Path | None = None
 
     def attempt(self, text: str, execute: bool) -> Finding | None:
         """Try a text as this one is tried."""
         if self.maker in INPUTS:
             return try_input(INPUTS[self.maker], text)
-        look: Look = "whole" if self.is_whole else "quick"
         simulated = SECONDS if self.place else SIMULATED_SECONDS
         return try_text(
             text,
             self.options,
             execute=execute,
-            look=look,
+            look=self.look,
             place=self.place,
             simulated=simulated,
         )
 
 
-def cases(seed: int, makers: list[str], quick: bool = False) -> Iterator[Case]:
+def cases(seed: int, makers: list[str], most: Look = "whole") -> Iterator[Case]:
     """Yield cases without end."""
     seeds = seed_texts(ROOT)
     for turn in count():
@@ -111,8 +119,14 @@ def cases(seed: int, makers: list[str], quick: bool = False) -> Iterator[Case]:
                     text = any_tokens(random)
                 else:
                     text = write_text(random)
-                is_whole = not quick or number % WHOLE == 0
-                yield Case(maker, name, text, options, is_whole, place)
+                yield Case(maker, name, text, options, look_at(number, most), place)
+
+
+def look_at(number: int, most: Look) -> Look:
+    """Return how the text of a number is tried, where most get the given look."""
+    if number % WHOLE == 0:
+        return "whole"
+    return "quick" if most == "check" and number % BUILT == 0 else most
 
 
 def folders() -> list[Path]:
@@ -165,7 +179,7 @@ def main() -> int:
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "fuzz")
     parser.add_argument("--only", choices=SHARES, action="append")
     parser.add_argument("--compile-only", action="store_true", help="do not run the modules")
-    parser.add_argument("--quick", action="store_true", help="look at most texts only quickly")
+    parser.add_argument("--look", choices=LOOKS, default="whole", help="what most texts get")
     parser.add_argument("--count", type=int, help="how many texts to try at most")
     options = parser.parse_args()
     makers = options.only or list(SHARES)
@@ -176,7 +190,7 @@ def main() -> int:
     tried: Counter[str] = Counter()
     gc.freeze()
     gc.set_threshold(200_000, 30, 30)  # as the command has it
-    for case in cases(options.seed, makers, options.quick):
+    for case in cases(options.seed, makers, options.look):
         if time.monotonic() > end or tried.total() == options.count:
             break
         tried[case.maker] += 1

@@ -22,7 +22,7 @@ COUNTS = {
 @pytest.mark.slow
 @pytest.mark.parametrize("maker", COUNTS)
 def test_inputs(maker: str) -> None:
-    for case in islice(cases(SEED, [maker], quick=True), COUNTS[maker]):
+    for case in islice(cases(SEED, [maker], most="quick"), COUNTS[maker]):
         finding = case.attempt(case.text, execute=True)
         if finding is not None:
             pytest.fail(f"{case.seed}: {finding.key}\n{case.text}\n{finding.report}")

@@ -5,17 +5,15 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Sequence
-from typing import Protocol
+from dataclasses import field
 
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.elements import class_of
 from osc2tx.xosc.player.agenda import Awaited
-from osc2tx.xosc.player.bodies import STANDING, Body
 from osc2tx.xosc.player.courses import RULES, number
-from osc2tx.xosc.player.distances import Ruler, asked, between_boxes
+from osc2tx.xosc.player.entity_conditions import Test, World, compared, test_of_entities
 from osc2tx.xosc.player.errors import Unplayable
-from osc2tx.xosc.player.places import place_of
 from osc2tx_shared.classes import dataclass
 
 KINDS = {
@@ -49,24 +47,6 @@ BY_THE_STANDARD = Reading()
 LATER = ("greaterThan", "greaterOrEqual")
 
 
-class World(Protocol):
-    """What conditions read besides the bodies."""
-
-    root: Element
-    step: int
-    variables: dict[str, str]
-    lights: dict[str, str]
-    bodies: dict[str, Body]
-    ruler: Ruler
-
-    @property
-    def time(self) -> float:
-        """Seconds since the start."""
-
-    def is_in(self, element: Element, state: str) -> bool:
-        """Whether an element of the storyboard is in a state, or just in a transition."""
-
-
 class Past:
     """What a condition was at each look; there may be several in a step."""
 
@@ -88,15 +68,36 @@ class Past:
         return index >= 0 and self.values[index]
 
 
+@dataclass
+class Looked:
+    """A condition that is looked at.
+
+    Attributes:
+        test: Whether it is met now.
+        edge: The change of that which it waits for.
+        is_delayed: What it was counts, not what it is.
+        steps: By how many steps it is delayed.
+        before: What the look before found.
+        latched: It has held once.
+        past: What was found at each look.
+    """
+
+    test: Test
+    edge: str
+    is_delayed: bool
+    steps: int
+    before: bool | None = None
+    latched: bool = False
+    past: Past = field(default_factory=Past)
+
+
 class Conditions:
     """Evaluates the triggers of a document."""
 
     def __init__(self, world: World, dt: float, reading: Reading) -> None:
         self.world, self.dt, self.reading = world, dt, reading
-        self.looking_since: dict[int, float] = {}  # s
-        self.latched: set[int] = set()
-        self.last: dict[int, bool] = {}  # at the look before
-        self.edged: dict[int, Past] = {}
+        self.looked: dict[int, Looked] = {}
+        self.tests: dict[int, Test] = {}
         self.can_wait: dict[int, bool] = {}
         self.last_false: dict[int, int] = {}  # of each group
         self.named = {
@@ -142,7 +143,7 @@ class Conditions:
         """
         conditions, start = group.children, self.last_false.get(id(group), 0)
         for index in (*range(start, len(conditions)), *range(start)):
-            if not self.test(conditions[index].inner):
+            if not self._test_of(conditions[index].inner)():
                 self.last_false[id(group)] = index
                 found: Element = conditions[index]
                 return found
@@ -180,123 +181,77 @@ class Conditions:
     def _all_hold(self, conditions: Sequence[Element]) -> bool:
         result = True
         for condition in conditions:
-            if result or not self.reading.is_lazy or number(condition, "delay") > 0.0:
-                held = self._holds(condition) or id(condition) in self.latched
-                if held and self.reading.latches:
-                    self.latched.add(id(condition))
+            looked = self.looked.get(id(condition)) or self._looked_at(condition)
+            if result or not self.reading.is_lazy or looked.is_delayed:
+                held = self._holds(looked)
+                if self.reading.latches:
+                    held = looked.latched = held or looked.latched
                 result = result and held
         return result
 
-    def _holds(self, condition: Element) -> bool:
-        step = self.world.step
-        value = self.test(condition.inner)
-        before, edge = self.last.get(id(condition)), condition.said("conditionEdge")
-        self.last[id(condition)] = value
-        if edge == "none" and number(condition, "delay") == 0.0:
-            return value
-        if edge != "none":
-            rises, falls = value and before is False, not value and before is True
-            value = {"rising": rises, "falling": falls, "risingOrFalling": rises or falls}[edge]
+    def _looked_at(self, condition: Element) -> Looked:
+        """Take a condition up: from now on it is looked at."""
         delay = number(condition, "delay")
-        edged = self.edged.setdefault(id(condition), Past())
-        edged.note(step, value)
-        return edged.at(step - math.ceil(delay / self.dt - 1e-6))
+        made = Looked(
+            test=self._test_of(condition.inner),
+            edge=condition.said("conditionEdge"),
+            is_delayed=delay > 0.0,
+            steps=math.ceil(delay / self.dt - 1e-6),
+        )
+        self.looked[id(condition)] = made
+        return made
 
-    def test(self, node: Element) -> bool:
-        """Whether a condition is met at the present step."""
-        if node.tag == "ByEntityCondition":
-            triggering = node.one(xml.TriggeringEntities)
-            found = [
-                self._of_entity(
-                    self.world.bodies[ref.said("entityRef")], node.one(xml.EntityCondition).inner
-                )
-                for ref in triggering.all(xml.EntityRef)
+    def _holds(self, looked: Looked) -> bool:
+        value, before = looked.test(), looked.before
+        looked.before = value
+        if looked.edge == "none" and not looked.is_delayed:
+            return value
+        if looked.edge != "none":
+            rises, falls = value and before is False, not value and before is True
+            value = {"rising": rises, "falling": falls, "risingOrFalling": rises or falls}[
+                looked.edge
             ]
-            return any(found) if triggering.get("triggeringEntitiesRule") == "any" else all(found)
-        if not (node.tag == "ByValueCondition"):
+        looked.past.note(self.world.step, value)
+        return looked.past.at(self.world.step - looked.steps)
+
+    def _test_of(self, node: Element) -> Test:
+        """Return the test of a condition, which is made when it is looked at first."""
+        if id(node) not in self.tests:
+            self.tests[id(node)] = self._made(node)
+        return self.tests[id(node)]
+
+    def _made(self, node: Element) -> Test:
+        if node.tag == "ByEntityCondition":
+            return test_of_entities(node, self.world)
+        if node.tag != "ByValueCondition":
             raise Unplayable(f"<{node.tag}> is not played", node.place)
-        node = node.inner
+        node, world = node.inner, self.world
         match node.tag:
             case "SimulationTimeCondition":
-                since = self.looking_since.setdefault(id(node), self.world.time)
-                counts = self.reading.counts_from_looking
-                return _compare(node, self.world.time - (since if counts else 0.0))
+                since = world.time if self.reading.counts_from_looking else 0.0
+                return compared(node, lambda: world.time - since)
             case "VariableCondition" | "ParameterCondition":
-                value, rule = self.world.variables[_variable(node)], node.said("rule")
-                if rule in ("equalTo", "notEqualTo"):
-                    return (value == node.said("value")) is (rule == "equalTo")
-                return RULES[rule](float(value), float(node.said("value")))
+                return _test_of_variable(node, world)
             case "StoryboardElementStateCondition":
-                return self.world.is_in(self._element(node), node.said("state"))
+                element, state = self._element(node), node.said("state")
+                return lambda: world.is_in(element, state)
             case "TrafficSignalCondition":
-                return self.world.lights.get(node.said("name")) == node.said("state")
+                name, state = node.said("name"), node.said("state")
+                return lambda: world.lights.get(name) == state
             case "UserDefinedValueCondition":
-                return False  # nobody sets such a value
+                return lambda: False  # nobody sets such a value
         raise Unplayable(f"<{node.tag}> is not played", node.place)
 
-    def _of_entity(self, body: Body, node: Element) -> bool:
-        world = self.world
-        match node.tag:
-            case "SpeedCondition":
-                return _compare(node, _part(node, body.v, body.rate))
-            case "AccelerationCondition":
-                return _compare(node, _part(node, body.a, body.swing))
-            case "RelativeSpeedCondition":
-                other = world.bodies[node.said("entityRef")]
-                turned = other.here.h - body.here.h if node.get("direction") else 0.0
-                return _compare(node, body.v - other.v * math.cos(turned))
-            case "RelativeDistanceCondition":
-                other = world.bodies[node.said("entityRef")]
-                return _compare(node, world.ruler.relative(body, other, node))
-            case "DistanceCondition" | "ReachPositionCondition":
-                place, _ = place_of(node.one(xml.Position).inner, world.bodies, world.ruler.map)
-                found = world.ruler.to_place(body, place, node)
-                if node.tag == "ReachPositionCondition":
-                    return found <= number(node, "tolerance")
-                return _compare(node, found)
-            case "RelativeClearanceCondition":
-                named = [ref.said("entityRef") for ref in node.all(xml.EntityRef)]
-                others = [each for each in world.bodies.values() if each is not body]
-                others = [each for each in others if not named or each.name in named]
-                return world.ruler.clear(body, others, node)
-            case "TimeHeadwayCondition":
-                other = world.bodies[node.said("entityRef")]
-                return self._time(node, world.ruler.relative(body, other, node), body.v)
-            case "TimeToCollisionCondition":
-                target = node.one(xml.TimeToCollisionConditionTarget).one(xml.EntityRef)
-                other = world.bodies[target.said("entityRef")]
-                speed = world.ruler.closing_speed(body, other, *asked(node))
-                return self._time(node, world.ruler.relative(body, other, node), speed)
-            case "StandStillCondition":
-                return abs(body.v) < STANDING and body.stood >= number(node, "duration") - 1e-9
-            case "TraveledDistanceCondition":
-                return body.driven >= number(node, "value") - 1e-9
-            case "CollisionCondition" if node.find(xml.EntityRef) is not None:
-                other = world.bodies[node.one(xml.EntityRef).entityRef]
-                return between_boxes(body, other) == 0.0
-        raise Unplayable(f"<{node.tag}> is not played", node.place)
 
-    @staticmethod
-    def _time(node: Element, distance: float, speed: float) -> bool:
-        """Whether a time to come compares; one that cannot be predicted does not."""
-        return speed > 0.0 and _compare(node, distance / speed)
+def _test_of_variable(node: Element, world: World) -> Test:
+    """Return the test of a variable: texts are equal or not, numbers compare."""
+    name, rule, value = _variable(node), node.said("rule"), node.said("value")
+    if rule in ("equalTo", "notEqualTo"):
+        return lambda: (world.variables[name] == value) is (rule == "equalTo")
+    holds, bound = RULES[rule], float(value)
+    return lambda: holds(float(world.variables[name]), bound)
 
 
 def _variable(node: Element) -> str:
     """Return the name of the variable or parameter that a condition or an action is about."""
     return node.get("variableRef") or node.said("parameterRef")
-
-
-def _compare(node: Element, value: float) -> bool:
-    return RULES[node.said("rule")](value, number(node, "value"))
-
-
-def _part(node: Element, along: float, across: float) -> float:
-    match node.get("direction"):
-        case "longitudinal":
-            return along
-        case "lateral":
-            return across
-        case "vertical":
-            return 0.0
-    return math.hypot(along, across)

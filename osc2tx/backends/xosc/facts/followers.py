@@ -8,7 +8,8 @@ from functools import lru_cache
 from itertools import pairwise
 
 from osc2tx.backends.xosc.facts.curves import Waypoint, curve_through
-from osc2tx_runtime.domain.paths.path_curves import interval_between_offsets
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx_runtime.domain.paths.path_curves import PathError, interval_between_offsets
 from osc2tx_runtime.opendrive import Pose
 from osc2tx_runtime.world.actor_dimensions import Limits, Shape
 from osc2tx_runtime.world.commands import FollowCourse
@@ -44,6 +45,9 @@ def off_the_line(
         actor: What it is.
         is_smooth: Its way has no corners.
         offsets: Metres that are left out at the start and the end of its way.
+
+    Raises:
+        Inexpressible: The way has no length, as that to where the actor is already.
     """
     is_straight = (not is_smooth or len(points) == 2) and max(offsets) < LEAST_SETTLED
     pieces = _near_corners(points, speed) if is_straight else [points]
@@ -52,8 +56,11 @@ def off_the_line(
         ends = offsets[0] if i == 0 else 0.0, offsets[1] if i == len(pieces) - 1 else 0.0
         if i > 0:
             line, start = piece, _along_first(piece)
-        curve = curve_through(piece, is_timed=False, is_smooth=is_smooth)
-        command = FollowCourse(curve, *interval_between_offsets(curve, *ends))
+        try:
+            curve = curve_through(piece, is_timed=False, is_smooth=is_smooth)
+            command = FollowCourse(curve, *interval_between_offsets(curve, *ends))
+        except PathError as error:
+            raise Inexpressible(error.message) from None
         worst = max(worst, _worst(command, line, start, speed, actor))
     return worst
 

@@ -99,6 +99,7 @@ class LogicalWriter:
         self._branches = [p for p in self.parameters if p.node is not None]
         self._version = version
         self._write = write
+        self._written: dict[frozenset[tuple[str, object]], Element | None] = {}
 
     def run(self) -> Logical:
         """Return the document in which most parameters stay open."""
@@ -137,8 +138,11 @@ class LogicalWriter:
 
     def _concrete(self, point: Point) -> Element | None:
         """Return the document for values of the open parameters."""
-        ctx, document = self._write(Choosing(self.parameters, self._branches, point))
-        return document if ctx.report.is_expressible else None
+        key = frozenset(point.items())
+        if key not in self._written:
+            ctx, document = self._write(Choosing(self.parameters, self._branches, point))
+            self._written[key] = document if ctx.report.is_expressible else None
+        return self._written[key]
 
     def _listed(self, found: Logical, trial: _Trial) -> Logical | None:
         """Return a scenario with a table of values if it needs one; `None` if there is none."""
