@@ -15,7 +15,7 @@ from osc2tx_runtime.domain.modifiers import (
     Speed,
     Yaw,
 )
-from osc2tx_runtime.domain.shapes import OwnShape
+from osc2tx_runtime.domain.modifiers.base import own_course
 from osc2tx_runtime.enums import At
 from osc2tx_shared.classes import replace
 
@@ -39,14 +39,14 @@ VALUES: dict[type, str] = {
 
 def is_course(modifier: Shaped | Lane) -> bool:
     """Whether it states a course of the whole phase by a common shape: its value is its end."""
-    if modifier.at != "all" or isinstance(modifier.shape, OwnShape):
+    if modifier.at != "all" or own_course(modifier.shape) is not None:
         return False
     return modifier.shape is not None or (isinstance(modifier, Speed) and modifier.shaped)
 
 
 def follows_course(modifier: Shaped) -> bool:
     """Whether a shape of the scenario computes its value at each time."""
-    return modifier.at == "all" and isinstance(modifier.shape, OwnShape)
+    return modifier.at == "all" and own_course(modifier.shape) is not None
 
 
 def moment(modifier: Shaped | Lane) -> At:
@@ -56,10 +56,9 @@ def moment(modifier: Shaped | Lane) -> At:
 
 def present(modifier: ShapedT, phase: Phase) -> Callable[[], ShapedT]:
     """Return what gives the modifier with the value that its shape computes for this step."""
-    if not follows_course(modifier):
+    course, name = own_course(modifier.shape), VALUES[type(modifier)]
+    if course is None or modifier.at != "all":
         return lambda: modifier
-    shape: Any = modifier.shape
-    course, name = shape.course(), VALUES[type(modifier)]
     fixed: dict[str, Any] = {"shape": None}
     if hasattr(modifier, f"{name}_range"):
         fixed[f"{name}_range"] = None
