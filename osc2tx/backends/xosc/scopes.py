@@ -13,8 +13,7 @@ from typing import NamedTuple
 
 from osc2tx import ir
 from osc2tx.backends.xosc.entities.cast import CastMember, cast_member
-from osc2tx.backends.xosc.flattening.storyboard.member_names import Deed, deeds
-from osc2tx.backends.xosc.names import Names
+from osc2tx.backends.xosc.names import Deed, Names, deeds
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Constant, Named, UserTypes
 from osc2tx.backends.xosc.values.folding import Values
@@ -174,12 +173,7 @@ class _Opener:
         if scenario.key not in self._deeds:
             self._deeds[scenario.key] = deeds(scenario)
         scope = Scope(
-            scenario,
-            values,
-            dict(handed_in),
-            place.prefix,
-            place.path,
-            self._deeds[scenario.key],
+            scenario, values, dict(handed_in), place.prefix, place.path, self._deeds[scenario.key]
         )
         for declaration in scenario.declarations:
             if isinstance(declaration, ir.Actor) and declaration.name not in handed_in:

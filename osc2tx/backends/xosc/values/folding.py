@@ -132,6 +132,18 @@ class Values:
             raise Inexpressible(reason, expression.span)
         return float(value)
 
+    def bounds(self, expression: ir.Expression) -> tuple[float, float]:
+        """Return the ends of a range, or twice the same number, in SI units.
+
+        Raises:
+            Inexpressible: They are only known during the run.
+        """
+        value = self.of(expression)
+        if isinstance(value, Bounds):
+            return value.lower, value.upper
+        number = self.number(expression)
+        return number, number
+
     def actor(self, expression: ir.Expression) -> str:
         """Return the name of an actor.
 
@@ -143,12 +155,12 @@ class Values:
             raise Inexpressible(f"`{expression.span.text}` is no actor", expression.span)
         return value.name
 
-    def field(self, name: str, path: tuple[str, ...]) -> Constant | None:
+    def field(self, name: str, *path: str) -> Constant | None:
         """Return what a constraint fixes about an actor or struct; `None` if nothing does."""
         declaration = self._declared.get(name)
         if declaration is None and "." in name:
             owner, *inner = name.split(".")
-            return self.field(owner, (*inner, *path))
+            return self.field(owner, *inner, *path)
         if isinstance(declaration, (ir.Actor, ir.Struct)):
             for value in declaration.values:
                 if value.path == path:
@@ -156,7 +168,7 @@ class Values:
                 is_part = value.path == path[: len(value.path)] and len(value.path) < len(path)
                 whole = self.of(value.value) if is_part else None
                 if isinstance(whole, Named):  # a struct of the scenario says it
-                    return self.field(whole.name, path[len(value.path) :])
+                    return self.field(whole.name, *path[len(value.path) :])
             is_inner = any(value.path[: len(path)] == path for value in declaration.values)
             if is_inner and isinstance(declaration, ir.Struct):
                 return Named(".".join((name, *path)))  # whose own members are fixed
@@ -171,7 +183,7 @@ class Values:
         """
         for field in self._types.fields(self.type_of(name)):
             try:
-                value = self.field(name, (field.name,))
+                value = self.field(name, field.name)
             except Inexpressible:
                 continue
             if isinstance(value, Member):
@@ -268,7 +280,7 @@ class Values:
         if isinstance(base, (ir.FieldRef, ir.ParameterRef, ir.Index)):
             owner = self.of(base)
             if isinstance(owner, Named):
-                value = self.field(owner.name, tuple(path))
+                value = self.field(owner.name, *path)
                 if value is None:
                     value = self._sizes.get(owner.name, {}).get(tuple(path))
                 if value is not None:
