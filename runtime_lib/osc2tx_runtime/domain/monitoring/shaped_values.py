@@ -59,12 +59,13 @@ def present(modifier: ShapedT, phase: Phase) -> Callable[[], ShapedT]:
     course, name = own_course(modifier.shape), VALUES[type(modifier)]
     if course is None or modifier.at != "all":
         return lambda: modifier
-    fixed: dict[str, Any] = {"shape": None}
+    changed: dict[str, Any] = {"shape": None}
     if hasattr(modifier, f"{name}_range"):
-        fixed[f"{name}_range"] = None
+        changed[f"{name}_range"] = None
 
     def now() -> ShapedT:
-        return replace(modifier, **fixed, **{name: course.value(phase.elapsed)})
+        changed[name] = course.value(phase.elapsed)
+        return replace(modifier, **changed)
 
     return now
 
