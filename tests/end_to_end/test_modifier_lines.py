@@ -61,7 +61,8 @@ def places(result: RunResult) -> set[str]:
     [
         ("        ego.drive(duration: 2s) with:\n            speed(20mps)\n", ACTION + 1, 13),
         (
-            "        ego.drive(duration: 2s) with:\n            keep_lane()\n            speed(20mps)\n",
+            "        ego.drive(duration: 2s) with:\n"
+            "            keep_lane()\n            speed(20mps)\n",
             ACTION + 2,
             13,
         ),
