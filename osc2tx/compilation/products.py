@@ -1,4 +1,4 @@
-"""What a compilation makes: files, and what reports say of its scenarios, as plain data."""
+"""What a compilation makes: files, and facts for reports as plain data."""
 
 from __future__ import annotations
 
