@@ -12,8 +12,8 @@ from tests.work import calls
 INHERITED = "generations"  # scenarios have all that they inherit: n * n / 2 members together
 
 BUILT = (
-    *("chain_of_invocations", "choices", "convoy", "generations", "misspelt", "reactions"),
-    *("sequence", "signals", "tower", "twice_invoked", "wide"),
+    *("chain_of_invocations", "choices", "convoy", "generations", "logic", "misspelt"),
+    *("reactions", "sequence", "signals", "total", "tower", "twice_invoked", "wide"),
 )
 
 

@@ -110,6 +110,17 @@ class Values:
             Inexpressible: It is none, or is only known during the run.
         """
         value = self.of(expression)
+        number = self._plain_number(expression, value)
+        if isinstance(value, (Bounds, Symbol)):
+            return number
+        is_named = any(isinstance(part, _NAMES) for part in ir.walk(expression))
+        return Noted(number, expression.span.text) if is_named else number
+
+    def _operand(self, expression: ir.Expression) -> float:
+        """Return the same without a note: parts of expressions are not walked again for one."""
+        return self._plain_number(expression, self.of(expression))
+
+    def _plain_number(self, expression: ir.Expression, value: Constant) -> float:
         if isinstance(value, Bounds):
             return 0.5 * (value.lower + value.upper)
         if isinstance(value, bool) or not isinstance(value, (int, float)):
@@ -119,8 +130,7 @@ class Values:
         if not isinstance(expression, ir.Literal) and not abs(value) <= LARGEST:
             reason = f"`{expression.span.text}` is {value:g}, which no world has"
             raise Inexpressible(reason, expression.span)
-        is_named = any(isinstance(part, _NAMES) for part in ir.walk(expression))
-        return Noted(value, expression.span.text) if is_named else float(value)
+        return float(value)
 
     def bounds(self, expression: ir.Expression) -> tuple[float, float]:
         """Return the ends of a range, or twice the same number, in SI units.
@@ -313,7 +323,7 @@ class Values:
         return inner.of(method.expression)
 
     def _unary(self, sign: str, operand: ir.Expression) -> Constant:
-        return not self.of(operand) if sign == "not" else -self.number(operand)
+        return not self.of(operand) if sign == "not" else -self._operand(operand)
 
     def _binary(self, expression: ir.Binary) -> Constant:
         name = expression.operator
@@ -326,7 +336,7 @@ class Values:
         if name in ("==", "!="):
             same = _plain(self.of(expression.left)) == _plain(self.of(expression.right))
             return same is (name == "==")
-        left_number, right_number = self.number(expression.left), self.number(expression.right)
+        left_number, right_number = self._operand(expression.left), self._operand(expression.right)
         if name in _COMPARISONS:
             return _COMPARISONS[name](left_number, right_number)
         if name not in _ARITHMETIC:
