@@ -202,7 +202,7 @@ def _beside_another(leaf: Leaf, call: Call, reference: CastMember) -> Changes:
     if distance is None:
         raise Inexpressible("no distance is stated")
     side = "left" if call.member("side", "left") == "left" else "right"
-    gap = Gap(reference, side, distance, is_time=False, is_headway=False)
+    gap = Gap(reference, side, distance)
     return _beside(leaf, call, gap)
 
 
@@ -218,5 +218,5 @@ def _beside(leaf: Leaf, call: Call, gap: Gap) -> Changes:
         raise Inexpressible(f"a distance from `{measured}` across the road")
     if size < 0.0:
         raise Inexpressible("they would overlap, and the XML counts between their sides")
-    gap = Gap(gap.reference, gap.side, size, is_time=False, is_headway=False)
+    gap = Gap(gap.reference, gap.side, size)
     return (reach(leaf, gap, keeps=call.at != "end"),)
