@@ -55,7 +55,7 @@ def xml_position(ctx: Context, point: Constant | None) -> XmlPosition:
 
 def _on_route(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
     """Return a place along a route and beside it."""
-    place = point_along(ctx, parts.get("route"), number_of(parts.get("s")))
+    place = next(points_along(ctx, parts.get("route"), number_of(parts.get("s"))))
     left = number_of(parts.get("t"))
     if not isinstance(place, LanePosition):
         x, y = place.x - left * math.sin(place.h), place.y + left * math.cos(place.h)
@@ -65,11 +65,6 @@ def _on_route(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
     offset = left * ctx.roads.map.travel_direction(place.road, place.lane)
     where: dict[str, Constant] = {"road_id": place.road, "lane_id": str(place.lane)}
     return on_road(ctx, {**where, "s": place.s, "t": offset})
-
-
-def point_along(ctx: Context, route: Constant | None, offset: float) -> LanePosition | Pose:
-    """Return the place so far (m) along a route or a path; see `points_along`."""
-    return next(points_along(ctx, route, offset))
 
 
 def points_along(
