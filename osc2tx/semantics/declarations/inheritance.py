@@ -15,7 +15,7 @@ from osc2tx.semantics.symbols import (
     TypeSymbol,
 )
 
-MOST_LEVELS = 30
+MOST_LEVELS = 100
 """Types from which one inherits: each has all of their members, so n levels cost n * n."""
 
 
