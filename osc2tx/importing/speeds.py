@@ -20,6 +20,7 @@ from osc2tx.importing.dimensions import (
 )
 from osc2tx.importing.effects import LONGITUDINAL, PROFILES, Effect, Reader, of_dynamics
 from osc2tx.importing.program import Statement, composed
+from osc2tx.importing.starting import is_ahead
 from osc2tx.xosc.element import Unresolved
 
 COMFORT = {"maxAcceleration": 2.0, "maxDeceleration": 4.0, "maxAccelerationRate": 10.0}
@@ -174,6 +175,11 @@ class Speeds(Reader):
         if reference is None or actor.kind != "vehicle":
             node.leave_out("only vehicles keep gaps to actors")
             return None
+        continuous = (node.text("continuous") or "false").lower() in ("true", "1")
+        if node.find("DynamicConstraints") is None and not continuous:
+            at_once = self._at_once(node, said, actor, reference)
+            if at_once is not None:
+                return at_once
         node.approximate("how a gap is closed is a matter of the world")
         side = node.text("displacement") or "trailingReferencedEntity"
         direction = "ahead" if side.startswith("leading") else "behind"
@@ -181,7 +187,6 @@ class Speeds(Reader):
             node.text(name)
         for each in node.children("DynamicConstraints"):
             each.use_all()
-        continuous = (node.text("continuous") or "false").lower() in ("true", "1")
         if node.has("timeGap"):
             target = self._values.quantity(node, "timeGap", TIME)
             kind = "time"
@@ -197,6 +202,39 @@ class Speeds(Reader):
             length=math.inf,
         )
         return composed("serial", [change, keep])
+
+    def _at_once(self, node: Node, said: str, actor: Actor, reference: Actor) -> Statement | None:
+        """Return a place at a gap, which nothing keeps the actor from having at once.
+
+        `None`: both are in different lanes, or somewhere else by now.
+        """
+        own = self._places.bodies.get(next(k for k, v in self._actors.items() if v is actor))
+        other = self._places.bodies.get(said)
+        if own is None or other is None or own.place is None or other.place is None:
+            return None
+        if own.place[:2] != other.place[:2] or own.along != other.along:
+            return None
+        ahead = is_ahead(own, other)
+        side = node.text("displacement")
+        if side is not None:
+            ahead = side.startswith("leading")
+        space = 0.0
+        if (node.text("freespace") or "false").lower() in ("true", "1"):
+            space = own.rear + other.front if ahead else own.front + other.rear
+        node.text("coordinateSystem")
+        if node.has("timeGap"):
+            time = self._values.quantity(node, "timeGap", TIME)
+            moving = reference if ahead else actor
+            gap = f"{time.within(PRODUCT)} * {moving.name}.speed"
+        else:
+            gap = self._values.quantity(node, "distance", LENGTH).within(SUM)
+        where = f"{gap} + {literal(round(space, 6), LENGTH)}" if space else gap
+        side = "ahead_of" if ahead else "behind"
+        modifiers = [
+            f"lane(same_as: {reference.name})",
+            f"position({where}, {side}: {reference.name})",
+        ]
+        return Statement(f"{actor.name}.assign_position()", modifiers=modifiers, length=0.0)
 
 
 def _peak(shape: str) -> float:

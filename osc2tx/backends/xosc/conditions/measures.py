@@ -37,32 +37,20 @@ from osc2tx.xosc.literals import CoordinateSystem, DirectionalDimension, Relativ
 Motion: TypeAlias = xml.SpeedCondition | xml.AccelerationCondition
 
 
-def _speed(ctx: Context, c: Comparison) -> Groups:
-    return _motion(ctx, c, xml.SpeedCondition, "longitudinal")
-
-
-def _acceleration(ctx: Context, c: Comparison) -> Groups:
-    return _motion(ctx, c, xml.AccelerationCondition, "longitudinal")
-
-
 def _part_of(condition: type[Motion], direction: DirectionalDimension | None) -> Measure:
-    """Return the measure of a part of a speed or an acceleration, or of its amount (1.2)."""
+    """Return the measure of a speed or an acceleration along an axis of the actor.
+
+    Other parts than that along the actor, and the amount (`None`), need 1.2.
+    """
 
     def measure(ctx: Context, c: Comparison) -> Groups:
-        ctx.require("a condition on a part of a motion", "1.2", c.source.span)
-        return _motion(ctx, c, condition, direction)
+        if direction != "longitudinal":
+            ctx.require("a condition on a part of a motion", "1.2", c.source.span)
+        newer = ctx.version >= "1.2"
+        made = condition(rule=c.rule, value=c.value, direction=direction if newer else None)
+        return ((of_entity(c.actor, made),),)
 
     return measure
-
-
-def _motion(
-    ctx: Context, c: Comparison, condition: type[Motion], direction: DirectionalDimension | None
-) -> Groups:
-    """Return the condition on a speed or an acceleration along an axis of the actor."""
-    made = condition(
-        rule=c.rule, value=c.value, direction=direction if ctx.version >= "1.2" else None
-    )
-    return ((of_entity(c.actor, made),),)
 
 
 def time_headway(ctx: Context, c: Comparison) -> Groups:
@@ -266,12 +254,12 @@ def _coordinate(ctx: Context, c: Comparison, direction: str, aside: float) -> Gr
 
 
 MEASURES: Mapping[str, Measure] = {
-    "speed": _speed,
-    "velocity.translational.x": _speed,
+    "speed": _part_of(xml.SpeedCondition, "longitudinal"),
+    "velocity.translational.x": _part_of(xml.SpeedCondition, "longitudinal"),
     "velocity.translational.y": _part_of(xml.SpeedCondition, "lateral"),
     "velocity.translational.z": _part_of(xml.SpeedCondition, "vertical"),
     "velocity.translational.norm": _part_of(xml.SpeedCondition, None),
-    "acceleration.translational.x": _acceleration,
+    "acceleration.translational.x": _part_of(xml.AccelerationCondition, "longitudinal"),
     "acceleration.translational.y": _part_of(xml.AccelerationCondition, "lateral"),
     "acceleration.translational.z": _part_of(xml.AccelerationCondition, "vertical"),
     "acceleration.translational.norm": _part_of(xml.AccelerationCondition, None),

@@ -34,15 +34,13 @@ def starts_of(ctx: Context, node: ir.Parallel) -> list[float | None]:
     timed = [member for member in node.members if not is_instant(member)]
     parts = [(member.name, length_of(ctx, member), is_open(member)) for member in timed]
     overlap = node.overlap or ("any" if node.start_to_start else "start")
-    planned = plan_starts(
-        parts, overlap, _bounds(ctx, node.start_to_start), _bounds(ctx, node.end_to_end), node.span
+    starts, ends = (
+        None if each is None else ctx.values.bounds(each)
+        for each in (node.start_to_start, node.end_to_end)
     )
+    planned = plan_starts(parts, overlap, starts, ends, node.span)
     by_member = dict(zip(map(id, timed), planned, strict=True))
     return [by_member.get(id(member), 0.0) for member in node.members]
-
-
-def _bounds(ctx: Context, expression: ir.Expression | None) -> tuple[float, float] | None:
-    return None if expression is None else ctx.values.bounds(expression)
 
 
 def is_open(node: ir.Behavior) -> bool:
