@@ -45,7 +45,7 @@ class PlacementLowering:
         """Take the place for complaints."""
         self._ctx = ctx
         self._found: dict[str, _Found] = {}
-        self._in_one_of = False
+        self._in_one_of: bool = False
 
     def split(self, body: ir.Behavior) -> tuple[tuple[ir.Placement, ...], ir.Behavior | None]:
         """Return the placements in source order, and the tree without them."""
