@@ -289,7 +289,9 @@ class ConstantEvaluator:
             value = (
                 self._value(expression, names)
                 if expression is not None
-                else None if parameter.default is None else self._value(parameter.default, {})
+                else None
+                if parameter.default is None
+                else self._value(parameter.default, {})
             )
             if value is not None:
                 found[parameter] = (

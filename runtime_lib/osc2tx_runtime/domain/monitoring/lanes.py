@@ -179,7 +179,6 @@ def lateral(modifier: Lateral, phase: Phase) -> Iterator[Condition]:
         return
     road_map, me = phase.world.map, phase.me
     if modifier.side_of is None:
-
         leaves = any(isinstance(each, Lane | ChangeLane) for each in phase.modifiers)
         lane_of_it = _lane_of_offset(phase, leaves or "change_lane" in phase.action.registered.name)
 
