@@ -289,9 +289,7 @@ class ConstantEvaluator:
             value = (
                 self._value(expression, names)
                 if expression is not None
-                else None
-                if parameter.default is None
-                else self._value(parameter.default, {})
+                else None if parameter.default is None else self._value(parameter.default, {})
             )
             if value is not None:
                 found[parameter] = (

@@ -22,8 +22,8 @@ def report_conditions(model: SemanticModel, usage: Usage, sink: DiagnosticSink) 
             case ast.LevelCondition(expression=expression):
                 if wait.event is None:
                     _report_level(model, expression, sink)
-            case (
-                ast.RiseCondition(expression=expression) | ast.FallCondition(expression=expression)
+            case ast.RiseCondition(expression=expression) | ast.FallCondition(
+                expression=expression
             ):
                 if _is_constant(model, expression):
                     sink.report(

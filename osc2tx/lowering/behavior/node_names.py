@@ -41,9 +41,8 @@ def _actors(node: ir.Behavior) -> Iterable[str]:
         case ir.Serial() | ir.Parallel() | ir.OneOf():
             for member in node.members:
                 yield from _actors(member)
-        case (
-            ir.Invoke(actor=ir.FieldRef(name=name))
-            | ir.InvokeScenario(actor=ir.FieldRef(name=name))
+        case ir.Invoke(actor=ir.FieldRef(name=name)) | ir.InvokeScenario(
+            actor=ir.FieldRef(name=name)
         ):
             yield name
         case _:
