@@ -285,7 +285,7 @@ SHAPES: Mapping[str, tuple[Callable[[int], str], int]] = {
         (rising, 10),
         (total, 6),
         (one_of_two, 8),
-        (logic, 8),
+        (logic, 16),
         (misspelt, 50),
         (wide, 10),
         (enumerations, 20),

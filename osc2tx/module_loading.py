@@ -1,19 +1,22 @@
-"""Imports generated modules from files."""
+"""Imports generated modules, from files and from the texts just generated."""
 
 from __future__ import annotations
 
 import ast
 import importlib.util
+import linecache
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from pathlib import Path
-from types import ModuleType
+from functools import lru_cache
+from importlib.abc import InspectLoader, MetaPathFinder
+from importlib.machinery import ModuleSpec
+from pathlib import Path, PurePosixPath
+from types import CodeType, ModuleType
 from typing import TYPE_CHECKING
 
 from osc2tx.support.paths import COVERAGE_MODEL, SOURCE_MAP, real_path
 from osc2tx_runtime import Scenario, ScenarioError
-from osc2tx_shared.own_folders import RUN, own_folder
 
 if TYPE_CHECKING:
     from osc2tx.backends.py_trees.emitter import GeneratedModule
@@ -25,6 +28,8 @@ def scenarios_of_module(
 ) -> Iterator[Mapping[str, type[Scenario]]]:
     """Give the scenario classes of a module that was just generated, by names in the source.
 
+    Nothing is written: the modules are imported from their texts.
+
     Args:
         module: The module.
         siblings: All modules that it needs.
@@ -32,19 +37,83 @@ def scenarios_of_module(
     Raises:
         ScenarioError: A value of a type cannot be computed.
     """
-    files, main = module_files(module, siblings)
-    with own_folder(RUN) as folder:
-        for name, text in files.items():
-            Path(folder, name).parent.mkdir(parents=True, exist_ok=True)
-            Path(folder, name).write_text(text, encoding="utf-8")
-        place = Path(folder, main)
-        with ExitStack() as imported:
-            try:
-                scenarios = imported.enter_context(scenarios_of_file(place, Path(folder).name))
-            except ArithmeticError as error:
-                message = f"a value cannot be computed: {error}"
-                raise ScenarioError(message, module.source) from error
-            yield scenarios
+    texts = {_dotted(each): each for each in siblings}
+    name = f"osc2tx:{_dotted(module)}"  # no other module has such a name
+    loader = _TextLoader({**texts, name: module})
+    with _own_modules(loader.names), ExitStack() as stack:
+        sys.meta_path.insert(0, loader)
+        stack.callback(sys.meta_path.remove, loader)
+        stack.callback(loader.forget_lines)
+        try:
+            scenarios = _scenarios_in(importlib.import_module(name))
+        except ArithmeticError as error:
+            message = f"a value cannot be computed: {error}"
+            raise ScenarioError(message, module.source) from error
+        yield scenarios
+
+
+def _dotted(module: GeneratedModule) -> str:
+    """Return the name of a module from the folder of the outputs on."""
+    return ".".join((*PurePosixPath(module.source).parts[:-1], module.stem))
+
+
+class _TextLoader(MetaPathFinder, InspectLoader):
+    """Finds and loads modules whose texts are at hand, and the packages in which they stand.
+
+    Attributes:
+        names: Of all of them.
+    """
+
+    def __init__(self, modules: Mapping[str, GeneratedModule]) -> None:
+        self._modules = modules
+        packages = (name.split(".")[:-1] for name in modules)
+        self._packages = {".".join(p[: i + 1]) for p in packages for i in range(len(p))}
+        self.names = self._packages | modules.keys()
+
+    def find_spec(
+        self, fullname: str, path: object = None, target: object = None
+    ) -> ModuleSpec | None:
+        """Return how to load a module; a package is a namespace."""
+        if fullname in self._packages:
+            return ModuleSpec(fullname, None, is_package=True)
+        if fullname not in self._modules:
+            return None
+        spec = ModuleSpec(fullname, self, origin=self._place(fullname))
+        spec.has_location = True
+        return spec
+
+    def get_source(self, fullname: str) -> str:
+        """Return the text of a module, also for messages that quote a line."""
+        return self._modules[fullname].python
+
+    def get_code(self, fullname: str) -> CodeType:
+        """Return the compiled text; those of libraries are compiled once for many scenarios."""
+        return _compiled(self.get_source(fullname), self._place(fullname))
+
+    def get_data(self, path: str) -> bytes:
+        """Return the source map of a module.
+
+        Raises:
+            OSError: There is no such file.
+        """
+        for name, module in self._modules.items():
+            if Path(self._place(name)).with_suffix(SOURCE_MAP) == Path(path):
+                return module.source_map.encode()
+        raise FileNotFoundError(path)
+
+    def forget_lines(self) -> None:
+        """Drop the lines that messages have quoted: others may come to stand there."""
+        for name in self._modules:
+            linecache.cache.pop(self._place(name), None)
+
+    def _place(self, name: str) -> str:
+        module = self._modules[name]
+        return str(PurePosixPath("osc2tx:", module.source).with_name(f"{module.stem}.py"))
+
+
+@lru_cache(maxsize=256)
+def _compiled(text: str, place: str) -> CodeType:
+    return compile(text, place, "exec", dont_inherit=True)
 
 
 def module_files(
@@ -87,29 +156,32 @@ def scenarios_of_file(place: Path, name: str) -> Iterator[Mapping[str, type[Scen
 
 @contextmanager
 def _found_siblings(place: Path) -> Iterator[None]:
-    """Let a module find the modules beside it, as its script does.
-
-    Other modules of the same names are hidden meanwhile, and imported modules are removed
-    afterwards: each of several folders has modules of its own.
-    """
+    """Let a module find the modules beside it, as its script does."""
     files, folders = sibling_files(place)
-    path, writes_none = list(sys.path), sys.dont_write_bytecode
-    hidden = {
-        name: module
-        for name, module in sys.modules.items()
-        if name in files and getattr(module, "__file__", None) != files[name]
+    kept = {
+        name
+        for name in files.keys() & sys.modules.keys()
+        if getattr(sys.modules[name], "__file__", None) == files[name]
     }
-    kept = files.keys() & (sys.modules.keys() - hidden.keys())
-    for name in hidden:
-        del sys.modules[name]
-    sys.path[:0] = folders
-    sys.dont_write_bytecode = True  # reading a folder leaves nothing in it
-    importlib.invalidate_caches()
+    path, writes_none = list(sys.path), sys.dont_write_bytecode
+    with _own_modules(files.keys() - kept):
+        sys.path[:0] = folders
+        sys.dont_write_bytecode = True  # reading a folder leaves nothing in it
+        importlib.invalidate_caches()
+        try:
+            yield
+        finally:
+            sys.path[:], sys.dont_write_bytecode = path, writes_none
+
+
+@contextmanager
+def _own_modules(names: Collection[str]) -> Iterator[None]:
+    """Import modules for a while: others of their names are hidden, and none of them stays."""
+    hidden = {name: sys.modules.pop(name) for name in names if name in sys.modules}
     try:
         yield
     finally:
-        sys.path[:], sys.dont_write_bytecode = path, writes_none
-        for name in files.keys() - kept:
+        for name in names:
             sys.modules.pop(name, None)
         sys.modules.update(hidden)
 

@@ -52,10 +52,9 @@ def compile_jobs(
         finished: Is given each result as soon as there is one.
     """
     if jobs:
-        from osc2tx_shared.own_folders import REVISION, RUN, remove_left_over
+        from osc2tx_shared.own_folders import REVISION, remove_left_over
 
-        for prefix in (RUN, REVISION):
-            remove_left_over(prefix)
+        remove_left_over(REVISION)
     return run_jobs(compile_job, jobs, workers, finished)
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import sqlite3
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -43,14 +44,16 @@ class _Database:
 
     Args:
         path: The file.
+        is_fixed: Nothing changes it: it can be read where no file can be made beside it.
 
     Raises:
         sqlite3.Error: It cannot be opened.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, *, is_fixed: bool = False) -> None:
         self._path = path
-        self._base = sqlite3.connect(path, timeout=30.0, isolation_level=None)
+        name = f"{path.absolute().as_uri()}?immutable=1" if is_fixed else path
+        self._base = sqlite3.connect(name, timeout=30.0, isolation_level=None, uri=is_fixed)
         self._file = _file_of(path)
 
     def close(self) -> None:
@@ -104,6 +107,12 @@ def _file_of(path: Path) -> tuple[int, int] | None:
     return found.st_dev, found.st_ino
 
 
+def _is_fixed(path: Path) -> bool:
+    """Whether nothing can change a file, and all that was stored is in it."""
+    log = path.with_name(f"{path.name}-wal")
+    return not os.access(path.parent, os.W_OK) and not (log.exists() and log.stat().st_size)
+
+
 class Store:
     """The file of a campaign; a context manager that closes it.
 
@@ -127,8 +136,15 @@ class Store:
                         " file"
                     )
                 path.parent.mkdir(parents=True, exist_ok=True)
-            self._base = _Database(path)
-        except (OSError, ValueError, sqlite3.Error) as error:
+                if not os.access(path.parent, os.W_OK):
+                    raise CampaignError(
+                        f"{path}: its folder cannot be written, so no rows can be added; name a"
+                        " store elsewhere with --store"
+                    )
+            self._base = _Database(path, is_fixed=_is_fixed(path))
+        except OSError as error:
+            raise CampaignError(f"{path}: it cannot be made: {error}") from error
+        except (ValueError, sqlite3.Error) as error:
             raise CampaignError(f"{path}: it is no store of a campaign: {error}") from error
         try:
             if is_new:

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
-import os
 import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -13,14 +10,14 @@ from pathlib import Path
 
 import click
 
-from osc2tx.building.write import replace_file
+from osc2tx.cli.import_settings import write_settings, write_text
 from osc2tx.cli.reporting import Exit, count_of
 from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import Severity
 from osc2tx.grading.imports import import_deviation
 from osc2tx.grading.runs import NoEvidence
 from osc2tx.importing.cast import Libraries
-from osc2tx.importing.distributions import MOST_ROWS, Distribution, read_distribution
+from osc2tx.importing.distributions import Distribution, read_distribution
 from osc2tx.importing.document import Folders, Refused
 from osc2tx.importing.importer import Imported, import_document
 from osc2tx.importing.names import snake
@@ -36,7 +33,6 @@ from osc2tx_shared.text import complain, put_document, say
 INPUT = "-"
 SUFFIX = ".xosc"
 MOST_SHOWN = 10
-SETTINGS = "osc2tx.toml"
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,7 +161,7 @@ def import_all(
     written = {out / f"{library.name}.osc": library.text for library in libraries.values()}
     kept = {} if force else _texts_of_others(written)
     for path in written.keys() - kept.keys():
-        _write(path, written[path])
+        write_text(path, written[path])
     checked = [_checked(each, out) for each in results]
     scenarios = {out / f"{each.imported.name}.osc": each.text for each in checked}
     kept |= {} if force else _texts_of_others(scenarios)
@@ -175,9 +171,9 @@ def import_all(
         path = out / f"{each.imported.name}.osc"
         if path in kept:
             continue
-        _write(path, each.text)
-        _write(out / f"{each.imported.name}.import.json", each.imported.report.to_json())
-    _write_settings(checked, out)
+        write_text(path, each.text)
+        write_text(out / f"{each.imported.name}.import.json", each.imported.report.to_json())
+    write_settings([(each.imported, each.distribution) for each in checked], out)
     return checked, refused + len(kept)
 
 
@@ -302,73 +298,6 @@ def _texts_of_others(files: Mapping[Path, str]) -> dict[Path, str]:
     """Return the files that exist with another text than the one to write."""
     found = {path: text for path, text in files.items() if path.exists()}
     return {path: text for path, text in found.items() if path.read_bytes() != text.encode()}
-
-
-def _write(path: Path, text: str) -> None:
-    replace_file(path, text.encode())
-
-
-# --- settings -------------------------------------------------------------------------------------
-
-
-def _write_settings(results: Sequence[Result], out: Path) -> None:
-    """Write where the maps are, and the rows of campaigns; settings that exist stay."""
-    folders = {
-        os.path.relpath(file.parent, out)
-        for each in results
-        if (file := each.imported.document.map_file) is not None
-    }
-    lines = [f"map_paths = {json.dumps(sorted(folders))}"] if folders else []
-    for each in results:
-        lines += _campaign(each, out)
-    if not lines:
-        return
-    place = out / SETTINGS
-    if place.exists():
-        complain(f"{place}: exists, left as it is")
-        return
-    _write(place, "\n".join(lines) + "\n")
-
-
-def _campaign(result: Result, out: Path) -> Iterator[str]:
-    found, name = result.distribution, result.imported.name
-    if found is None:
-        return
-    yield ""
-    yield f"[scenarios.{name}.campaign]"
-    parameters = {
-        said: parameter
-        for said, parameter in result.imported.parameters.items()
-        if parameter.is_used and said in found.open and len(found.open[said].values) != 1
-    }
-    if found.is_drawn or not parameters:
-        yield 'sampler = "random"'
-        yield f"samples = {found.runs or 1}"
-        return
-    rows = (
-        list(dict.fromkeys(tuple(row.get(said, "") for said in parameters) for row in found.rows()))
-        if found.size <= MOST_ROWS * 20
-        else []
-    )
-    if not rows or len(rows) > MOST_ROWS:
-        yield 'sampler = "pairwise"'
-        return
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(each.name for each in parameters.values())
-    for row in rows:
-        units = (each.unit[0] if each.kind == "double" else "" for each in parameters.values())
-        writer.writerow(f"{_plain(value)}{unit}" for value, unit in zip(row, units, strict=True))
-    _write(out / f"{name}.csv", text.getvalue())
-    yield f'sampler = "table:{name}.csv"'
-    yield f"samples = {len(rows)}"
-
-
-def _plain(value: str) -> str:
-    try:
-        return f"{float(value):.12g}"
-    except ValueError:
-        return value
 
 
 # --- the summary ----------------------------------------------------------------------------------

@@ -180,6 +180,7 @@ CODES = _table(
     Code("OSC321", "invalid-extension", ERROR, "This cannot be extended so.", "7.3.9"),
     Code("OSC322", "same-dimension", ERROR, "Two types have one dimension.", "7.3.4"),
     Code("OSC323", "reversed-range", WARNING, "The upper bound stands first.", "7.3.5.2.2"),
+    Code("OSC324", "too-many-levels", ERROR, "A type has too many supertypes.", "7.3.8"),
     # --- 4xx behaviors, modifiers and constraints ---
     Code("OSC401", "several-do", ERROR, "A behavior has more than one `do`.", "7.3.13"),
     Code("OSC402", "unknown-argument", ERROR, "No parameter has this name.", "7.3.5.1.3"),

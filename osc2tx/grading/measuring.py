@@ -11,7 +11,7 @@ from math import inf
 from pathlib import Path
 
 from osc2tx.backends.xosc import XmlScenario
-from osc2tx.backends.xosc.facts.run_options import read_signal, read_spawn
+from osc2tx.backends.xosc.facts.start_places import read_signal, read_spawn
 from osc2tx.backends.xosc.profiles import PROFILES
 from osc2tx.backends.xosc.report import Grade, Measured, Metres
 from osc2tx.grading.comparison import EXACT, Deviation, compare

@@ -16,7 +16,7 @@ from osc2tx.xosc.element import Element, Unresolved
 from osc2tx.xosc.player import Evaluator, Reading, Unplayable
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
 from osc2tx_runtime.opendrive import RoadMap, read_map
-from osc2tx_shared.classes import dataclass
+from osc2tx_shared.classes import dataclass, replace
 
 MAPS_KEPT = 8
 OVER = 1.0  # s: a player gets so much more time than the run in the world took, and twice of it
@@ -126,12 +126,20 @@ def values_for(
     if not declared:
         return {}
     try:
-        made = scenario(settings)
-        made.create_tree()
-    except (ScenarioError, ArithmeticError) as error:
-        raise NoEvidence(f"the run in the world fails: {error}") from error
+        made = _made(scenario, replace(settings, set=declared))  # nothing is left to be drawn
+    except (ScenarioError, ArithmeticError):  # a name in the scenario may be another one
+        try:
+            made = _made(scenario, settings)
+        except (ScenarioError, ArithmeticError) as error:
+            raise NoEvidence(f"the run in the world fails: {error}") from error
     documented = {each: re.sub(r"\W", "_", each) for each in made.parameters}
     return {each: declared[name] for each, name in documented.items() if name in declared}
+
+
+def _made(scenario: type[Scenario], settings: RunSettings) -> Scenario:
+    made = scenario(settings)
+    made.create_tree()
+    return made
 
 
 def reading_of(tool: ToolProfile, *, is_lazy: bool = False) -> Reading:

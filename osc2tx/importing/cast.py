@@ -7,11 +7,12 @@ from dataclasses import field
 from pathlib import Path
 
 from osc2tx.importing.cursor import Ledger, Node
+from osc2tx.importing.dimensions import LENGTH, literal
 from osc2tx.importing.document import Document
 from osc2tx.importing.names import Names, snake
 from osc2tx.importing.program import INDENT, declaration
 from osc2tx.importing.report import ImportReport
-from osc2tx.importing.values import LENGTH, Values, literal
+from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Element, Unresolved
 from osc2tx_shared.classes import dataclass
 

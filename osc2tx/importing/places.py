@@ -11,10 +11,11 @@ from dataclasses import field
 
 from osc2tx.importing.cast import bodies_of
 from osc2tx.importing.cursor import Node
+from osc2tx.importing.dimensions import ANGLE, LENGTH, Quantity, literal
 from osc2tx.importing.document import Document
 from osc2tx.importing.names import Names
 from osc2tx.importing.program import declaration
-from osc2tx.importing.values import ANGLE, LENGTH, Quantity, Values, literal
+from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Element, Unresolved
 from osc2tx.xosc.player.bodies import Body, Pose, body_of
 from osc2tx.xosc.player.errors import Unplayable

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import field
 
-from osc2tx.importing.actions import Actions, Effect
+from osc2tx.importing.actions import Actions
 from osc2tx.importing.conditions import Conditions, Trigger
 from osc2tx.importing.cursor import Ledger, Node
 from osc2tx.importing.document import Document
+from osc2tx.importing.effects import Effect
 from osc2tx.importing.names import Names, short
 from osc2tx.importing.program import Statement, composed
 from osc2tx.importing.values import Values

@@ -2,8 +2,8 @@
 
 Nodes are frozen data without references to syntax or symbols; every one knows its span.
 Modules, in reading order: `values`, `expressions`, `behaviors`, `declarations`, `user_types`,
-`coverage`, `nodes`; then `traversal`, `compare`, `inheritance`, `verify` (the invariants) and
-`dump` (the printable form).
+`coverage`, `nodes`; then `traversal`, `trees`, `compare`, `inheritance`, `verify` (the invariants)
+and `dump` (the printable form).
 """
 
 from osc2tx.ir.behaviors import (
@@ -96,6 +96,18 @@ from osc2tx.ir.nodes import (
     Scenario,
 )
 from osc2tx.ir.traversal import applied_with, bounds, children, constant, is_live, rewrite, walk
+from osc2tx.ir.trees import (
+    actors_of,
+    follower,
+    holds,
+    invocations,
+    is_first,
+    is_last,
+    is_timed,
+    may_be_cut,
+    predecessor,
+    runs_beside,
+)
 from osc2tx.ir.user_types import (
     ActionParameter,
     UserAction,

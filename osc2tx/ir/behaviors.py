@@ -6,7 +6,7 @@ from enum import Enum
 from typing import TypeAlias
 
 from osc2tx.diagnostics import Span
-from osc2tx.ir.expressions import Argument, Expression
+from osc2tx.ir.expressions import Argument, Expression, FieldRef
 from osc2tx.ir.values import qualified
 from osc2tx_shared.classes import dataclass
 
@@ -210,6 +210,11 @@ class Invoke(BehaviorBase):
     def qualified_name(self) -> str:
         """`vehicle.drive`; the name alone if there is no actor."""
         return qualified(self.owner, self.action)
+
+    @property
+    def actor_name(self) -> str | None:
+        """Name of the actor, if that is a field of the scenario."""
+        return self.actor.name if isinstance(self.actor, FieldRef) else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

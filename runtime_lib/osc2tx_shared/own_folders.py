@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import sys
 import time
 from collections.abc import Iterator
@@ -13,8 +12,8 @@ from pathlib import Path
 if sys.platform != "win32":
     import fcntl
 
-RUN, REVISION, CAMPAIGN = "osc2tx-run-", "osc2tx-revision-", "osc2tx-campaign-"
-"""How the names of the folders begin: of modules that are run, of revisions, of campaigns."""
+REVISION, CAMPAIGN = "osc2tx-revision-", "osc2tx-campaign-"
+"""How the names of the folders begin: of revisions, of campaigns."""
 
 FRESH = 60.0
 """Seconds: a folder that is younger may be one that its process is about to lock."""
@@ -42,6 +41,7 @@ def remove_left_over(prefix: str) -> None:
     """Remove the folders of processes that were killed: they are no longer locked."""
     if sys.platform == "win32":  # no locks of folders there
         return
+    from shutil import rmtree
     from tempfile import gettempdir
 
     for folder in Path(gettempdir()).glob(f"{prefix}*"):
@@ -51,7 +51,7 @@ def remove_left_over(prefix: str) -> None:
                 continue
             mark = hold(str(folder))
             if mark is not None:
-                shutil.rmtree(folder, ignore_errors=True)
+                rmtree(folder, ignore_errors=True)
                 os.close(mark)
 
 

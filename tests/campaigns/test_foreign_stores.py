@@ -194,6 +194,25 @@ def test_a_locked_store_is_told(place: Path, monkeypatch: pytest.MonkeyPatch) ->
     use_all(place)
 
 
+def test_a_store_in_a_folder_that_cannot_be_written(
+    place: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is read without a file beside it, and takes no rows."""
+    with sqlite3.connect(place) as base:
+        base.execute("pragma journal_mode = wal")
+    base.close()
+    access = os.access
+    monkeypatch.setattr("os.access", lambda path, mode: path != place.parent and access(path, mode))
+    names = sorted(each.name for each in place.parent.iterdir())
+    with Store(place) as store:
+        assert store.done() == {0, 1, 2, 3}
+        assert sorted(each.name for each in place.parent.iterdir()) == names
+    for name in ("store", "other"):
+        with pytest.raises(CampaignError, match=f"{name}: its folder cannot be written"):
+            Store(place.with_name(name), is_new=True)
+    assert sorted(each.name for each in place.parent.iterdir()) == names
+
+
 def test_a_folder_in_place_of_a_store(tmp_path: Path) -> None:
     with pytest.raises(CampaignError, match=str(tmp_path)):
         Store(tmp_path, is_new=True)

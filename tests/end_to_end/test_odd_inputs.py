@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from osc2tx_shared.own_folders import FRESH, REVISION, RUN, own_folder
+from osc2tx_shared.own_folders import FRESH, REVISION, own_folder
 from tests.unit.cli.shell import DRIVE, Shell
 
 
@@ -67,13 +67,13 @@ def test_a_build_removes_what_killed_ones_have_left(
     (tmp_path / "tmp").mkdir()
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "tmp"))
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))  # a result kept compiles nothing
-    left = [tmp_path / "tmp" / f"{prefix}left" for prefix in (RUN, REVISION)]
-    young, old = tmp_path / "tmp" / f"{RUN}young", time.time() - 2 * FRESH
-    for folder in (*left, young):
-        folder.mkdir()
-    with own_folder(RUN) as used:
-        for place in (*left, used):
+    left, young = (tmp_path / "tmp" / f"{REVISION}{name}" for name in ("left", "young"))
+    left.mkdir()
+    young.mkdir()
+    old = time.time() - 2 * FRESH
+    with own_folder(REVISION) as used:
+        for place in (left, used):
             os.utime(place, (old, old))
         assert shell("build", "drive.osc", "-o", "out").code == 0
-        assert not any(folder.exists() for folder in left)
+        assert not left.exists()
         assert young.exists() and Path(used).exists()

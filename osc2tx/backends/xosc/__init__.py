@@ -1,7 +1,7 @@
 """The XML back end: IR in, OpenSCENARIO XML 1.0 to 1.4 and a loss report out.
 
-Begin at `emitter`. In order of control flow: `document` (the skeleton), `entities`, `init_actions`
-(`Init`), `flatten` (the tree as acts and events) with `actions`, `conditions` and `events`; what
+Begin at `emitter`. In order of control flow: `document` (the skeleton), `entities` (with
+`Init`), `flatten` (the tree as acts and events) with `actions`, `conditions` and `events`; what
 they make are elements of `osc2tx.xosc`, whose writer puts them in order and checks them.
 """
 

@@ -166,7 +166,7 @@ class Context:
     def _map_file(self) -> str | None:
         for declaration in self.scenario.declarations:
             if isinstance(declaration, ir.Actor) and "map" in declaration.lineage:
-                value = self.values.field(declaration.name, ("map_file",))
+                value = self.values.field(declaration.name, "map_file")
                 if isinstance(value, str):
                     return value
         for placement in self.scenario.placements:
@@ -198,6 +198,20 @@ class Context:
                 f"{what} is not in OpenSCENARIO XML {self.version}", span, Remedy(version=since)
             )
 
+    def required_roads(self, what: str, span: Span | None = None, otherwise: str = "") -> Roads:
+        """Return the map.
+
+        Raises:
+            Inexpressible: It is not at hand, though something needs it.
+        """
+        if self.roads is None:
+            raise Inexpressible(
+                f"{what} the map {self.map_file}, which is not at hand: give its folder with"
+                f" --map-path{otherwise}",
+                span,
+            )
+        return self.roads
+
     def require_support(self, feature: str, span: Span | None = None) -> None:
         """Refuse what the tool does not carry out; `feature` as in `ToolProfile.unsupported`.
 
@@ -207,9 +221,7 @@ class Context:
         instead = self.profile.unsupported.get(feature)
         if instead is not None:
             raise Inexpressible(
-                f"{self.profile.name} does not carry out {feature}: {instead}",
-                span,
-                GENERIC,
+                f"{self.profile.name} does not carry out {feature}: {instead}", span, GENERIC
             )
 
     def can(self, feature: str, since: XmlVersion) -> bool:

@@ -11,7 +11,7 @@ from osc2tx.backends.xosc.conditions.early_triggers import triggers_of
 from osc2tx.backends.xosc.conditions.flow import Flow, at_time, single
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.entities import scenario_objects
-from osc2tx.backends.xosc.entities.init_actions import initial_actions
+from osc2tx.backends.xosc.entities.placing import initial_actions
 from osc2tx.backends.xosc.flattening.flatten import Flattener
 from osc2tx.backends.xosc.flattening.storyboard.storyboard import StoryboardWriter
 from osc2tx.backends.xosc.logical.parameters import declaration
@@ -159,7 +159,7 @@ def _variables(ctx: Context) -> xml.VariableDeclarations | None:
         *(
             xml.VariableDeclaration(name=name, variableType=type_, value=value)
             for name, (type_, value) in ctx.variables.items()
-        ),
+        )
     )
 
 

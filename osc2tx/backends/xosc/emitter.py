@@ -6,13 +6,14 @@ from collections.abc import Mapping, Sequence
 from importlib import import_module
 from pathlib import Path, PurePosixPath
 from pkgutil import walk_packages
+from types import MappingProxyType
 
 from osc2tx import ir
 from osc2tx.backends.xosc import actions
 from osc2tx.backends.xosc.conditions.comparisons import speeds_read
 from osc2tx.backends.xosc.context import Context, Outlook
 from osc2tx.backends.xosc.document import entry_scenarios, make_document
-from osc2tx.backends.xosc.facts.run_options import read_signal, read_spawn
+from osc2tx.backends.xosc.facts.start_places import read_signal, read_spawn
 from osc2tx.backends.xosc.logical.distributions import document as values_document
 from osc2tx.backends.xosc.logical.documents import LogicalWriter
 from osc2tx.backends.xosc.logical.parameter_choices import Choosing
@@ -26,7 +27,7 @@ from osc2tx.options import XmlOptions
 from osc2tx.xosc.element import Element, Unwritable
 from osc2tx.xosc.elements import FileHeader
 from osc2tx.xosc.writer import serialize
-from osc2tx_shared.classes import dataclass
+from osc2tx_shared.classes import dataclass, replace
 
 for _module in walk_packages(
     actions.__path__, f"{actions.__name__}."
@@ -105,46 +106,36 @@ class _Emission:
         try:
             require_room(self._scenario, self._module)
         except Inexpressible as error:
-            return self._refused(infix, error)
+            report = LossReport(self._options)
+            report.refuse("scenario invocation", self._scenario.span, error)
+            return self._made(infix, report)
         version = self._options.version
         writer = LogicalWriter(self._scenario, self._module, version, self._write)
         found = writer.run()
         ctx, document = found.ctx, found.document
         if document is not None:
             report_parameters(found, writer.parameters)
-        xml = parameters = None
-        if document is not None and ctx.report.is_expressible:
-            xml = serialize(document, version)
-            if found.kept and version >= "1.1":
-                values = values_document(
-                    document.one(FileHeader), f"{name}.xosc", found.distributions()
-                )
-                parameters = serialize(values, version)
-        return XmlScenario(
-            name=self._scenario.name,
-            infix=infix,
-            xml=xml,
-            parameters=parameters,
-            report=ctx.report,
-            report_json=report_json(ctx.report, self._scenario, self._module),
-            origins=ctx.origins,
-            map_places=ctx.map_places,
-        )
+        made = self._made(infix, ctx.report, ctx.origins, ctx.map_places)
+        if document is None or not ctx.report.is_expressible:
+            return made
+        made = replace(made, xml=serialize(document, version))
+        if not found.kept or version < "1.1":
+            return made
+        header = document.one(FileHeader)
+        values = values_document(header, f"{name}.xosc", found.distributions())
+        return replace(made, parameters=serialize(values, version))
 
-    def _refused(self, infix: str, error: Inexpressible) -> XmlScenario:
-        """Return that there is no document."""
-        report = LossReport(self._options)
-        report.refuse("scenario invocation", self._scenario.span, error)
-        return XmlScenario(
-            name=self._scenario.name,
-            infix=infix,
-            xml=None,
-            parameters=None,
-            report=report,
-            report_json=report_json(report, self._scenario, self._module),
-            origins={},
-            map_places=(),
-        )
+    def _made(
+        self,
+        infix: str,
+        report: LossReport,
+        origins: Mapping[str, Span] = MappingProxyType({}),
+        map_places: tuple[Path, ...] = (),
+    ) -> XmlScenario:
+        """Return the scenario without its document."""
+        told = report_json(report, self._scenario, self._module)
+        name = self._scenario.name
+        return XmlScenario(name, infix, None, None, report, told, origins, map_places)
 
     def _write(self, choosing: Choosing) -> tuple[Context, Element | None]:
         """Return the document for a choice of open parameters; `None` if there cannot be one."""

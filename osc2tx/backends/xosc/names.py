@@ -1,8 +1,17 @@
-"""Names of elements, unique in the document and close to the source."""
+"""Names of elements, unique in the document and close to the source.
+
+Events, acts and marks are called after labels, else after what a member does. No name counts
+members, so that one more of them renames no other; only what says the very same is told apart by
+numbers.
+"""
 
 from __future__ import annotations
 
 import re
+from collections import Counter
+from collections.abc import Mapping
+
+from osc2tx import ir
 
 _ILLEGAL = re.compile(r"[^A-Za-z0-9_]+")
 
@@ -32,3 +41,47 @@ class Names:
         self._numbers[self._key(base)] = number
         self._taken.add(self._key(name))
         return name
+
+
+Deed = tuple[str, str]
+"""An action and its actor, as written."""
+
+
+def member_name(scenario: ir.Scenario, node: ir.Behavior) -> str:
+    """Return what a member of a scenario is called; its body has no name but its kind."""
+    if node.label is not None:
+        return node.label
+    return type(node).__name__.lower() if node is scenario.body else node.name
+
+
+def deeds(scenario: ir.Scenario) -> Mapping[Deed, int]:
+    """Return how often the members of a scenario without a label do the same."""
+    return Counter(_deed(n) for n in ir.invocations(scenario.body) if n.label is None)
+
+
+def event_name(done: Mapping[Deed, int], node: ir.Invoke, actor: str | None = None) -> str:
+    """Return what the event of an action is called.
+
+    The action alone will do where it is done once; else its arguments and modifiers follow.
+
+    Args:
+        done: The `deeds` of its scenario.
+        node: The invocation.
+        actor: The entity that acts, if there is one.
+    """
+    if node.label is not None:
+        return node.label
+    details = [] if done[_deed(node)] == 1 else [*_values(node.arguments), *_modifiers(node)]
+    return "_".join(([] if actor is None else [actor]) + [node.action, *details])
+
+
+def _deed(node: ir.Invoke) -> Deed:
+    return node.action, "" if node.actor is None else node.actor.span.text
+
+
+def _values(arguments: tuple[ir.Argument, ...]) -> list[str]:
+    return [argument.value.span.text.strip('"') for argument in arguments]
+
+
+def _modifiers(node: ir.Invoke) -> list[str]:
+    return [word for call in node.modifiers for word in (call.name, *_values(call.arguments))]

@@ -154,7 +154,7 @@ NOISE = 1e-3
 """Below this, deviations in m, m/s and s are those of rounded numbers in documents."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False)
 class Entry:
     """The grade of one construct.
 
@@ -221,7 +221,7 @@ class LossReport:
 
     def exact(self, construct: str, span: Span, note: str = "") -> None:
         """Note that a construct means the same in the XML."""
-        self._add(Entry(construct=construct, span=span, grade=Grade.EXACT, reason=note))
+        self._add(Entry(construct, span, Grade.EXACT, note))
 
     def approximate(
         self,
@@ -232,29 +232,23 @@ class LossReport:
         remedy: Remedy = NOTHING,
     ) -> None:
         """Note that a construct means nearly the same in the XML."""
-        grade = Grade.APPROXIMATED
-        self._add(
-            Entry(
-                construct=construct,
-                span=span,
-                grade=grade,
-                reason=reason,
-                bound=bound,
-                remedy=remedy.with_tool(self._tool),
-            )
-        )
+        self._lose(Grade.APPROXIMATED, construct, span, reason, bound, remedy)
 
     def cannot(self, construct: str, span: Span, reason: str, remedy: Remedy = NOTHING) -> None:
         """Note that a construct cannot be written down."""
-        self._add(
-            Entry(
-                construct=construct,
-                span=span,
-                grade=Grade.INEXPRESSIBLE,
-                reason=reason,
-                remedy=remedy.with_tool(self._tool),
-            )
-        )
+        self._lose(Grade.INEXPRESSIBLE, construct, span, reason, "", remedy)
+
+    def _lose(
+        self,
+        grade: Grade,
+        construct: str,
+        span: Span,
+        reason: str,
+        bound: Metres | str,
+        remedy: Remedy,
+    ) -> None:
+        remedy = remedy.with_tool(self._tool)
+        self._add(Entry(construct, span, grade, reason, bound, remedy))
 
     def refuse(self, construct: str, span: Span, error: Unwritable) -> None:
         """Note that a construct cannot be written down, as an attempt has shown."""

@@ -13,8 +13,7 @@ from typing import NamedTuple
 
 from osc2tx import ir
 from osc2tx.backends.xosc.entities.cast import CastMember, cast_member
-from osc2tx.backends.xosc.flattening.storyboard.member_names import Deed, deeds
-from osc2tx.backends.xosc.names import Names
+from osc2tx.backends.xosc.names import Deed, Names, deeds
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Constant, Named, UserTypes
 from osc2tx.backends.xosc.values.folding import Values
@@ -74,7 +73,10 @@ class Scope:
 MOST_MEMBERS = 5_000
 """Members of a document, with those of invoked scenarios: each is written in place."""
 
-MOST_DEPTH = 100
+MOST_INVOKED = 2_000
+"""Those of invoked scenarios alone, of which a short text can have any number."""
+
+MOST_DEPTH = 30
 """Scenarios in each other; the verifier refuses those that invoke themselves."""
 
 
@@ -97,14 +99,20 @@ def require_room(scenario: ir.Scenario, module: ir.Module) -> None:
         return sizes.get(key, (0, MOST_DEPTH))
 
     members, depth = size(scenario.key, 0)
-    if members > MOST_MEMBERS or depth > MOST_DEPTH:
-        much = f"{members} members" if members > MOST_MEMBERS else f"more than {MOST_DEPTH} levels"
-        most = f", at most {MOST_MEMBERS}" if members > MOST_MEMBERS else ""
-        raise Inexpressible(
-            f"with invoked scenarios in place, a document would have {much}{most}",
-            scenario.span,
-            Remedy(instead="a document for each of the scenarios that it invokes is exact"),
-        )
+    invoked = members - len(ir.walk_behaviors(scenario.body))
+    if members > MOST_MEMBERS:
+        much = f"{members} members, at most {MOST_MEMBERS}"
+    elif invoked > MOST_INVOKED:
+        much = f"{invoked} of their members, at most {MOST_INVOKED}"
+    elif depth > MOST_DEPTH:
+        much = f"more than {MOST_DEPTH} levels"
+    else:
+        return
+    raise Inexpressible(
+        f"with invoked scenarios in place, a document would have {much}",
+        scenario.span,
+        Remedy(instead="a document for each of the scenarios that it invokes is exact"),
+    )
 
 
 def open_scopes(
@@ -165,12 +173,7 @@ class _Opener:
         if scenario.key not in self._deeds:
             self._deeds[scenario.key] = deeds(scenario)
         scope = Scope(
-            scenario,
-            values,
-            dict(handed_in),
-            place.prefix,
-            place.path,
-            self._deeds[scenario.key],
+            scenario, values, dict(handed_in), place.prefix, place.path, self._deeds[scenario.key]
         )
         for declaration in scenario.declarations:
             if isinstance(declaration, ir.Actor) and declaration.name not in handed_in:

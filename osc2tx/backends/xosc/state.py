@@ -95,6 +95,11 @@ class ActorState:
     aside: float = 0.0
     unfinished: tuple[tuple[str, str], ...] = ()
 
+    @property
+    def known_speed(self) -> float | None:
+        """Its speed (m/s), if it is known to be just one."""
+        return self.speed.low if self.speed is not None and self.speed.is_known else None
+
     def with_unfinished(self, domain: str, event: str) -> ActorState:
         """Return the state in which an event may not be over."""
         return replace(self, unfinished=(*self._others(domain), (domain, event)))

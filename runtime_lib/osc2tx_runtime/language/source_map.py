@@ -67,13 +67,15 @@ def read_source_map(scenario: type, name: str, file: str) -> SourceMap:
         name: Name of the scenario in the map.
         file: Scenario file.
     """
-    path = getattr(sys.modules.get(scenario.__module__), "__file__", None)
+    module = sys.modules.get(scenario.__module__)
+    path = getattr(module, "__file__", None)
     if path is None:
         return SourceMap(file)
-    place = Path(path).with_suffix(".map.json")
+    read = getattr(
+        getattr(module, "__loader__", None), "get_data", _bytes_of
+    )  # debuggers have none
     try:
-        status = place.stat()
-        content = _content(place, (status.st_mtime_ns, status.st_size))
+        content = _content(read(str(Path(path).with_suffix(".map.json"))))
     except (OSError, ValueError, RecursionError):
         return SourceMap(file)
     if not isinstance(content, dict) or content.get("version") != VERSION:
@@ -81,10 +83,14 @@ def read_source_map(scenario: type, name: str, file: str) -> SourceMap:
     return parse_source_map(_table(_table(content.get("scenarios")).get(name)), file)
 
 
+def _bytes_of(path: str) -> bytes:
+    return Path(path).read_bytes()
+
+
 @lru_cache(maxsize=4)
-def _content(place: Path, state: tuple[int, int]) -> Any:
-    """Return what is in a file of some state: each invoked scenario asks for that of its module."""
-    return json.loads(place.read_text(encoding="utf-8"))
+def _content(text: bytes) -> Any:
+    """Return what a file says: each invoked scenario asks for that of its module."""
+    return json.loads(text)
 
 
 def parse_source_map(entry: Mapping[str, Any], file: str) -> SourceMap:

@@ -5,6 +5,7 @@ from pathlib import Path
 from osc2tx.backends.py_trees.emitter import emit
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions
+from osc2tx.semantics.declarations.inheritance import MOST_LEVELS
 from tests.work import calls
 
 TEXT = """import osc.standard.all
@@ -28,4 +29,4 @@ def work(folder: Path, depth: int) -> int:
 
 def test_long_lineages(tmp_path: Path) -> None:
     work(tmp_path, 3)  # what is loaded with the first module
-    assert work(tmp_path, 120) < 3 * work(tmp_path, 60)
+    assert work(tmp_path, MOST_LEVELS) < 3 * work(tmp_path, MOST_LEVELS // 2)

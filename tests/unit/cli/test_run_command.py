@@ -25,7 +25,7 @@ def test_run_of_a_source_leaves_nothing_behind(shell: Shell) -> None:
     ended = shell("run", "a.osc", "--trace", "t.jsonl", "--max-time", "10s")
     assert ended.code == 0, ended.err
     assert ended.out.startswith("top: success after 2.00 s")
-    assert {name for name in set(sys.modules) - before if "osc2tx-run" in name} == set()
+    assert {name for name in set(sys.modules) - before if "osc2tx:" in name} == set()
     lines = [json.loads(line) for line in (shell.folder / "t.jsonl").read_text().splitlines()]
     actions = [line for line in lines if line["kind"] == "action"]
     assert {line["source"] for line in actions} == {"a.osc:6"}

@@ -19,6 +19,7 @@ WITHOUT_TEXT = {
     "OSC101",
     "OSC105",
     "OSC115",
+    "OSC324",
     "OSC517",
     "OSC518",
     "OSC804",

@@ -7,16 +7,17 @@ leave out the rest too; in 1.0 it has to be stated again, so all that was said b
 from __future__ import annotations
 
 import math
+from datetime import datetime, timedelta
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.date_and_time import environments, time_of_day
-from osc2tx.backends.xosc.actions.leaf import Arguments
+from osc2tx.backends.xosc.actions.arguments import Arguments
+from osc2tx.backends.xosc.actions.leaf import Globals
 from osc2tx.backends.xosc.actions.registry import global_action
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.actors import ADHESION, road_condition
-from osc2tx.backends.xosc.flattening.storyboard.member_names import event_name
-from osc2tx.backends.xosc.flattening.tree_queries import actors_of, is_first, runs_beside
+from osc2tx.backends.xosc.names import event_name
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
+from osc2tx.backends.xosc.values.constants import Constant, MethodResult, as_number
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import CloudState, FractionalCloudCover, PrecipitationType
 
@@ -53,15 +54,13 @@ OKTAS: tuple[FractionalCloudCover, ...] = (
 
 
 @global_action("assign_celestial_position")
-def _celestial_position(
-    ctx: Context, node: ir.Invoke, arguments: Arguments
-) -> tuple[xml.GlobalAction, ...]:
+def _celestial_position(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     azimuth, elevation = arguments.number("azimuth"), arguments.number("elevation")
     source = arguments.expression("light_source")
     if source is not None and source.span.text.endswith("moon"):
-        raise Inexpressible("there is no moon in OpenSCENARIO XML", node.span)
+        raise Inexpressible("there is no moon in OpenSCENARIO XML")
     if azimuth is None and elevation is None:
-        raise Inexpressible("neither azimuth nor elevation is stated", node.span)
+        raise Inexpressible("neither azimuth nor elevation is stated")
     if azimuth is not None:  # what nobody has said is open, and the XML says some value
         ctx.weather["sun_azimuth"] = azimuth
     if elevation is not None:
@@ -81,33 +80,31 @@ def _sun(ctx: Context) -> xml.Sun:
 
 
 @global_action("air")
-def _air(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[xml.GlobalAction, ...]:
+def _air(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     temperature, pressure = arguments.number("temperature"), arguments.number("pressure")
     humidity = arguments.number("relative_humidity")
     if temperature is not None:
         ctx.weather["temperature"] = temperature
     if humidity is not None:
-        ctx.report.approximate(
-            f"action {node.action}",
-            node.span,
+        arguments.approximate(
             "there is no humidity in OpenSCENARIO XML",
             f"relative_humidity {humidity:g} is dropped; temperature and pressure are exact",
         )
     if temperature is None and pressure is None:
         return ()
-    ctx.require("temperature and pressure of the air", "1.1", node.span)
+    ctx.require("temperature and pressure of the air", "1.1")
     return (environment_action(ctx, node, temperature=temperature, pressure=pressure),)
 
 
 @global_action("wind")
-def _wind(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[xml.GlobalAction, ...]:
-    ctx.require("wind", "1.1", node.span)
+def _wind(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
+    ctx.require("wind", "1.1")
     for name in ("speed", "direction"):
         value = arguments.number(name)
         if value is not None:
             ctx.weather[f"wind_{name}"] = value
     if "wind_speed" not in ctx.weather or "wind_direction" not in ctx.weather:
-        raise Inexpressible("the XML asks for both speed and direction", node.span)
+        raise Inexpressible("the XML asks for both speed and direction")
     # The DSL says where it comes from, clockwise from north; the XML whither, counter-clockwise
     # from east.
     whither = (-0.5 * math.pi - ctx.weather["wind_direction"]) % (2.0 * math.pi)
@@ -119,12 +116,10 @@ def _wind(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[xml.Glob
 
 
 @global_action("fog")
-def _fog_action(
-    ctx: Context, node: ir.Invoke, arguments: Arguments
-) -> tuple[xml.GlobalAction, ...]:
+def _fog_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     visual_range = arguments.number("visual_range")
     if visual_range is None:
-        raise Inexpressible("no visual range is stated", node.span)
+        raise Inexpressible("no visual range is stated")
     ctx.weather["visual_range"] = visual_range
     return (environment_action(ctx, node, _fog(ctx)),)
 
@@ -134,17 +129,13 @@ def _fog(ctx: Context) -> xml.Fog:
 
 
 @global_action("clouds")
-def _clouds_action(
-    ctx: Context, node: ir.Invoke, arguments: Arguments
-) -> tuple[xml.GlobalAction, ...]:
+def _clouds_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     cloudiness = arguments.number("cloudiness")
     if cloudiness is None or not 0.0 <= cloudiness < len(OKTAS):
-        raise Inexpressible("the cloud cover is not between 0 and 9 oktas", node.span)
+        raise Inexpressible("the cloud cover is not between 0 and 9 oktas")
     ctx.weather["cloudiness"] = cloudiness
     if ctx.version < "1.2" and 0 < cloudiness < 8:
-        ctx.report.approximate(
-            f"action {node.action}",
-            node.span,
+        arguments.approximate(
             f"OpenSCENARIO XML {ctx.version} counts no oktas",
             f"{cloudiness:g} oktas are called cloudy, which is 1 to 7",
             Remedy(version="1.2"),
@@ -162,21 +153,17 @@ def _cloud_state(ctx: Context) -> CloudState:
 
 
 @global_action("rain", "snow")
-def _precipitation_action(
-    ctx: Context, node: ir.Invoke, arguments: Arguments
-) -> tuple[xml.GlobalAction, ...]:
+def _precipitation_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     intensity = arguments.number("intensity")
     if intensity is None:
-        raise Inexpressible("no intensity is stated", node.span)
+        raise Inexpressible("no intensity is stated")
     if node.action == "snow" and intensity > 0.0:
-        ctx.require_support("Precipitation/snow", node.span)
+        ctx.require_support("Precipitation/snow")
     ctx.weather[f"{node.action}_intensity"] = intensity
     if ctx.weather.get("rain_intensity", 0.0) > 0.0 and ctx.weather.get("snow_intensity", 0.0) > 0:
-        raise Inexpressible("OpenSCENARIO XML has one precipitation, not rain and snow", node.span)
+        raise Inexpressible("OpenSCENARIO XML has one precipitation, not rain and snow")
     if ctx.version == "1.0" and intensity > 0.0:
-        ctx.report.approximate(
-            f"action {node.action}",
-            node.span,
+        arguments.approximate(
             "the intensity has no unit in OpenSCENARIO XML 1.0",
             f"1 stands for {HEAVIEST_RAIN:g} mm/h and more",
             Remedy(version="1.1"),
@@ -256,7 +243,7 @@ def _stated_again(ctx: Context, source: ir.Invoke | ir.Actor) -> xml.TimeOfDay:
     clock = time_of_day(ctx)
     if clock is None:
         return xml.TimeOfDay(animation=False, dateTime=NOON)
-    if isinstance(source, ir.Invoke) and not is_first(ctx.scenario.body, source):
+    if isinstance(source, ir.Invoke) and not ir.is_first(ctx.scenario.body, source):
         ctx.report.approximate(
             f"action {source.action}",
             source.span,
@@ -280,15 +267,15 @@ def _road(ctx: Context, source: ir.Invoke | ir.Actor) -> xml.RoadCondition | Non
     if adhesion is not None:
         is_new = ctx.weather.get("adhesion") != adhesion
         ctx.weather["adhesion"] = adhesion
-        if is_new and isinstance(source, ir.Invoke) and not is_first(ctx.scenario.body, source):
+        if is_new and isinstance(source, ir.Invoke) and not ir.is_first(ctx.scenario.body, source):
             _report_lost_grip(ctx, source, adhesion)
     return xml.RoadCondition(frictionScaleFactor=1.0 if adhesion is None else adhesion)
 
 
 def _report_lost_grip(ctx: Context, source: ir.Invoke, adhesion: float) -> None:
     """Report that vehicles lose grip amid an action: the XML does not define the rest of it."""
-    beside = runs_beside(ctx.scenario.body, source)
-    names = {name for member in beside for name in actors_of(member)}
+    beside = ir.runs_beside(ctx.scenario.body, source)
+    names = {name for member in beside for name in ir.actors_of(member)}
     if any(name in ctx.cast and not ctx.cast[name].walks for name in names):
         ctx.report.approximate(
             f"action {source.action}",
@@ -298,3 +285,52 @@ def _report_lost_grip(ctx: Context, source: ir.Invoke, adhesion: float) -> None:
             f"vehicles keep the commanded acceleration beyond {adhesion:g} of the grip"
             " of a dry road",
         )
+
+
+DAY, CLOCK = ("year", "month", "day"), ("hour", "minute", "second")
+"""Parts of a local date and time."""
+
+
+def environments(ctx: Context) -> list[ir.Actor]:
+    """Return the environments; there is one at the most."""
+    return [
+        declaration
+        for declaration in ctx.scenario.declarations
+        if isinstance(declaration, ir.Actor) and "environment" in declaration.lineage
+    ]
+
+
+def time_of_day(ctx: Context) -> xml.TimeOfDay | None:
+    """Return date and time at the start, if the scenario says them (§8.10.2).
+
+    They are those of the zone of Greenwich; neither a fraction of a second nor a zone stands in the
+    text, for there are tools that cannot read them.
+    """
+    for actor in environments(ctx):
+        date = _date(ctx.values.field(actor.name, "datetime"))
+        if date is not None:
+            return xml.TimeOfDay(animation=True, dateTime=date.isoformat())
+    return None
+
+
+def _date(given: Constant | None) -> datetime | None:
+    """Return the date of a Unix time, or of local numbers (§8.10.2.1)."""
+    try:
+        if isinstance(given, MethodResult):
+            year, month, day = (round(_number(given.get(part))) for part in DAY)
+            hours, minutes, seconds = (_number(given.get(part)) for part in CLOCK)
+            hours -= _number(given.get("time_zone"))
+            since = timedelta(hours=hours, minutes=minutes, seconds=seconds)
+            return datetime(year, month, day) + since
+        if isinstance(given, (int, float)):
+            return datetime(1970, 1, 1) + timedelta(seconds=round(given))
+    except (OverflowError, ValueError) as error:
+        raise Inexpressible(f"the date cannot be written: {error}") from None
+    return None
+
+
+def _number(value: Constant | None) -> float:
+    number = as_number(value)
+    if number is None:
+        raise Inexpressible("the date is only known during the run")
+    return number

@@ -10,14 +10,23 @@ from collections.abc import Callable, Sequence
 from typing import Literal, TypeAlias
 
 from osc2tx import ir
+from osc2tx.backends.xosc.actions.arguments import Arguments, Call
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.facts.actors import Course, Limits, held_by, road_condition, steepest
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.facts.actors import (
+    Course,
+    Limits,
+    Pace,
+    held_by,
+    road_condition,
+    steepest,
+)
+from osc2tx.backends.xosc.report import NOTHING, Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, ActorState, Demand
-from osc2tx.backends.xosc.values.constants import Constant, Member, Named
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass
+
+UNKNOWN_SPEED = "the speed at the start is only known during the run"
 
 Ending: TypeAlias = Literal["goal", "open", "instant"]
 
@@ -43,6 +52,8 @@ class Change:
     goes_on: bool = False
 
 
+Changes: TypeAlias = tuple[Change, ...]
+
 Global: TypeAlias = xml.GlobalAction | xml.UserDefinedAction
 """An action that concerns no entity."""
 
@@ -53,6 +64,9 @@ class Later:
 
     seconds: float
     action: Global
+
+
+Globals: TypeAlias = tuple[Global | Later, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +80,7 @@ class Performance:
         reached: Conditions that hold when it is over, likewise; all of them have to.
     """
 
-    changes: tuple[Change, ...]
+    changes: Changes
     ends: Ending
     lasts: float | None = None
     reached: tuple[xml.ByEntityCondition, ...] = ()
@@ -83,67 +97,6 @@ class Uneven:
 
     speed: float
     length: float | None
-
-
-class Arguments:
-    """Arguments of an action or modifier by parameter, as constants."""
-
-    def __init__(
-        self, ctx: Context, arguments: tuple[ir.Argument, ...], source: ir.ModifierCall | ir.Invoke
-    ) -> None:
-        """Take the arguments; nothing is computed before it is asked for."""
-        self._ctx = ctx
-        self._by_name = {argument.parameter: argument for argument in arguments}
-        self._used: set[str] = set()
-        self.source = source
-
-    def __contains__(self, name: str) -> bool:
-        return name in self._by_name
-
-    def expression(self, name: str) -> ir.Expression | None:
-        """Return the expression of an argument."""
-        self._used.add(name)
-        argument = self._by_name.get(name)
-        return None if argument is None else argument.value
-
-    def get(self, name: str) -> Constant | None:
-        """Return the value of an argument."""
-        expression = self.expression(name)
-        return None if expression is None else self._ctx.values.of(expression)
-
-    def number(self, name: str) -> float | None:
-        """Return a number, in SI units."""
-        expression = self.expression(name)
-        return None if expression is None else self._ctx.values.number(expression)
-
-    def member(self, name: str, default: str) -> str:
-        """Return the name of a member of an enum."""
-        value = self.get(name)
-        return value.name if isinstance(value, Member) else default
-
-    def text(self, name: str) -> str | None:
-        """Return a string."""
-        value = self.get(name)
-        return value if isinstance(value, str) else None
-
-    def entity(self, name: str) -> CastMember | None:
-        """Return an actor."""
-        value = self.get(name)
-        if value is None:
-            return None
-        if not isinstance(value, Named) or value.name not in self._ctx.cast:
-            raise Inexpressible(f"`{name}` is no entity of the XML", self.source.span)
-        return self._ctx.cast[value.name]
-
-    def finish(self) -> None:
-        """Refuse arguments that nobody has asked for: they would be dropped.
-
-        Raises:
-            Inexpressible: There are some.
-        """
-        for name, argument in self._by_name.items():
-            if name not in self._used:
-                raise Inexpressible(f"argument `{name}` has no counterpart", argument.span)
 
 
 class Leaf:
@@ -180,7 +133,7 @@ class Leaf:
         self.ctx = ctx
         self.node = node
         self.member = member
-        self.arguments = Arguments(ctx, node.arguments, node)
+        self.arguments = Arguments(ctx, node)
         self.state = ctx.states[member.name]
         own = None if node.duration is None else ctx.values.number(node.duration)
         self.duration = time_left if own is None else own
@@ -192,14 +145,6 @@ class Leaf:
         self.reached: tuple[xml.ByEntityCondition, ...] = ()
         self.uneven: Uneven | None = None
         self.others: list[tuple[CastMember, xml.ActionPart, str]] = []
-
-    def on_me(self, condition: xml.EntityConditionPart) -> xml.ByEntityCondition:
-        """Return a condition on the actor."""
-        me = xml.EntityRef(entityRef=self.member.name)
-        return xml.ByEntityCondition(
-            xml.TriggeringEntities(me, triggeringEntitiesRule="any"),
-            xml.EntityCondition(condition),
-        )
 
     @property
     def limits(self) -> Limits:
@@ -228,18 +173,37 @@ class Leaf:
                 if change.domain == LONGITUDINAL and speed is not None:
                     self.ctx.demand(name, Demand(max(map(abs, speed))))
 
+    def approximate(self, reason: str, bound: Metres | str, remedy: Remedy = NOTHING) -> None:
+        """Report that the action means nearly the same in the XML."""
+        self.arguments.approximate(reason, bound, remedy)
+
+    def modifier(self, name: str) -> Call | None:
+        """Return the modifier of a name, if the invocation has one."""
+        node = next((call for call in self.node.modifiers if call.name == name), None)
+        return None if node is None else Call(self.ctx, node)
+
+    def in_time(self, call: Call, pace: Pace) -> Pace:
+        """Return how a change goes that has to be done when the invocation ends, if it has to."""
+        is_free = pace.profile != "asap" and pace.peak is None
+        return pace._replace(duration=self.duration) if call.at == "end" and is_free else pace
+
     @property
     def construct(self) -> str:
         """What it is called in reports."""
-        return construct_of_action(self.node)
+        return self.arguments.construct
 
+    def known_speed(self, otherwise: str = UNKNOWN_SPEED) -> float:
+        """Return the speed at the start (m/s).
 
-def construct_of_action(node: ir.Invoke) -> str:
-    """Return what an action is called in reports."""
-    return f"action {node.action}"
+        Raises:
+            Inexpressible: It is not known; `otherwise` says so.
+        """
+        speed = self.state.known_speed
+        if speed is None:
+            raise Inexpressible(otherwise, self.node.span)
+        return speed
 
 
 Perform: TypeAlias = Callable[[Leaf], Performance]
-PerformGlobal: TypeAlias = Callable[[Context, ir.Invoke, Arguments], tuple[Global | Later, ...]]
-
-Modify: TypeAlias = Callable[[Leaf, ir.ModifierCall, Arguments], tuple[Change, ...]]
+PerformGlobal: TypeAlias = Callable[[Context, ir.Invoke, Arguments], Globals]
+Modify: TypeAlias = Callable[[Leaf, Call], Changes]

@@ -6,20 +6,14 @@ and the like add theirs in files of their own (`registry`).
 
 from __future__ import annotations
 
-from osc2tx.backends.xosc.actions.leaf import (
-    Arguments,
-    Change,
-    Ending,
-    Leaf,
-    Performance,
-)
+from osc2tx.backends.xosc.actions.leaf import Change, Ending, Leaf, Performance
 from osc2tx.backends.xosc.actions.position.walkers import change_pace, stand, walk_on
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
 from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to
 from osc2tx.backends.xosc.actions.speed.speed_elements import hold_speed
 from osc2tx.backends.xosc.actions.speed.speed_modifiers import time_to_cover
-from osc2tx.backends.xosc.actions.speed.steady_speeds import note_open_speed
-from osc2tx.backends.xosc.facts.actors import course_of_speed
+from osc2tx.backends.xosc.actions.speed.speed_notes import note_open_speed
+from osc2tx.backends.xosc.facts.actors import FASTEST, Pace, course_of_speed
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 
@@ -55,31 +49,25 @@ def _walk(leaf: Leaf) -> Performance:
 
 
 def _walking_speed(leaf: Leaf) -> float | None:
-    for call in leaf.node.modifiers:
-        arguments = Arguments(leaf.ctx, call.arguments, call)
-        with leaf.ctx.report_as(f"modifier {call.name}", call.span):
-            speed = arguments.number("speed")
-            arguments.finish()
+    call = leaf.modifier("speed")
+    if call is not None:
+        with leaf.ctx.report_as(call.construct, call.span):
+            speed = call.number("speed")
+            call.finish()
             return speed
     return None
 
 
 @action("change_speed")
 def _change_speed(leaf: Leaf) -> Performance:
-    arguments = leaf.arguments
-    target = arguments.number("target")
-    if target is None:
-        raise Inexpressible("it has no target", leaf.node.span)
-    profile = arguments.member("rate_profile", "none")
-    peak = arguments.number("rate_peak")
-    state = leaf.state
-    if leaf.member.walks and state.pose is not None:
-        if state.speed is None or not state.speed.is_known:
-            raise Inexpressible("how fast it walks is not known", leaf.node.span)
-        course = course_of_speed(state.speed.low, target, profile, peak, leaf.duration, leaf.limits)
+    target = leaf.arguments.required("target", "it has no target")
+    pace = leaf.arguments.pace(leaf.duration)
+    if leaf.member.walks and leaf.state.pose is not None:
+        start = leaf.known_speed("how fast it walks is not known")
+        course = course_of_speed(start, target, pace, leaf.limits)
         walk = change_pace(leaf, target, course)
         return Performance((walk, *apply_modifiers(leaf)), "goal", course.duration)
-    change = change_speed(leaf, target, profile, peak, leaf.duration)
+    change = change_speed(leaf, target, pace)
     if not change.actions:  # it has that speed, which stays for the duration
         return Performance((change, *apply_modifiers(leaf)), "goal", leaf.duration)
     return to_goal(leaf, change)
@@ -87,11 +75,9 @@ def _change_speed(leaf: Leaf) -> Performance:
 
 @action("assign_speed")
 def _assign_speed(leaf: Leaf) -> Performance:
-    target = leaf.arguments.number("speed")
-    if target is None:
-        raise Inexpressible("it has no speed", leaf.node.span)
+    target = leaf.arguments.required("speed", "it has no speed")
     if leaf.member.walks and leaf.state.pose is not None:
-        course = course_of_speed(target, target, "none", None, None, leaf.limits)
+        course = course_of_speed(target, target, Pace(), leaf.limits)
         return Performance((change_pace(leaf, target, course),), "goal", 0.0)
     return Performance((jump_to(leaf, target),), "goal")
 
@@ -112,9 +98,7 @@ def _remain_stationary(leaf: Leaf) -> Performance:
         return Performance(apply_modifiers(leaf), "open")
     if leaf.member.walks:
         return Performance((stand(leaf),), "open")
-    return Performance(
-        (change_speed(leaf, 0.0, "asap", None, None), *apply_modifiers(leaf)), "open"
-    )
+    return Performance((change_speed(leaf, 0.0, FASTEST), *apply_modifiers(leaf)), "open")
 
 
 def _has_goal(leaf: Leaf) -> bool:

@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Literal
 
+from osc2tx.backends.xosc.actions.arguments import Call
 from osc2tx.backends.xosc.actions.leaf import (
-    Arguments,
     Change,
+    Changes,
     Leaf,
     Modify,
     Perform,
@@ -96,22 +97,22 @@ def with_form(what: What) -> set[str]:
     return {*ACTIONS, *GLOBAL_ACTIONS} if what == "action" else {*MODIFIERS, *AT_START}
 
 
-def apply_modifiers(leaf: Leaf) -> tuple[Change, ...]:
+def apply_modifiers(leaf: Leaf) -> Changes:
     """Return what the modifiers of an invocation change."""
     changes: list[Change] = []
-    for call in leaf.node.modifiers:
+    for node in leaf.node.modifiers:
+        call = Call(leaf.ctx, node)
         handler = MODIFIERS.get(call.name)
         if handler is None:
             reason = f"`{call.name}` has no counterpart here"
             reason = WITHOUT_FORM["modifier"].get(call.name, reason)
-            leaf.ctx.report.cannot(f"modifier {call.name}", call.span, reason)
+            leaf.ctx.report.cannot(call.construct, call.span, reason)
             continue
-        with leaf.ctx.report_as(f"modifier {call.name}", call.span):
+        with leaf.ctx.report_as(call.construct, call.span):
             if call.at == "start" and call.name != "speed":
                 raise Inexpressible("what has to hold at the start is not checked in the XML")
-            arguments = Arguments(leaf.ctx, call.arguments, call)
-            changes.extend(handler(leaf, call, arguments))
-            arguments.finish()
+            changes.extend(handler(leaf, call))
+            call.finish()
     return tuple(changes)
 
 

@@ -5,13 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import (
-    Arguments,
-    Change,
-    Leaf,
-    Performance,
-    construct_of_action,
-)
+from osc2tx.backends.xosc.actions.arguments import Arguments, construct_of_action
+from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
@@ -27,7 +22,7 @@ DEFAULT = "steady_driver"
 
 def check_model(ctx: Context, member: CastMember) -> None:
     """Refuse an entity that starts with another model than the default one."""
-    name = ctx.values.field(member.actor.name, ("initial_bm", "bm_engine", "name"))
+    name = ctx.values.field(member.actor.name, "initial_bm", "bm_engine", "name")
     if name not in (None, DEFAULT):
         raise no_model(f"what a `{name}` does", member.actor.span)
 
@@ -56,15 +51,14 @@ def global_command(
 
 
 def _command(ctx: Context, node: ir.Invoke, arguments: Arguments) -> xml.UserDefinedAction:
-    ctx.require_support("CustomCommandAction", node.span)
+    ctx.require_support("CustomCommandAction")
     if node.duration is None and not node.until:
         raise Inexpressible(
             "tools do not tell when a command of their own is over",
-            node.span,
-            Remedy(instead="with a duration or an `until` it is exact"),
+            remedy=Remedy(instead="with a duration or an `until` it is exact"),
         )
     if node.modifiers:
-        raise Inexpressible("modifiers of an action that only the tool knows", node.span)
+        raise Inexpressible("modifiers of an action that only the tool knows")
     values = {each.parameter: arguments.get(each.parameter) for each in node.arguments}
     note = f"the tool has to know the command `{node.action}`"
     ctx.report.exact(construct_of_action(node), node.span, note)

@@ -59,10 +59,7 @@ Measure: TypeAlias = Callable[[Context, Comparison], Groups]
 def of_entity(actor: str, condition: xml.EntityConditionPart) -> xml.ByEntityCondition:
     """Return the condition on one entity."""
     return xml.ByEntityCondition(
-        xml.TriggeringEntities(
-            xml.EntityRef(entityRef=actor),
-            triggeringEntitiesRule="any",
-        ),
+        xml.TriggeringEntities(xml.EntityRef(entityRef=actor), triggeringEntitiesRule="any"),
         xml.EntityCondition(condition),
     )
 

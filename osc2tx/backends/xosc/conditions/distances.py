@@ -7,7 +7,7 @@ from math import cos, pi, sin
 
 from osc2tx.backends.xosc.conditions.comparisons import MIRRORED, Comparison, Groups, of_entity
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.entities.stationary_actors import faces_along, standing_heading
+from osc2tx.backends.xosc.entities.start_lanes import faces_along, standing_heading
 from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.xosc import elements as xml

@@ -125,7 +125,7 @@ class Flow:
         return all_of((self, other))
 
     def __or__(self, other: Flow) -> Flow:
-        return Flow(tuple(dict.fromkeys((*self.groups, *other.groups))))
+        return any_of((self, other))
 
 
 NEVER = Flow(())
@@ -152,6 +152,11 @@ def all_of(flows: Sequence[Flow]) -> Flow:
         )
     choices = product(*(flow.groups for flow in flows))
     return Flow(tuple(_without_implied(chain.from_iterable(groups)) for groups in choices))
+
+
+def any_of(flows: Iterable[Flow]) -> Flow:
+    """Return when one of the flows is true."""
+    return Flow(tuple(dict.fromkeys(group for flow in flows for group in flow.groups)))
 
 
 def _without_implied(tests: Iterable[Test]) -> Group:
@@ -208,9 +213,7 @@ def at_time(seconds: float) -> Test:
 def state_of(kind: ElementKind, name: str, state: StoryboardElementState = "completeState") -> Test:
     """Return the test for the state of an element; running acts count as latched inside of them."""
     condition = xml.StoryboardElementStateCondition(
-        storyboardElementType=kind,
-        storyboardElementRef=name,
-        state=state,
+        storyboardElementType=kind, storyboardElementRef=name, state=state
     )
     is_moment = (kind, state) in (("event", "completeState"), ("act", "runningState"))
     return Test(xml.ByValueCondition(condition), latched=True, event=name if is_moment else None)

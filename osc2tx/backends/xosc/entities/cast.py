@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from osc2tx import ir
 from osc2tx.backends.xosc.facts.actors import CATEGORIES, Limits, Shape, limits_of, shape_of
 from osc2tx.backends.xosc.names import plain
-from osc2tx.backends.xosc.values.constants import Constant, Member
+from osc2tx.backends.xosc.values.constants import Member, as_number
 from osc2tx.backends.xosc.values.folding import Values
 from osc2tx_shared.classes import dataclass
 
@@ -74,10 +74,10 @@ def cast_member(actor: ir.Actor, name: str, values: Values) -> CastMember | None
     if kind is None:
         return None
     library_kind = next(t for t in actor.lineage if t in KINDS)
-    chosen = values.field(actor.name, ("vehicle_category",))
+    chosen = values.field(actor.name, "vehicle_category")
     category = chosen.name if isinstance(chosen, Member) else None
     sized = category if category in CATEGORIES else None  # others have no counterpart anyway
-    model = values.field(actor.name, ("model",))
+    model = values.field(actor.name, "model")
     model_name = model if isinstance(model, str) else None
     return CastMember(
         actor=actor,
@@ -95,11 +95,11 @@ def _shape(
 ) -> Shape:
     shape = shape_of(kind, category, model)
     sizes = {
-        name: _number(values.field(actor.name, ("bounding_box", name)))
+        name: as_number(values.field(actor.name, "bounding_box", name))
         for name in ("length", "width", "height")
     }
-    overhang = _number(values.field(actor.name, ("rear_overhang",)))
-    centre = _number(values.field(actor.name, ("bounding_box", "center", "x")))
+    overhang = as_number(values.field(actor.name, "rear_overhang"))
+    centre = as_number(values.field(actor.name, "bounding_box", "center", "x"))
     length = sizes["length"] or shape.length
     rear = shape.rear * length / shape.length if overhang is None else overhang
     return Shape(
@@ -109,9 +109,3 @@ def _shape(
         rear=rear if centre is None else 0.5 * length - centre,
         wheelbase=shape.wheelbase * length / shape.length,
     )
-
-
-def _number(value: Constant | None) -> float | None:
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return None
-    return float(value)

@@ -75,12 +75,7 @@ def required_roads(ctx: Context) -> Roads:
     Raises:
         Inexpressible: It is not at hand.
     """
-    if ctx.roads is None:
-        raise Inexpressible(
-            f"roads are looked for on the map {ctx.map_file}, which is not at hand: give its"
-            " folder with --map-path"
-        )
-    return ctx.roads
+    return ctx.required_roads("roads are looked for on")
 
 
 def _segments(ctx: Context) -> dict[str, MapSegment]:

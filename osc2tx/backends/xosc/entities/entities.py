@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
+from osc2tx.backends.xosc.actions.trailers import couplings, towing
 from osc2tx.backends.xosc.actions.user_actions import check_model
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import MISC, PEDESTRIAN, VEHICLE, CastMember
@@ -14,7 +15,6 @@ from osc2tx.backends.xosc.entities.categories import (
     trailer_literal,
     vehicle_literal,
 )
-from osc2tx.backends.xosc.entities.towing import couplings, towing
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.report import GENERIC, Metres
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
@@ -46,7 +46,7 @@ def axles(ctx: Context, member: CastMember) -> list[xml.AxlesPart]:
         for steering, position in ((MAX_STEERING, shape.wheelbase), (0.0, 0.0))
     ]
     name = member.actor.name
-    listed = ctx.values.field(name, ("axles",))
+    listed = ctx.values.field(name, "axles")
     found = [_as_said(ctx, name, ("axles", str(i)), axle) for i, axle in enumerate(usual)]
     if isinstance(listed, tuple) and listed:
         front, rear = usual
@@ -72,7 +72,7 @@ def _axle_of(ctx: Context, given: Constant, like: Axle) -> Axle:
 
 def _as_said(ctx: Context, name: str, path: tuple[str, ...], usual: Axle) -> Axle:
     """Return an axle with the constraints on it below a path of an object."""
-    said = {part: ctx.values.field(name, (*path, part)) for part in Axle._fields}
+    said = {part: ctx.values.field(name, *path, part) for part in Axle._fields}
     numbers = {part: float(v) for part, v in said.items() if isinstance(v, (int, float))}
     return usual._replace(**numbers)
 
@@ -130,10 +130,7 @@ def scenario_objects(ctx: Context) -> list[xml.ScenarioObject]:
 
 def _scenario_object(ctx: Context, member: CastMember) -> xml.ScenarioObject:
     check_model(ctx, member)
-    return xml.ScenarioObject(
-        _BODIES[member.kind](ctx, member),
-        name=member.name,
-    )
+    return xml.ScenarioObject(_BODIES[member.kind](ctx, member), name=member.name)
 
 
 def _vehicle(ctx: Context, member: CastMember) -> xml.Vehicle:
@@ -174,7 +171,7 @@ def _note_origin(ctx: Context, member: CastMember) -> None:
 
 
 def _category(ctx: Context, member: CastMember) -> VehicleCategory:
-    trailer = ctx.values.field(member.actor.name, ("trailer_category",))
+    trailer = ctx.values.field(member.actor.name, "trailer_category")
     if isinstance(trailer, Member):
         return trailer_literal(trailer.name)
     return vehicle_literal(ctx, member)
@@ -219,13 +216,13 @@ def _misc(ctx: Context, member: CastMember) -> xml.MiscObject:
 
 def _looks(ctx: Context, member: CastMember, kind: str) -> str | None:
     """Return the model of its looks, where the version has an attribute for it."""
-    model = ctx.values.field(member.actor.name, ("geometry_reference",))
+    model = ctx.values.field(member.actor.name, "geometry_reference")
     is_said = isinstance(model, str) and has_attribute(kind, "model3d", ctx.version)
     return model if is_said and isinstance(model, str) else None
 
 
 def _role(ctx: Context, member: CastMember, kind: str) -> Role | None:
-    role = ctx.values.field(member.actor.name, ("role",))
+    role = ctx.values.field(member.actor.name, "role")
     if not isinstance(role, Member) or not has_attribute(kind, "role", ctx.version):
         return None
     return role_literal(ctx, role.name)
@@ -235,7 +232,7 @@ def _bounding_box(ctx: Context, member: CastMember) -> xml.BoundingBox:
     shape = member.shape
     center = {"x": round(shape.centre, 6), "y": 0.0, "z": shape.height / 2}
     for axis in center:
-        given = ctx.values.field(member.actor.name, ("bounding_box", "center", axis))
+        given = ctx.values.field(member.actor.name, "bounding_box", "center", axis)
         if isinstance(given, (int, float)):
             center[axis] = float(given)
     return xml.BoundingBox(
@@ -247,8 +244,8 @@ def _bounding_box(ctx: Context, member: CastMember) -> xml.BoundingBox:
 def _properties(ctx: Context, member: CastMember) -> xml.Properties:
     name = member.actor.name
     found: dict[str, str | float] = dict(ctx.values.own_fields(name))
-    color, role = ctx.values.field(name, ("color",)), ctx.values.field(name, ("role",))
-    model = ctx.values.field(name, ("geometry_reference",))
+    color, role = ctx.values.field(name, "color"), ctx.values.field(name, "role")
+    model = ctx.values.field(name, "geometry_reference")
     if isinstance(color, str):
         found["color"] = color
     elif isinstance(color, Member) and color.name in COLORS:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from osc2tx.backends.xosc.actions.position.xml_positions import relative_lane
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.start_lanes import (
@@ -11,15 +12,14 @@ from osc2tx.backends.xosc.entities.start_lanes import (
     in_lane,
     lane_number,
     lateral_of,
+    orientation_in_lane,
 )
-from osc2tx.backends.xosc.entities.start_orientations import orientation_in_lane
-from osc2tx.backends.xosc.entities.start_statements import Start, speed_at_start
+from osc2tx.backends.xosc.entities.start_statements import Start, StartPlace, speed_at_start
 from osc2tx.backends.xosc.facts.actors import ALIGNED
 from osc2tx.backends.xosc.facts.maps import LanePosition, Roads
 from osc2tx.backends.xosc.facts.start_places import LaneNumber, lane_beside, place_ahead
 from osc2tx.backends.xosc.report import Inexpressible, NoPlace
 from osc2tx.backends.xosc.state import ActorState, known
-from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass
 
 NEAR = 1e-3
@@ -60,21 +60,16 @@ class Said:
         return len(names) == 1 and self.from_entry is None
 
 
-def beside(ctx: Context, start: Start) -> tuple[xml.PositionPart, ActorState]:
+def beside(ctx: Context, start: Start) -> StartPlace:
     """Return a place in or beside the lane of another actor, so far ahead of it or behind it."""
     said = _said(ctx, start)
     if said.is_of_one:
         ctx.init_gaps[start.id, said.reference.name] = -said.along
-    if ctx.roads is None:
-        if said.number is not None or not said.is_of_one:
-            raise Inexpressible(
-                f"its lane needs the map {ctx.map_file}, which is not at hand: give its folder"
-                " with --map-path",
-                start.span,
-            )
+    if ctx.roads is None and said.number is None and said.is_of_one:
         return _relative(ctx, start, said, said.lanes, None)
-    mine = _place(ctx, ctx.roads, said)
-    lanes = _lanes_for_tools(ctx, ctx.roads, said, mine)
+    roads = ctx.required_roads("its lane needs", start.span)
+    mine = _place(ctx, roads, said)
+    lanes = _lanes_for_tools(ctx, roads, said, mine)
     if lanes is None or goes_straight(ctx, start):
         return in_lane(ctx, start, mine)
     return _relative(ctx, start, said, lanes, mine)
@@ -82,16 +77,10 @@ def beside(ctx: Context, start: Start) -> tuple[xml.PositionPart, ActorState]:
 
 def _relative(
     ctx: Context, start: Start, said: Said, lanes: int, mine: LanePosition | None
-) -> tuple[xml.PositionPart, ActorState]:
+) -> StartPlace:
     offset = lateral_of(ctx, start, mine)
-    distance = {"ds" if ctx.version == "1.0" else "dsLane": said.along}
-    position = xml.RelativeLanePosition(
-        orientation_in_lane(ctx, start, mine),
-        entityRef=said.reference.name,
-        dLane=lanes,
-        **distance,
-        offset=offset,
-    )
+    turn = orientation_in_lane(ctx, start, mine)
+    position = relative_lane(ctx, said.reference.name, lanes, said.along, offset, turn)
     return position, ActorState(speed=known(0.0), offset=known(offset), lane=mine)
 
 
@@ -161,9 +150,7 @@ def _said(ctx: Context, start: Start) -> Said:
         same, side_of = lane.entity("same_as"), lane.entity("side_of")
         in_lane_of = same or side_of
         if side_of is not None:
-            count = lane.number("lane")
-            lanes = 1 if count is None else round(count)
-            lanes = lanes if lane.member("side", "left") == "left" else -lanes
+            lanes = lane.lanes_to_left()
         elif same is None:
             number = lane_number(start)
     ahead_of = behind = None

@@ -4,33 +4,28 @@ from __future__ import annotations
 
 import math
 
-from osc2tx.backends.xosc.actions.leaf import Arguments
+from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.position.points_and_lines import points_along
 from osc2tx.backends.xosc.actions.registry import at_start
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment_of
 from osc2tx.backends.xosc.entities.relative_starts import beside
-from osc2tx.backends.xosc.entities.start_lanes import at_pose, in_lane, lane_number
-from osc2tx.backends.xosc.entities.start_orientations import turned
-from osc2tx.backends.xosc.entities.start_statements import Start, is_at_point
+from osc2tx.backends.xosc.entities.start_lanes import at_pose, in_lane, lane_number, turned
+from osc2tx.backends.xosc.entities.start_statements import Start, StartPlace, is_at_point
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
-from osc2tx.backends.xosc.facts.run_options import read_spawn
 from osc2tx.backends.xosc.facts.start_places import (
     TakenBy,
     given_place,
     open_place,
+    read_spawn,
 )
 from osc2tx.backends.xosc.report import Inexpressible, NoPlace
-from osc2tx.backends.xosc.state import ActorState
-from osc2tx.backends.xosc.values.constants import Constant, Named
-from osc2tx.xosc import elements as xml
+from osc2tx.backends.xosc.values.constants import Constant, Named, as_number
 
 at_start("location", "position", "along", "lane", "lateral", "on_path")
 
 
-def position_of(
-    ctx: Context, start: Start, taken_by: TakenBy
-) -> tuple[xml.PositionPart, ActorState]:
+def position_of(ctx: Context, start: Start, taken_by: TakenBy) -> StartPlace:
     """Return the position of an actor at the start, and what is known about the actor there.
 
     Args:
@@ -59,9 +54,7 @@ def position_of(
     return _on_road(ctx, start, road, taken_by)
 
 
-def _at_pose(
-    ctx: Context, start: Start, location: Arguments
-) -> tuple[xml.PositionPart, ActorState]:
+def _at_pose(ctx: Context, start: Start, location: Arguments) -> StartPlace:
     pose = location.get("pose")
     if not isinstance(pose, Named):
         raise Inexpressible("the pose is not known before the run", location.source.span)
@@ -82,15 +75,10 @@ def _at_pose(
 
 
 def _part(ctx: Context, owner: str, path: tuple[str, ...]) -> float | None:
-    value = ctx.values.field(owner, path)
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return None
-    return float(value)
+    return as_number(ctx.values.field(owner, *path))
 
 
-def _at_point(
-    ctx: Context, start: Start, position: Arguments
-) -> tuple[xml.PositionPart, ActorState]:
+def _at_point(ctx: Context, start: Start, position: Arguments) -> StartPlace:
     if "at_point" in position:
         point = position.get("at_point")
         if not isinstance(point, Named):
@@ -124,9 +112,7 @@ def _heading_at(
     return along if is_in_lane else said
 
 
-def _near_point(
-    ctx: Context, start: Start, point: tuple[float, float, float]
-) -> tuple[xml.PositionPart, ActorState]:
+def _near_point(ctx: Context, start: Start, point: tuple[float, float, float]) -> StartPlace:
     """Return the place in the lane that is nearest to a point, or in one of the same road."""
     near = required_roads(ctx).map.locate(*point)
     if near is None:
@@ -146,9 +132,7 @@ def _numbered(ctx: Context, start: Start, place: LanePosition) -> LanePosition:
     return numbered
 
 
-def _on_route(
-    ctx: Context, start: Start, along: Arguments, taken_by: TakenBy
-) -> tuple[xml.PositionPart, ActorState]:
+def _on_route(ctx: Context, start: Start, along: Arguments, taken_by: TakenBy) -> StartPlace:
     """Return the place at which a route begins, or so far from there; in a free lane of it."""
     lane, position = start.modifiers.get("lane"), start.modifiers.get("position")
     offset = along.number("start_offset") or 0.0
@@ -164,23 +148,17 @@ def _on_route(
     raise NoPlace(f"the route has no free lane {offset:g} m along it")
 
 
-def _on_road(
-    ctx: Context, start: Start, road: Constant | None, taken_by: TakenBy
-) -> tuple[xml.PositionPart, ActorState]:
+def _on_road(ctx: Context, start: Start, road: Constant | None, taken_by: TakenBy) -> StartPlace:
     name, position, lane = start.id, start.modifiers.get("position"), lane_number(start)
     spawn = dict(map(read_spawn, ctx.options.spawns)).get(name)
-    if ctx.roads is None:
-        if spawn is None:
-            what = "its start" if lane is None else f"lane {lane.number}"
-            what = f"the path of {name}" if road is not None else what
-            raise Inexpressible(
-                f"{what} needs the map {ctx.map_file}, which is not at hand:"
-                f" give its folder with --map-path, or the place with --spawn {name}=…",
-                start.span,
-            )
+    if ctx.roads is None and spawn is not None:
         return in_lane(ctx, start, spawn)
+    what = "its start" if lane is None else f"lane {lane.number}"
+    what = f"the path of {name}" if road is not None else what
+    otherwise = f", or the place with --spawn {name}=…"
+    roads = ctx.required_roads(f"{what} needs", start.span, otherwise)
     if spawn is not None:
-        return in_lane(ctx, start, given_place(ctx.roads, name, spawn, lane))
+        return in_lane(ctx, start, given_place(roads, name, spawn, lane))
     distance = None if position is None else position.number("distance")
     segment = segment_of(ctx, road)
-    return in_lane(ctx, start, open_place(ctx.roads, name, lane, distance, segment, taken_by))
+    return in_lane(ctx, start, open_place(roads, name, lane, distance, segment, taken_by))

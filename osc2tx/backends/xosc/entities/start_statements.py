@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import Arguments
+from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.registry import WITHOUT_FORM
+from osc2tx.backends.xosc.actions.trailers import towing
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import check_declared, check_map, is_map
-from osc2tx.backends.xosc.entities.towing import towing
-from osc2tx.backends.xosc.facts.run_options import read_spawn
+from osc2tx.backends.xosc.facts.start_places import read_spawn
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope
+from osc2tx.backends.xosc.state import ActorState
 from osc2tx.diagnostics import Span
+from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass, replace
 
 
@@ -62,6 +66,9 @@ class Start:
         return self.member.actor.span if self.placement is None else self.placement.span
 
 
+StartPlace: TypeAlias = tuple[xml.PositionPart, ActorState]
+"""Where an actor starts: the element, and what is known about the actor there."""
+
 RELATIVE = ("same_as", "side_of", "ahead_of", "behind", "relative_to")
 FASTER = {"faster_than": 1.0, "slower_than": -1.0}
 """Parameters that name whose speed another one is relative to, with the sign of the difference."""
@@ -108,7 +115,7 @@ def _start(ctx: Context, scope: Scope, member: CastMember, placement: ir.Placeme
     for call in placement.modifiers:
         if call.name in WITHOUT_FORM["modifier"]:
             raise Inexpressible(WITHOUT_FORM["modifier"][call.name], call.span)
-    modifiers = {call.name: Arguments(ctx, call.arguments, call) for call in placement.modifiers}
+    modifiers = {call.name: Arguments(ctx, call) for call in placement.modifiers}
     tow = towing(ctx).get(member.name)
     references = [] if tow is None else [tow]
     is_beside = False
@@ -147,9 +154,9 @@ def speed_at_start(ctx: Context, start: Start) -> float:
     for name, sign in (("same_as", 1.0), *FASTER.items()):
         other = arguments.entity(name)
         if other is not None:
-            theirs = ctx.states[other.name].speed
-            if theirs is None or not theirs.is_known:
+            theirs = ctx.states[other.name].known_speed
+            if theirs is None:
                 raise Inexpressible(f"the speed of {other.name} is not known", start.span)
             factor = arguments.number("factor")
-            return theirs.low * (1.0 if factor is None else factor) + sign * speed
+            return theirs * (1.0 if factor is None else factor) + sign * speed
     return speed

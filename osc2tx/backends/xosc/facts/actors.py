@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import pairwise
 from math import sqrt
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_runtime.enums import DynamicProfile
@@ -50,6 +50,7 @@ __all__ = [
     "COSINE_PEAK",
     "CRUISE",
     "DRAWBAR",
+    "FASTEST",
     "GENTLE",
     "SIDEWAYS",
     "TOP_SPEED",
@@ -57,6 +58,7 @@ __all__ = [
     "Course",
     "Limits",
     "Linear",
+    "Pace",
     "Profile",
     "Quintic",
     "SCurve",
@@ -85,6 +87,35 @@ CRUISE = SPEEDS_AT_START["person"]
 """Speed (m/s) at which walkers set out."""
 
 
+class Pace(NamedTuple):
+    """How a change of a value goes.
+
+    Attributes:
+        profile: `none`, `constant`, `smooth` or `asap` (§8.8.2.18).
+        peak: Of its rate; `None`: as the profile has it.
+        duration: Seconds that it takes; likewise.
+    """
+
+    profile: str = "none"
+    peak: float | None = None
+    duration: float | None = None
+
+    @property
+    def told(self) -> tuple[DynamicProfile, float | None, float | None]:
+        """The same in terms of the runtime.
+
+        Raises:
+            Inexpressible: There is no such profile.
+        """
+        match self.profile:
+            case "none" | "constant" | "smooth" | "asap" as profile:
+                return profile, self.peak, self.duration
+        raise Inexpressible(f"`{self.profile}` is no profile of a rate")
+
+
+FASTEST = Pace("asap")
+
+
 class Course(Protocol):
     """A speed that changes for some time."""
 
@@ -103,38 +134,24 @@ def automatic_light(weather: Mapping[str, float]) -> str:
     return surroundings.automatic_light
 
 
-def course_of_speed(
-    start: float,
-    target: float,
-    profile: str,
-    peak: float | None,
-    duration: float | None,
-    limits: Limits,
-) -> Profile:
+def course_of_speed(start: float, target: float, pace: Pace, limits: Limits) -> Profile:
     """Return the course of a change of the speed (m/s) as the embedded world drives it."""
-    change = SpeedChange(target, _known(profile), peak, duration)
-    return speed_profile(change, start, limits)
+    return speed_profile(SpeedChange(target, *pace.told), start, limits)
 
 
 def way_by_acceleration(
-    speed: float,
-    target: float,
-    profile: str,
-    peak: float | None,
-    rates: tuple[float, float],
-    limits: Limits,
+    speed: float, target: float, pace: Pace, rates: tuple[float, float], limits: Limits
 ) -> float:
     """Return how far (m) an actor may get ahead or stay behind where its acceleration goes on.
 
     Args:
         speed: At the start of the change (m/s).
         target: m/s.
-        profile: `none` or `asap`.
-        peak: Of the acceleration (m/s^2).
+        pace: Of the change; it takes the time that it needs.
         rates: The least and the greatest acceleration that it may have at the start (m/s^2).
         limits: Of the actor.
     """
-    change = SpeedChange(target, _known(profile), peak)
+    change = SpeedChange(target, *pace._replace(duration=None).told)
     at_rest = speed_profile(change, speed, limits)
     return max(way_between(speed_profile(change, speed, limits, rate), at_rest) for rate in rates)
 
@@ -157,28 +174,15 @@ def way_between(one: Course, other: Course, within: float | None = None) -> floa
 
 
 def course_of_acceleration(
-    start: float,
-    target: float,
-    profile: str,
-    peak: float | None,
-    duration: float | None,
-    limits: Limits,
+    start: float, target: float, pace: Pace, limits: Limits
 ) -> Linear | Quintic:
     """Return the course of a change of the acceleration (m/s^2) as the embedded world drives it."""
-    change = AccelerationChange(target, _known(profile), peak, duration)
-    return acceleration_profile(change, start, limits)
+    return acceleration_profile(AccelerationChange(target, *pace.told), start, limits)
 
 
-def course_of_shift(
-    distance: float,
-    profile: str,
-    peak: float | None,
-    duration: float | None,
-    limits: Limits,
-    rate: float = 0.0,
-) -> Profile:
+def course_of_shift(distance: float, pace: Pace, limits: Limits, rate: float = 0.0) -> Profile:
     """Return the course of a change of the place across the road (m), from a lateral speed."""
-    return shift_profile(0.0, distance, rate, (_known(profile), peak, duration), limits)
+    return shift_profile(0.0, distance, rate, pace.told, limits)
 
 
 def apart(one: Course, other: Course) -> float:
@@ -218,10 +222,3 @@ def fastest(course: Profile) -> float:
     """Return the greatest rate of a course."""
     step = course.duration / STEPS
     return max(abs(course.rate((index + 0.5) * step)) for index in range(STEPS + 1))
-
-
-def _known(profile: str) -> DynamicProfile:
-    match profile:
-        case "none" | "constant" | "smooth" | "asap":
-            return profile
-    raise Inexpressible(f"`{profile}` is no profile of a rate")

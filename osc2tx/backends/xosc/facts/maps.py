@@ -1,4 +1,7 @@
-"""Maps, read by the runtime."""
+"""Maps, read by the runtime.
+
+A lane of oncoming traffic is a place beside the innermost lane of the own direction.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,9 @@ from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import InputError, ScenarioError
 from osc2tx_runtime.opendrive import LanePosition, MapError, Pose, RoadMap, read_map
 from osc2tx_runtime.opendrive.geodesy import GeoReferenceError
+from osc2tx_runtime.opendrive.model import LaneKey
 from osc2tx_runtime.world.geometry.lane_neighbours import (
+    actual_lane,
     are_opposed,
     lane_beside,
     lane_with_number,
@@ -258,3 +263,44 @@ def _read(path: Path, modified: int, size: int) -> Roads:
         return Roads(read_map(path), path)
     except MapError as error:
         raise Inexpressible(f"map {path.name} cannot be read: {error.message}") from None
+
+
+CLOSE = 5.0
+"""Metres between places where a lane is looked at."""
+
+SAME_PLACE = 0.01
+"""Metres: less is no difference."""
+
+
+def is_oncoming(road_map: RoadMap, place: LanePosition) -> bool:
+    """Whether a place is by its offset in a lane of oncoming traffic."""
+    return actual_lane(road_map, place).lane != place.lane
+
+
+def number_of_oncoming(road_map: RoadMap, place: LanePosition) -> int | None:
+    """Return the number of a lane of oncoming traffic; `None` if it does not stay beside its own.
+
+    It does if both numbers and the distance stay the same on all of the way ahead.
+    """
+    number = actual_lane(road_map, place).lane
+    ahead = [road_map.lane_key(place)]
+    for key in ahead:
+        if key.lane != place.lane or not _is_beside(road_map, key, number, place.offset):
+            return None
+        ahead += [each for each in road_map.successors(key) if each not in ahead]
+    return number
+
+
+def _is_beside(road_map: RoadMap, own: LaneKey, number: int, offset: float) -> bool:
+    """Whether a lane has another one so far (m) to its left along all of its length."""
+    section = road_map.roads[own.road].sections[own.section]
+    length = section.end - section.begin
+    steps = max(1, round(length / CLOSE))
+    for i in range(steps + 1):
+        there = LanePosition(own.road, own.lane, section.begin + length * (i / steps), offset)
+        centre = lane_beside(road_map, there, 0)
+        if centre is None or actual_lane(road_map, there).lane != number:
+            return False
+        if abs(centre.offset - offset) > SAME_PLACE:
+            return False
+    return True

@@ -7,17 +7,20 @@ a stop trigger.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import assert_never
 
 from osc2tx import ir
-from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, all_of, are_few, chosen
+from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, all_of, any_of, are_few, chosen
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.compositions.durations import Role, end_within_duration
 from osc2tx.backends.xosc.flattening.compositions.overridden_members import unless_active
-from osc2tx.backends.xosc.flattening.compositions.parallel_overlaps import is_open, starts_of
-from osc2tx.backends.xosc.flattening.compositions.slot_conflicts import report_conflicts
+from osc2tx.backends.xosc.flattening.compositions.parallel_overlaps import (
+    is_open,
+    report_conflicts,
+    starts_of,
+)
 from osc2tx.backends.xosc.flattening.events.directives import call, emit, finish, react
 from osc2tx.backends.xosc.flattening.invocations.action_endings import end_open_actions
 from osc2tx.backends.xosc.flattening.invocations.leaves import invoke
@@ -27,13 +30,7 @@ from osc2tx.backends.xosc.flattening.storyboard.builder import (
     construct_of,
 )
 from osc2tx.backends.xosc.flattening.storyboard.storyboard import Act
-from osc2tx.backends.xosc.flattening.tree_queries import (
-    follows_route,
-    is_instant,
-    is_last,
-    is_single,
-    is_timed,
-)
+from osc2tx.backends.xosc.flattening.tree_queries import follows_route, is_instant, is_single
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.state import either
 from osc2tx.diagnostics import Span
@@ -175,15 +172,12 @@ class Flattener:
             start = self._builder.latched(start, self._builder.name_of(node))
         is_race = len(node.members) > 1
         single = [
-            is_single(member) and not (is_race and is_timed(member)) for member in node.members
+            is_single(member) and not (is_race and ir.is_timed(member)) for member in node.members
         ]
         races = not all(single)
-        before, after, mark_actor = dict(self._ctx.states), None, self._builder.mark_actor
         acts: list[Act] = []
         ends: dict[str, Flow] = {}
-        for member, is_leaf in zip(node.members, single, strict=True):
-            self._ctx.states = dict(before)
-            self._builder.mark_actor = next(iter(self._builder.acting(member)), mark_actor)
+        for member, is_leaf in zip(self._courses(node), single, strict=True):
             if not is_leaf:
                 act, mark = self._region(member, start, partial(self._entrant, member, is_race))
                 acts.append(act)
@@ -192,17 +186,10 @@ class Flattener:
             elif not (end := self._racer(member, start, is_race)).is_never:
                 mark = self._ctx.names.new(f"end_of_{self._builder.name_of(member)}")
                 ends[mark] = self._builder.keep(mark, end) if races else end
-            states = self._ctx.states
-            after = dict(states) if after is None else either(after, states)
-        self._ctx.states = after or before
-        self._builder.mark_actor = mark_actor
         for act in acts:  # the first one stops the others
             act.stops.extend(mark for mark in ends if mark not in act.stops)
-        end = NEVER
-        for each in ends.values():
-            end = end | each
         self._ctx.report.exact("one_of", node.span)
-        return end
+        return any_of(ends.values())
 
     def _choice(self, node: ir.OneOf, start: Flow) -> Flow:
         """Flatten members of which a parameter of the document chooses one for each run."""
@@ -211,18 +198,23 @@ class Flattener:
             return self._member(node.members[0], start)
         self._ctx.require_support("ParameterCondition/text", node.span)
         start = self._builder.latched(start, self._builder.name_of(node))
-        before, after, mark_actor = dict(self._ctx.states), None, self._builder.mark_actor
         end = NEVER
-        for member, choice in zip(node.members, branch.choices, strict=True):
+        for member, choice in zip(self._courses(node), branch.choices, strict=True):
+            end = end | self._member(member, start & chosen(branch.name, str(choice)))
+        self._ctx.report.exact("one_of", node.span, f"the parameter {branch.name} chooses")
+        return end
+
+    def _courses(self, node: ir.OneOf) -> Iterator[ir.Behavior]:
+        """Yield the members, one of which a run takes: what is known after them is of any."""
+        before, after, mark_actor = dict(self._ctx.states), None, self._builder.mark_actor
+        for member in node.members:
             self._ctx.states = dict(before)
             self._builder.mark_actor = next(iter(self._builder.acting(member)), mark_actor)
-            end = end | self._member(member, start & chosen(branch.name, str(choice)))
+            yield member
             states = self._ctx.states
             after = dict(states) if after is None else either(after, states)
         self._ctx.states = after or before
         self._builder.mark_actor = mark_actor
-        self._ctx.report.exact("one_of", node.span, f"the parameter {branch.name} chooses")
-        return end
 
     def _entrant(self, member: ir.Behavior, is_race: bool, start: Flow) -> Flow:
         """Flatten a member of a race that has an act of its own."""
@@ -284,7 +276,7 @@ class Flattener:
         for goes on.
         """
         ctx, builder = self._ctx, self._builder
-        if not ctx.profile.has_act_stop and not is_last(ctx.scenario.body, node):
+        if not ctx.profile.has_act_stop and not ir.is_last(ctx.scenario.body, node):
             reason = f"{ctx.profile.name} looks at events of an act again that has been stopped"
             raise Inexpressible(reason, node.span, GENERIC)
         name = f"act_{builder.name_of(node)}"

@@ -8,62 +8,6 @@ from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
 from osc2tx.catalogue import ActionEntry, catalogue
 from osc2tx_shared.classes import replace
 
-
-def predecessor(body: ir.Behavior, node: ir.Invoke) -> ir.Invoke | None:
-    """Return the invocation that ends where another one starts; emissions take no time."""
-    return _beside(body, node, -1)
-
-
-def follower(body: ir.Behavior, node: ir.Invoke) -> ir.Invoke | None:
-    """Return the invocation that starts where another one ends; emissions take no time."""
-    return _beside(body, node, 1)
-
-
-def _beside(body: ir.Behavior, node: ir.Invoke, way: int) -> ir.Invoke | None:
-    for serial in ir.walk_behaviors(body):
-        if not isinstance(serial, ir.Serial):
-            continue
-        members = [each for each in serial.members if not isinstance(each, ir.Emit)]
-        for index, each in enumerate(members):
-            if each is node:
-                found = index + way
-                other = members[found] if 0 <= found < len(members) else None
-                return other if isinstance(other, ir.Invoke) else None
-    return None
-
-
-def is_first(body: ir.Behavior, node: ir.Invoke) -> bool:
-    """Whether an invocation begins with the run."""
-    match body:
-        case ir.Serial(members=members):
-            first = next((each for each in members if not isinstance(each, ir.Emit)), None)
-            return first is not None and is_first(first, node)
-        case ir.Parallel(members=members, start_to_start=None) | ir.OneOf(members=members):
-            return any(is_first(each, node) for each in members)
-    return body is node
-
-
-def runs_beside(body: ir.Behavior, node: ir.Invoke) -> tuple[ir.Behavior, ...]:
-    """Return the members of compositions that may run while an invocation does."""
-    if not isinstance(body, ir.Serial | ir.Parallel | ir.OneOf):
-        return ()
-    (mine,) = (each for each in body.members if _holds(each, node))
-    others = () if isinstance(body, ir.Serial) else body.members
-    return (*(each for each in others if each is not mine), *runs_beside(mine, node))
-
-
-def _holds(body: ir.Behavior, node: ir.Invoke) -> bool:
-    return any(each is node for each in ir.walk_behaviors(body))
-
-
-def is_last(body: ir.Behavior, node: ir.Behavior) -> bool:
-    """Whether the run ends with a member."""
-    if isinstance(body, ir.Serial) and body is not node:
-        members = [each for each in body.members if not isinstance(each, ir.Emit)]
-        return bool(members) and is_last(members[-1], node)
-    return body is node
-
-
 DIRECTIONS_ALONG = ("ahead", "behind", "longitudinal")
 """Directions of an action that is about the speed; in others it is about the place in the lane."""
 
@@ -87,46 +31,6 @@ def is_instant(node: ir.Behavior) -> bool:
             return True
         case ir.InvokeScenario() | ir.Wait():
             return False
-
-
-def is_single(node: ir.Behavior) -> bool:
-    """Whether nothing has to be stopped but one action: a leaf, or waits before and after it."""
-    return _leaves(node) <= 1
-
-
-def is_timed(node: ir.Behavior) -> bool:
-    """Whether a member holds others for a time, and fails if they take longer."""
-    match node:
-        case ir.Serial() | ir.Parallel() | ir.OneOf() | ir.InvokeScenario():
-            return node.duration is not None
-        case _:
-            return False
-
-
-def _leaves(node: ir.Behavior) -> int:
-    match node:
-        case ir.Parallel(members=members) if len(members) > 1:
-            return 2
-        case ir.Serial(members=members) | ir.Parallel(members=members) | ir.OneOf(members=members):
-            return sum(_leaves(member) for member in members)
-        case ir.Wait():
-            return 0
-        case ir.Invoke():
-            return 1
-        case ir.Emit() | ir.Finish() | ir.Call() | ir.On() | ir.InvokeScenario():
-            return 2
-
-
-def may_be_cut(body: ir.Behavior, label: str) -> bool:
-    """Whether a composition around a labelled member may end before the member does."""
-    for node in ir.walk_behaviors(body):
-        if not isinstance(node, ir.Serial | ir.Parallel | ir.OneOf):
-            continue
-        is_bounded = bool(node.until) or node.duration is not None or isinstance(node, ir.OneOf)
-        inside = (each.label for each in ir.walk_behaviors(node) if each is not node)
-        if is_bounded and label in inside:
-            return True
-    return False
 
 
 def claims(node: ir.Behavior) -> frozenset[tuple[str, str]]:
@@ -156,28 +60,18 @@ def _domains(node: ir.Invoke) -> frozenset[str]:
 
 def shifts_beside(body: ir.Behavior, node: ir.Invoke, actor: str) -> bool:
     """Whether members beside an invocation may move an actor across the road; if in doubt, yes."""
-    is_found = False
-    for each in ir.walk_behaviors(body):
-        is_found = is_found or each is node
-        if not isinstance(each, ir.Parallel | ir.OneOf):
-            continue
-        holding = [any(n is node for n in ir.walk_behaviors(member)) for member in each.members]
-        beside = [m for m, holds in zip(each.members, holding, strict=True) if not holds]
-        if any(holding) and any(_shifts(member, actor) for member in beside):
-            return True
-    return not is_found
+    beside = ir.runs_beside(body, node)
+    return not ir.holds(body, node) or any(_shifts(member, actor) for member in beside)
 
 
 def _shifts(member: ir.Behavior, actor: str) -> bool:
     for node in ir.walk_behaviors(member):
         if isinstance(node, ir.InvokeScenario):
             return True
-        if not (isinstance(node, ir.Invoke) and isinstance(node.actor, ir.FieldRef)):
+        if not isinstance(node, ir.Invoke) or node.actor_name != actor:
             continue
         going_on = (m for m in node.modifiers if m.at != "start" and m.name != "keep_lane")
-        if node.actor.name == actor and LATERAL in _domains(
-            replace(node, modifiers=tuple(going_on))
-        ):
+        if LATERAL in _domains(replace(node, modifiers=tuple(going_on))):
             return True
     return False
 
@@ -192,16 +86,6 @@ def _is_sideways(node: ir.Invoke) -> bool:
     )
 
 
-def actors_of(node: ir.Behavior) -> tuple[str, ...]:
-    """Return the actors of the actions in a tree, in source order."""
-    found = (
-        each.actor.name
-        for each in ir.walk_behaviors(node)
-        if isinstance(each, ir.Invoke) and isinstance(each.actor, ir.FieldRef)
-    )
-    return tuple(dict.fromkeys(found))
-
-
 def follows_route(node: ir.Behavior) -> bool:
     """Whether an action is over at the end of a route of the map, if nothing ends it before."""
     if not isinstance(node, ir.Invoke) or node.action != "drive":
@@ -211,3 +95,22 @@ def follows_route(node: ir.Behavior) -> bool:
     ways = [modifier for modifier in node.modifiers if modifier.name == "along"]
     routes = (a.value for way in ways for a in way.arguments if a.parameter == "route")
     return any(route.type.name not in ("crossing", "path") for route in routes)
+
+
+def is_single(node: ir.Behavior) -> bool:
+    """Whether nothing has to be stopped but one action: a leaf, or waits before and after it."""
+    return _leaves(node) <= 1
+
+
+def _leaves(node: ir.Behavior) -> int:
+    match node:
+        case ir.Parallel(members=members) if len(members) > 1:
+            return 2
+        case ir.Serial(members=members) | ir.Parallel(members=members) | ir.OneOf(members=members):
+            return sum(_leaves(member) for member in members)
+        case ir.Wait():
+            return 0
+        case ir.Invoke():
+            return 1
+        case ir.Emit() | ir.Finish() | ir.Call() | ir.On() | ir.InvokeScenario():
+            return 2

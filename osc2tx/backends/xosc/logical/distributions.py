@@ -10,12 +10,12 @@ from collections.abc import Mapping, Sequence
 from math import floor, prod
 from typing import TypeAlias
 
-from osc2tx.backends.xosc.logical.comparison import Place, story_of, with_texts
 from osc2tx.backends.xosc.logical.parameters import STEPS, OpenParameter, declared, value_text
 from osc2tx.backends.xosc.logical.sampling import Domain, Row
 from osc2tx.backends.xosc.names import Names
 from osc2tx.options import XmlVersion
 from osc2tx.xosc import elements as xml
+from osc2tx.xosc.comparison import Place, story_of, with_texts
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.literals import ParameterType
 from osc2tx.xosc.schema import ROOT_TYPE, element_type
@@ -43,8 +43,7 @@ def document(
     return xml.OpenSCENARIO(
         header,
         xml.ParameterValueDistribution(
-            xml.ScenarioFile(filepath=file),
-            xml.Deterministic(*distributions),
+            xml.ScenarioFile(filepath=file), xml.Deterministic(*distributions)
         ),
     )
 
@@ -56,7 +55,7 @@ def single(
     values: xml.DistributionSet | xml.DistributionRange
     if parameter.choices:
         values = xml.DistributionSet(
-            *(xml.Element(value=value_text(choice)) for choice in parameter.choices),
+            *(xml.Element(value=value_text(choice)) for choice in parameter.choices)
         )
     else:
         low, high = parameter.limits(domain.values(parameter))
@@ -81,8 +80,8 @@ def table(
                     *(_assigned(column.name, column.texts[index]) for column in following),
                 )
                 for index, row in enumerate(rows, start=1)
-            ),
-        ),
+            )
+        )
     )
 
 

@@ -15,7 +15,6 @@ from typing import TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.logical.comparison import Place, differences, undefined
 from osc2tx.backends.xosc.logical.distributions import (
     MOST_COLUMNS,
     Column,
@@ -33,10 +32,16 @@ from osc2tx.backends.xosc.logical.parameters import (
     open_parameters,
     value_text,
 )
-from osc2tx.backends.xosc.logical.performance import Limits, with_covering_limits
 from osc2tx.backends.xosc.logical.sampling import Domain, Row, inward
 from osc2tx.options import XmlVersion
 from osc2tx.xosc import elements as xml
+from osc2tx.xosc.comparison import (
+    Limits,
+    Place,
+    differences,
+    undefined,
+    with_covering_limits,
+)
 from osc2tx.xosc.element import Element
 from osc2tx_shared.classes import dataclass, replace
 

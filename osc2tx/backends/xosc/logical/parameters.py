@@ -22,7 +22,7 @@ from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import text_of
 from osc2tx.xosc.expressions import Symbol
 from osc2tx.xosc.literals import ParameterType
-from osc2tx_shared.classes import dataclass
+from osc2tx_shared.classes import dataclass, replace
 
 STEPS = 4
 """Steps from end to end of a range of which a few values are listed."""
@@ -227,7 +227,7 @@ def _open(declaration: ir.Parameter, scope: Scope, names: Names) -> OpenParamete
     """Return a parameter if it is open."""
     if declaration.value is not None:
         return None
-    domain, name, span = declaration.domain, declaration.name, declaration.span
+    domain, name = declaration.domain, declaration.name
     key = key_of(scope.path, declaration)
     is_whole = declaration.type.kind is ir.Kind.INTEGER
     choices: tuple[Constant, ...] = ()
@@ -247,11 +247,11 @@ def _open(declaration: ir.Parameter, scope: Scope, names: Names) -> OpenParamete
     except Inexpressible:  # it keeps one value, and where that is used it is reported
         return None
     made = OpenParameter(
-        key=key,
-        name="",
-        path=scope.path,
-        span=span,
-        construct=f"parameter {key}",
+        key,
+        name,
+        scope.path,
+        declaration.span,
+        f"parameter {key}",
         choices=choices,
         range_=range_,
         is_whole=is_whole,
@@ -263,16 +263,7 @@ def _open(declaration: ir.Parameter, scope: Scope, names: Names) -> OpenParamete
         if is_whole and high - low < MOST_WHOLE:
             choices, range_ = tuple(range(int(low), int(high) + 1)), None
     preferred = name if declaration.is_global else f"{scope.prefix}{name}"
-    return OpenParameter(
-        key=key,
-        name=names.new(preferred),
-        path=scope.path,
-        span=span,
-        construct=made.construct,
-        choices=choices,
-        range_=range_,
-        is_whole=is_whole,
-    )
+    return replace(made, name=names.new(preferred), choices=choices, range_=range_)
 
 
 def _branches(scope: Scope, names: Names) -> Iterator[OpenParameter]:
@@ -282,24 +273,14 @@ def _branches(scope: Scope, names: Names) -> Iterator[OpenParameter]:
             continue
         members = Names()
         name = names.new(f"{scope.prefix}{node.label or 'branch'}")
-        yield OpenParameter(
-            key=f"{scope.path}.{name}",
-            name=name,
-            path=scope.path,
-            span=node.span,
-            construct=f"parameter {name}",
-            choices=tuple(
-                members.new(plain(member.label or member.name)) for member in node.members
-            ),
-            node=node,
-        )
+        choices = tuple(members.new(plain(each.label or each.name)) for each in node.members)
+        made = _drawn(scope, name, node.span, choices)
+        yield replace(made, node=node)
 
 
 def _sides(scope: Scope, names: Names) -> Iterator[OpenParameter]:
     """Yield the sides of lane changes that state none: they are drawn for each run."""
-    for node in ir.walk_behaviors(scope.scenario.body):
-        if not isinstance(node, ir.Invoke):
-            continue
+    for node in ir.invocations(scope.scenario.body):
         calls: tuple[ir.Invoke | ir.ModifierCall, ...] = (node, *node.modifiers)
         for call in calls:
             called = call.action if isinstance(call, ir.Invoke) else call.name
@@ -307,15 +288,13 @@ def _sides(scope: Scope, names: Names) -> Iterator[OpenParameter]:
             if called != "change_lane" or said & {"side", "target"}:
                 continue
             name = names.new(f"{scope.prefix}{node.label or called}_side")
-            yield OpenParameter(
-                key=f"{scope.path}.{name}",
-                name=name,
-                path=scope.path,
-                span=call.span,
-                construct=f"parameter {name}",
-                choices=("left", "right"),
-                change=call,
-            )
+            yield replace(_drawn(scope, name, call.span, ("left", "right")), change=call)
+
+
+def _drawn(scope: Scope, name: str, span: Span, choices: tuple[Constant, ...]) -> OpenParameter:
+    """Return the parameter of a choice that has no name in the scenario."""
+    key, construct = f"{scope.path}.{name}", f"parameter {name}"
+    return OpenParameter(key, name, scope.path, span, construct, choices)
 
 
 def declaration(

@@ -56,6 +56,13 @@ Constant: TypeAlias = (
 )
 
 
+def as_number(value: Constant | None) -> float | None:
+    """Return the number that a value is; `None` if it is none."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return None
+    return float(value)
+
+
 class UserTypes:
     """The actors and structs that the files of a module declare.
 

@@ -115,6 +115,17 @@ class Values:
             Inexpressible: It is none, or is only known during the run.
         """
         value = self.of(expression)
+        number = self._plain_number(expression, value)
+        if isinstance(value, (Bounds, Symbol)):
+            return number
+        is_named = any(isinstance(part, _NAMES) for part in ir.walk(expression))
+        return Noted(number, expression.span.text) if is_named else number
+
+    def _operand(self, expression: ir.Expression) -> float:
+        """Return the same without a note: parts of expressions are not walked again for one."""
+        return self._plain_number(expression, self.of(expression))
+
+    def _plain_number(self, expression: ir.Expression, value: Constant) -> float:
         if isinstance(value, Bounds):
             return 0.5 * (value.lower + value.upper)
         if isinstance(value, bool) or not isinstance(value, (int, float)):
@@ -124,8 +135,19 @@ class Values:
         if not isinstance(expression, ir.Literal) and not abs(value) <= LARGEST:
             reason = f"`{expression.span.text}` is {value:g}, which no world has"
             raise Inexpressible(reason, expression.span)
-        is_named = any(isinstance(part, _NAMES) for part in ir.walk(expression))
-        return Noted(value, expression.span.text) if is_named else float(value)
+        return float(value)
+
+    def bounds(self, expression: ir.Expression) -> tuple[float, float]:
+        """Return the ends of a range, or twice the same number, in SI units.
+
+        Raises:
+            Inexpressible: They are only known during the run.
+        """
+        value = self.of(expression)
+        if isinstance(value, Bounds):
+            return value.lower, value.upper
+        number = self.number(expression)
+        return number, number
 
     def actor(self, expression: ir.Expression) -> str:
         """Return the name of an actor.
@@ -138,12 +160,12 @@ class Values:
             raise Inexpressible(f"`{expression.span.text}` is no actor", expression.span)
         return value.name
 
-    def field(self, name: str, path: tuple[str, ...]) -> Constant | None:
+    def field(self, name: str, *path: str) -> Constant | None:
         """Return what a constraint fixes about an actor or struct; `None` if nothing does."""
         declaration = self._declared.get(name)
         if declaration is None and "." in name:
             owner, *inner = name.split(".")
-            return self.field(owner, (*inner, *path))
+            return self.field(owner, *inner, *path)
         if isinstance(declaration, (ir.Actor, ir.Struct)):
             for value in declaration.values:
                 if value.path == path:
@@ -151,7 +173,7 @@ class Values:
                 is_part = value.path == path[: len(value.path)] and len(value.path) < len(path)
                 whole = self.of(value.value) if is_part else None
                 if isinstance(whole, Named):  # a struct of the scenario says it
-                    return self.field(whole.name, path[len(value.path) :])
+                    return self.field(whole.name, *path[len(value.path) :])
             is_inner = any(value.path[: len(path)] == path for value in declaration.values)
             if is_inner and isinstance(declaration, ir.Struct):
                 return Named(".".join((name, *path)))  # whose own members are fixed
@@ -166,7 +188,7 @@ class Values:
         """
         for field in self._types.fields(self.type_of(name)):
             try:
-                value = self.field(name, (field.name,))
+                value = self.field(name, field.name)
             except Inexpressible:
                 continue
             if isinstance(value, Member):
@@ -263,7 +285,7 @@ class Values:
         if isinstance(base, (ir.FieldRef, ir.ParameterRef, ir.Index)):
             owner = self.of(base)
             if isinstance(owner, Named):
-                value = self.field(owner.name, tuple(path))
+                value = self.field(owner.name, *path)
                 if value is None:
                     value = self._sizes.get(owner.name, {}).get(tuple(path))
                 if value is not None:
@@ -306,7 +328,7 @@ class Values:
         return inner.of(method.expression)
 
     def _unary(self, sign: str, operand: ir.Expression) -> Constant:
-        return not self.of(operand) if sign == "not" else -self.number(operand)
+        return not self.of(operand) if sign == "not" else -self._operand(operand)
 
     def _binary(self, expression: ir.Binary) -> Constant:
         name = expression.operator
@@ -319,7 +341,7 @@ class Values:
         if name in ("==", "!="):
             same = _plain(self.of(expression.left)) == _plain(self.of(expression.right))
             return same is (name == "==")
-        left_number, right_number = self.number(expression.left), self.number(expression.right)
+        left_number, right_number = self._operand(expression.left), self._operand(expression.right)
         if name in _COMPARISONS:
             return _COMPARISONS[name](left_number, right_number)
         if name not in _ARITHMETIC:

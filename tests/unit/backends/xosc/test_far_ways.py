@@ -6,8 +6,7 @@ import math
 
 import pytest
 
-from osc2tx.backends.xosc.facts.curves import Waypoint
-from osc2tx.backends.xosc.facts.followers import off_the_line
+from osc2tx.backends.xosc.facts.curves import Waypoint, off_the_line
 from osc2tx_runtime.opendrive import Pose
 from osc2tx_runtime.world.actor_dimensions import limits_of, shape_of
 from tests.work import calls

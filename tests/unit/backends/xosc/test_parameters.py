@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from osc2tx.backends.xosc.logical.comparison import evaluated
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions, XmlOptions, XmlVersion
+from osc2tx.xosc.arithmetic import evaluated
 from osc2tx.xosc.expressions import Symbol
 from osc2tx.xosc.numbers import Noted
 from tests.unit.backends.xosc.checks import schema_errors, story_problems

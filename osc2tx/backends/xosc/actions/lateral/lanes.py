@@ -5,16 +5,15 @@ from __future__ import annotations
 import math
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.lateral.slow_shifts import note_slow
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
-from osc2tx.backends.xosc.actions.position.other_actors import lane_of
 from osc2tx.backends.xosc.actions.registry import action, to_goal
+from osc2tx.backends.xosc.actions.speed.speed_notes import note_slow
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
-from osc2tx.backends.xosc.facts.actors import Linear, Profile, apart, course_of_shift, fastest
+from osc2tx.backends.xosc.facts.actors import Linear, Pace, Profile, apart, course_of_shift, fastest
 from osc2tx.backends.xosc.facts.map_search import MapSegment
-from osc2tx.backends.xosc.facts.maps import LanePosition
-from osc2tx.backends.xosc.facts.oncoming_lanes import is_oncoming, number_of_oncoming
+from osc2tx.backends.xosc.facts.maps import LanePosition, is_oncoming, number_of_oncoming
+from osc2tx.backends.xosc.flattening.tree_queries import shifts_beside
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres
 from osc2tx.backends.xosc.state import LATERAL, ActorState, known
 from osc2tx.xosc import elements as xml
@@ -34,16 +33,12 @@ def _change_lane(leaf: Leaf) -> Performance:
     target = segment_of(leaf.ctx, arguments.get("target"))
     lanes = _lanes(leaf) if target is None else lanes_to_segment(leaf, target)
     offset = arguments.number("offset") or 0.0
-    profile = arguments.member("rate_profile", "none")
-    peak = arguments.number("rate_peak")
     change = lane_change(
         leaf,
         lanes,
-        offset,
-        profile,
-        peak,
+        arguments.pace(leaf.duration),
         None if reference is None else reference.name,
-        duration=leaf.duration,
+        offset=offset,
         own_lanes=None if reference is None else lanes_to(leaf, reference, lanes),
         is_absolute=target is not None,
     )
@@ -65,8 +60,7 @@ def lanes_to_segment(leaf: Leaf, target: MapSegment) -> int:
 
 def _lanes(leaf: Leaf) -> int:
     """Return how many lanes to the left of the reference the target is."""
-    number = leaf.arguments.number("num_of_lanes")
-    count = 1 if number is None else round(number)
+    count = leaf.arguments.count("num_of_lanes")
     side = leaf.arguments.member("side", "")
     match side:
         case "left":
@@ -98,12 +92,10 @@ def drawn_side(leaf: Leaf, node: ir.Invoke | ir.ModifierCall, count: int) -> str
 def lane_change(
     leaf: Leaf,
     lanes: int,
-    offset: float,
-    profile: str,
-    peak: float | None,
-    reference: str | None,
+    pace: Pace,
+    reference: str | None = None,
     *,
-    duration: float | None = None,
+    offset: float = 0.0,
     own_lanes: int | None = None,
     jumps: bool = False,
     is_absolute: bool = False,
@@ -116,19 +108,17 @@ def lane_change(
     count = 1 if own_lanes is None else own_lanes
     to_lane = math.copysign(_distance(leaf, here, target, count), count)
     way = abs(to_lane + offset - offset_of(state))
-    course = course_of_shift(way, profile, peak, duration, leaf.limits)
+    course = course_of_shift(way, pace, leaf.limits)
     if not jumps:
-        note_drift(leaf, way, (profile, peak, duration), course)
+        note_drift(leaf, way, pace, course)
         note_slow(leaf, way, course)
     time = 0.0 if jumps else course.duration
-    if own_lanes is None and duration is None and not jumps:
-        leaf.ctx.report.approximate(
-            leaf.construct,
-            leaf.node.span,
+    if own_lanes is None and pace.duration is None and not jumps:
+        leaf.approximate(
             f"how far the lane of {reference} is away is only known during the run",
             f"it takes {time:.3g} s, as to a lane beside it",
         )
-    shape = "step" if jumps else shape_of(leaf, course, profile)
+    shape = "step" if jumps else shape_of(leaf, course, pace)
     after = replace(state, lane=target, offset=known(offset)).finished(LATERAL)
     if reference is not None and "RelativeTargetLane/entityRef" in leaf.ctx.profile.unsupported:
         if own_lanes is None:
@@ -166,9 +156,7 @@ def along_t(leaf: Leaf, offset: float, lane: LanePosition | None = None) -> floa
     if offset == 0.0 or sign == 1:
         return offset
     if sign is None:
-        leaf.ctx.report.approximate(
-            leaf.construct,
-            leaf.node.span,
+        leaf.approximate(
             "the XML counts an offset along t of the road, and whether its lane leads along the"
             " road or against it is only known during the run",
             Metres(2.0 * abs(offset), "to the other side where its lane leads against s"),
@@ -205,25 +193,21 @@ def _number_among_oncoming(
     return number if oncoming is target else target.lane
 
 
-def note_drift(
-    leaf: Leaf, way: float, said: tuple[str, float | None, float | None], course: Profile
-) -> None:
+def note_drift(leaf: Leaf, way: float, pace: Pace, course: Profile) -> None:
     """Report that a change takes over a speed across the road: the XML begins without any."""
     drift = leaf.state.drift
-    if drift == 0.0 or said[0] == "constant":
+    if drift == 0.0 or pace.profile == "constant":
         return
-    off = max(apart(course_of_shift(way, *said, leaf.limits, v), course) for v in (-drift, drift))
-    leaf.ctx.report.approximate(
-        leaf.construct,
-        leaf.node.span,
+    off = max(apart(course_of_shift(way, pace, leaf.limits, v), course) for v in (-drift, drift))
+    leaf.approximate(
         "it takes over the lateral speed of the change before; one of the XML begins without any",
         Metres(off, "beside, while it changes"),
     )
 
 
-def shape_of(leaf: Leaf, course: Profile, profile: str) -> DynamicsShape:
+def shape_of(leaf: Leaf, course: Profile, pace: Pace) -> DynamicsShape:
     """Return the literal for a course; where the scenario leaves it open, any is right."""
-    is_free = profile == "none" and not leaf.ctx.profile.has_shapes
+    is_free = pace.profile == "none" and not leaf.ctx.profile.has_shapes
     return "linear" if isinstance(course, Linear) or is_free else "sinusoidal"
 
 
@@ -231,24 +215,20 @@ def _dynamics(leaf: Leaf, shape: DynamicsShape, time: float) -> xml.LaneChangeAc
     """Return the dynamics of a lane change, over a distance for tools that ask for it."""
     dimension: DynamicsDimension = "time"
     value = time
-    speed = leaf.state.speed
+    speed = leaf.state.known_speed
     asks = f"LaneChangeActionDynamics/{dimension}" in leaf.ctx.profile.unsupported
-    if asks and speed is not None and speed.is_known and speed.low > 0.0 and time > 0.0:
-        dimension, value = "distance", time * speed.low
+    if asks and speed is not None and speed > 0.0 and time > 0.0:
+        dimension, value = "distance", time * speed
     elif asks and leaf.state.aim and time > 0.0:
         dimension, value = "distance", time * leaf.state.aim
-        leaf.ctx.report.approximate(
-            leaf.construct,
-            leaf.node.span,
+        leaf.approximate(
             f"{leaf.ctx.profile.name} asks for its distance, and the speed may still be changing",
             f"it goes over {value:.3g} m, {time:.3g} s at {leaf.state.aim:.3g} m/s; slower, it is"
             " longer",
             GENERIC,
         )
     return xml.LaneChangeActionDynamics(
-        dynamicsShape=shape,
-        dynamicsDimension=dimension,
-        value=round(value, 6),
+        dynamicsShape=shape, dynamicsDimension=dimension, value=round(value, 6)
     )
 
 
@@ -258,7 +238,7 @@ def lanes_to(leaf: Leaf, reference: CastMember, lanes: int) -> int | None:
     Raises:
         Inexpressible: The reference may change lanes meanwhile.
     """
-    if _may_change_lanes(leaf.ctx.scenario.body, leaf.node, reference.actor.name):
+    if _may_change_lanes(leaf, reference.actor.name):
         raise Inexpressible(
             f"{reference.name} may be in another lane before it ends; the XML takes the lane at the"
             " start",
@@ -273,27 +253,30 @@ def lanes_to(leaf: Leaf, reference: CastMember, lanes: int) -> int | None:
     return between - lanes if roads.are_opposed(mine, theirs) else between + lanes
 
 
-def _may_change_lanes(body: ir.Behavior | None, node: ir.Invoke, actor: str) -> bool:
+def lane_of(leaf: Leaf, other: CastMember) -> LanePosition | None:
+    """Return the lane in which another actor is at that time; `None` if only the run shows it.
+
+    Members beside one another are written down one after the other: what the state of an actor is
+    then may be that before or after what such a member does.
+    """
+    if leaf.is_start:
+        return leaf.ctx.at_start[other.name].lane
+    if shifts_beside(leaf.ctx.scenario.body, leaf.node, other.actor.name):
+        return None
+    return leaf.ctx.states[other.name].lane
+
+
+def _may_change_lanes(leaf: Leaf, actor: str) -> bool:
     """Return whether an actor may go to another lane while an invocation runs."""
-    match body:
-        case ir.Serial(members=members):
-            return any(_may_change_lanes(each, node, actor) for each in members)
-        case ir.Parallel(members=members) | ir.OneOf(members=members):
-            around = [each for each in members if any(n is node for n in ir.walk_behaviors(each))]
-            beside = (each for each in members if around and each is not around[0])
-            invoked = (n for each in beside for n in ir.walk_behaviors(each))
-            if any(isinstance(n, ir.Invoke) and _leaves_lane(n, actor) for n in invoked):
-                return True
-            return any(_may_change_lanes(each, node, actor) for each in around)
-    return False
+    beside = ir.runs_beside(leaf.ctx.scenario.body, leaf.node)
+    return any(_leaves_lane(node, actor) for each in beside for node in ir.invocations(each))
 
 
 def _leaves_lane(node: ir.Invoke, actor: str) -> bool:
-    if not isinstance(node.actor, ir.FieldRef) or node.actor.name != actor:
+    if node.actor_name != actor:
         return False
-    if node.action == "change_lane":
-        return True
-    return any(each.name in ("lane", "change_lane") and each.at == "end" for each in node.modifiers)
+    ends = {call.name for call in node.modifiers if call.at == "end"}
+    return node.action == "change_lane" or not ends.isdisjoint(("lane", "change_lane"))
 
 
 def _from_and_to(leaf: Leaf, lanes: int) -> tuple[LanePosition | None, LanePosition | None]:

@@ -1,28 +1,36 @@
-"""Lateral positions in a lane (§8.9.8), measured from edges and centers."""
+"""Lateral positions: in a lane, from edges and centers (§8.9.8), and in lanes beside it.
+
+The modifiers of lane and lateral position are those of §8.9.9 and §8.9.14 to §8.9.16.
+"""
 
 from __future__ import annotations
 
 import math
 
+from osc2tx.backends.xosc.actions.arguments import Arguments, Call
 from osc2tx.backends.xosc.actions.lateral.lanes import (
     NO_ONE_SIDE,
     along_t,
+    drawn_side,
+    lane_change,
+    lanes_to,
     lanes_to_segment,
     lateral,
     note_drift,
     offset_of,
     shape_of,
 )
-from osc2tx.backends.xosc.actions.lateral.slow_shifts import note_slow
-from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
-from osc2tx.backends.xosc.actions.registry import action, apply_modifiers
+from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance
+from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, modifier
+from osc2tx.backends.xosc.actions.speed.gap_elements import Gap, reach
+from osc2tx.backends.xosc.actions.speed.speed_changes import may_jump
+from osc2tx.backends.xosc.actions.speed.speed_notes import note_slow
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
-from osc2tx.backends.xosc.facts.actors import Linear, course_of_shift, fastest
-from osc2tx.backends.xosc.facts.maps import LanePosition
-from osc2tx.backends.xosc.facts.oncoming_lanes import is_oncoming
-from osc2tx.backends.xosc.report import Inexpressible, Metres
+from osc2tx.backends.xosc.facts.actors import Linear, Pace, course_of_shift, fastest
+from osc2tx.backends.xosc.facts.maps import LanePosition, is_oncoming
+from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LATERAL, known
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
@@ -34,29 +42,23 @@ INSIDE = 1.2
 @action("follow_lane")
 def _follow_lane(leaf: Leaf) -> Performance:
     arguments = leaf.arguments
-    offset = arguments.number("offset") or 0.0
-    profile = arguments.member("rate_profile", "none")
-    peak = arguments.number("rate_peak")
+    offset, pace = arguments.number("offset") or 0.0, arguments.pace()
     target = segment_of(leaf.ctx, arguments.get("target"))
     if target is not None and lanes_to_segment(leaf, target) != 0:
         raise Inexpressible("it is in another lane; a lane change has to come before")
     changes = apply_modifiers(leaf)
     if leaf.state.offset == known(offset):
         return Performance(changes, "open")
-    return Performance((offset_change(leaf, offset, profile, peak), *changes), "open")
+    return Performance((offset_change(leaf, offset, pace), *changes), "open")
 
 
-def offset_change(
-    leaf: Leaf, offset: float, profile: str, peak: float | None, duration: float | None = None
-) -> Change:
+def offset_change(leaf: Leaf, offset: float, pace: Pace) -> Change:
     """Return the change of the place in the lane.
 
     Args:
         leaf: The invocation.
         offset: Metres to the left of the centre.
-        profile: Of the change (§8.8.2.18).
-        peak: Of its speed (m/s).
-        duration: Seconds that it takes; `None`: as the profile has it.
+        pace: Of the change.
 
     Raises:
         Inexpressible: It is in a lane of oncoming traffic, or reaches over the line to one.
@@ -67,14 +69,12 @@ def offset_change(
         if is_oncoming(roads.map, lane) or is_oncoming(roads.map, reached):
             raise Inexpressible(NO_ONE_SIDE, leaf.node.span)
     way = abs(offset - offset_of(leaf.state))
-    course = course_of_shift(way, profile, peak, duration, leaf.limits)
-    note_drift(leaf, way, (profile, peak, duration), course)
+    course = course_of_shift(way, pace, leaf.limits)
+    note_drift(leaf, way, pace, course)
     note_slow(leaf, way, course)
-    shape = shape_of(leaf, course, profile)
+    shape = shape_of(leaf, course, pace)
     if isinstance(course, Linear):
-        leaf.ctx.report.approximate(
-            leaf.construct,
-            leaf.node.span,
+        leaf.approximate(
             "the XML states no length for a change of the offset, and a steady one has no peak that"
             " gives it",
             Metres(way, "beside, until it is there"),
@@ -84,10 +84,7 @@ def offset_change(
     peak_rate = 0.5 * way * half_turn * half_turn
     action = lateral(
         xml.LaneOffsetAction(
-            xml.LaneOffsetActionDynamics(
-                dynamicsShape=shape,
-                maxLateralAcc=round(peak_rate, 6),
-            ),
+            xml.LaneOffsetActionDynamics(dynamicsShape=shape, maxLateralAcc=round(peak_rate, 6)),
             xml.LaneOffsetTarget(xml.AbsoluteTargetLaneOffset(value=along_t(leaf, offset))),
             continuous=False,
         )
@@ -127,11 +124,9 @@ def left_of(arguments: Arguments, own: float, theirs: float | None) -> float:
     Raises:
         Inexpressible: As of `offset_in_lane`.
     """
-    distance = arguments.number("distance")
+    distance = arguments.size("distance")
     if distance is None:
-        distance = arguments.number("distance_range")
-    if distance is None:
-        raise Inexpressible("no distance is stated", arguments.source.span)
+        raise Inexpressible("no distance is stated", arguments.span)
     side = arguments.member("side", "left")
     left = -distance if side == "right" else distance
     measured = arguments.member("measure_by", "center_to_center")
@@ -144,3 +139,84 @@ def left_of(arguments: Arguments, own: float, theirs: float | None) -> float:
         return left + (reach if left > 0.0 or (left == 0.0 and side == "left") else -reach)
     edge, _, other_edge = measured.split("_")
     return round(left + EDGES[other_edge] * theirs - EDGES[edge] * own, 6)
+
+
+@modifier("change_lane")
+def _change_lane(leaf: Leaf, call: Call) -> Changes:
+    count = call.count("lane")
+    side = call.member("side", "") or drawn_side(leaf, call.node, count)
+    return (_to(leaf, call, count if side == "left" else -count),)
+
+
+@modifier("lane")
+def _lane(leaf: Leaf, call: Call) -> Changes:
+    reference = call.entity("same_as") or call.entity("side_of")
+    if reference is None:
+        return _numbered(leaf, call)
+    lanes = call.lanes_to_left() if "side_of" in call else 0
+    own = lanes_to(leaf, reference, lanes)
+    if own == 0:
+        return ()
+    return (_to(leaf, call, lanes, reference.name, own),)
+
+
+def _numbered(leaf: Leaf, call: Call) -> Changes:
+    """Return the change to a lane with a number, counted from an edge of the road."""
+    number, edge = call.count("lane"), call.member("from", "right")
+    roads, here = leaf.ctx.roads, leaf.state.lane
+    if roads is None or here is None:
+        raise Inexpressible("which lane it is in is only known during the run")
+    target = roads.with_number(here, number, edge)
+    lanes = None if target is None else roads.lanes_between(here, target)
+    if lanes is None:
+        raise Inexpressible(f"there is no such lane beside lane {here.lane}")
+    if lanes == 0:
+        return ()
+    return (_to(leaf, call, lanes),)
+
+
+def _to(
+    leaf: Leaf, call: Call, lanes: int, reference: str | None = None, own_lanes: int | None = None
+) -> Change:
+    """Return the change to a lane beside that of the actor or of a reference."""
+    if any(other.name == "lateral" and other.at != "start" for other in leaf.node.modifiers):
+        instead = "the action `change_lane` with its `offset` is exact"
+        remedy = Remedy(instead=instead, asks=("LaneChangeActionDynamics",))
+        raise Inexpressible("a lane change and an offset are two lateral actions", remedy=remedy)
+    pace = leaf.in_time(call, call.shape()[0])
+    return lane_change(leaf, lanes, pace, reference, own_lanes=own_lanes, jumps=may_jump(leaf))
+
+
+@modifier("lateral")
+def _lateral(leaf: Leaf, call: Call) -> Changes:
+    reference = call.entity("side_of")
+    if reference is not None:
+        return _beside_another(leaf, call, reference)
+    offset = offset_in_lane(leaf.ctx, call, leaf.member, leaf.state.lane)
+    pace = leaf.in_time(call, call.shape()[0])
+    return () if leaf.state.offset == known(offset) else (offset_change(leaf, offset, pace),)
+
+
+def _beside_another(leaf: Leaf, call: Call, reference: CastMember) -> Changes:
+    distance = call.size("distance")
+    if distance is None:
+        raise Inexpressible("no distance is stated")
+    side = "left" if call.member("side", "left") == "left" else "right"
+    gap = Gap(reference, side, distance, is_time=False, is_headway=False)
+    return _beside(leaf, call, gap)
+
+
+def _beside(leaf: Leaf, call: Call, gap: Gap) -> Changes:
+    """Return the control of the distance across the road from another actor."""
+    measured = call.member("measure_by", "center_to_center")
+    facing = ("left_to_right", "closest") if gap.side == "right" else ("right_to_left", "closest")
+    half = 0.5 * (leaf.member.shape.width + gap.reference.shape.width)
+    size = gap.size
+    if measured == "center_to_center":
+        size -= half
+    elif measured not in facing:
+        raise Inexpressible(f"a distance from `{measured}` across the road")
+    if size < 0.0:
+        raise Inexpressible("they would overlap, and the XML counts between their sides")
+    gap = Gap(gap.reference, gap.side, size, is_time=False, is_headway=False)
+    return (reach(leaf, gap, keeps=call.at != "end"),)

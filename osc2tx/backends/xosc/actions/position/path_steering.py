@@ -1,4 +1,8 @@
-"""Corners of paths: actors steer through them, the lines of the XML have them."""
+"""Lines of paths and trajectories against the way of the actor.
+
+Actors steer through corners, which the lines of the XML have; they drive to where a trajectory
+begins, and the speed across the lane that a line leaves runs out.
+"""
 
 from __future__ import annotations
 
@@ -6,12 +10,12 @@ import math
 from collections.abc import Sequence
 from itertools import pairwise
 
+from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Leaf
 from osc2tx.backends.xosc.actions.position.points_and_lines import Line
-from osc2tx.backends.xosc.facts.actors import CRUISE
-from osc2tx.backends.xosc.facts.curves import Waypoint
-from osc2tx.backends.xosc.facts.followers import off_the_line
-from osc2tx.backends.xosc.facts.maps import Pose
+from osc2tx.backends.xosc.facts.actors import CRUISE, Linear, Pace, apart, course_of_shift
+from osc2tx.backends.xosc.facts.curves import Waypoint, off_the_line
+from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 from osc2tx.backends.xosc.report import Metres, Remedy
 
 NEAR = 0.05
@@ -57,9 +61,7 @@ def note_steering(
         offsets=offsets,
     )
     if off > NEAR:
-        leaf.ctx.report.approximate(
-            leaf.construct,
-            leaf.node.span,
+        leaf.approximate(
             "it steers along the way as physics allows, the line of the XML has corners",
             Metres(off, f"at {speed:.3g} m/s"),
             ON_THE_LINE,
@@ -96,18 +98,87 @@ def _start(leaf: Leaf, line: Line, corners: Sequence[Waypoint]) -> Pose:
 def note_schedule(leaf: Leaf, corners: Sequence[Waypoint]) -> None:
     """Report how late an actor gets where the speed of a trajectory jumps: it has limits."""
     stretches = [math.hypot(b.x - a.x, b.y - a.y) / (b.time - a.time) for a, b in pairwise(corners)]
-    speed, limits = leaf.state.speed, leaf.limits
-    begin = [] if speed is None or not speed.is_known else [speed.low]
+    speed, limits = leaf.state.known_speed, leaf.limits
+    begin = [] if speed is None else [speed]
     off = 0.0
     for before, after in pairwise((*begin, *stretches)):
         rate = limits.acceleration if after > before else limits.deceleration
         off += (after - before) ** 2 / (2.0 * rate)
     if off > NEAR:
-        leaf.ctx.report.approximate(
-            leaf.construct,
-            leaf.node.span,
+        leaf.approximate(
             "the speed of the trajectory jumps; the line of the XML does so, the actor within its"
             " limits",
             Metres(off, "late"),
             JUMPING,
         )
+
+
+ALONG_ITS_LANE = ("lane_relative", "object_relative", "road_relative")
+"""Frames whose x axis is the direction of the lane."""
+
+ARRIVING = Remedy(instead="a trajectory that begins where the actor is is exact")
+PARALLEL = Remedy(instead="a way whose last stretch is parallel to its lane is exact")
+
+
+def note_jump(leaf: Leaf, first: Waypoint) -> None:
+    """Report that a trajectory with times begins where it does: the XML jumps there, if need be."""
+    here, bound = _place(leaf), "by the way from where it is to the first point, until it is there"
+    if here is not None:
+        missing = math.hypot(first.x - here.x, first.y - here.y)
+        if missing <= NEAR:
+            return
+        bound = f"at most {missing:.3g} m, until it is there"
+    leaf.approximate(
+        "the XML puts it on the first point, in the world it drives there as fast as it can",
+        bound,
+        ARRIVING,
+    )
+
+
+def _place(leaf: Leaf) -> Pose | None:
+    """Return where an actor begins: at its start, or after a drive from there at one speed."""
+    state, ctx = leaf.state, leaf.ctx
+    start = ctx.at_start[leaf.member.name]
+    if state.pose is not None or ctx.roads is None or start.lane is None:
+        return state.pose
+    if leaf.is_start:
+        return ctx.roads.pose(start.lane)
+    before = ir.predecessor(ctx.scenario.body, leaf.node)
+    if before is None or before.duration is None or not ir.is_first(ctx.scenario.body, before):
+        return None
+    speed = state.known_speed
+    if speed is None or state.speed != start.speed or state.offset != start.offset:
+        return None
+    there = ctx.roads.ahead(start.lane, speed * ctx.values.number(before.duration))
+    return None if there is None else ctx.roads.pose(there)
+
+
+def note_slant(
+    leaf: Leaf, line: Line, corners: Sequence[Waypoint], lane: LanePosition | None, speed: float
+) -> float:
+    """Report what a slant at the end of a way makes; return the speed across the lane there.
+
+    Args:
+        leaf: The invocation.
+        line: Its way.
+        corners: Of the line.
+        lane: Where it ends; `None` if that is unknown.
+        speed: m/s at its end.
+    """
+    before, end = corners[-2], corners[-1]
+    heading = math.atan2(end.y - before.y, end.x - before.x)
+    if line.frame is None and lane is not None and leaf.ctx.roads is not None:
+        heading -= leaf.ctx.roads.pose(lane).h
+    elif line.frame not in ALONG_ITS_LANE:
+        return 0.0
+    drift = abs(speed * math.sin(heading))
+    course = course_of_shift(0.0, Pace(), leaf.limits, drift)
+    off = apart(course, Linear(0.0, 0.0, course.duration)) if course.duration > 0.0 else 0.0
+    if off <= NEAR or leaf.member.walks or ir.is_last(leaf.ctx.scenario.body, leaf.node):
+        return 0.0
+    leaf.approximate(
+        "at its end it is on a slant, and its speed across the lane runs out; in the XML it stops",
+        Metres(off, "beside, when it is over"),
+        PARALLEL,
+    )
+    return drift

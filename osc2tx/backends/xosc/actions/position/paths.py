@@ -1,4 +1,4 @@
-"""Actions along paths and trajectories (§8.8.2.8 to §8.8.2.17) and the modifiers for them."""
+"""Actions along paths, trajectories (§8.8.2.8 to §8.8.2.17) and routes, and their modifiers."""
 
 from __future__ import annotations
 
@@ -7,25 +7,33 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from itertools import pairwise
 
-from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
-from osc2tx.backends.xosc.actions.position.line_ends import note_jump, note_slant
-from osc2tx.backends.xosc.actions.position.path_steering import note_schedule, note_steering
+from osc2tx.backends.xosc.actions.arguments import Call
+from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance
+from osc2tx.backends.xosc.actions.position.path_steering import (
+    note_jump,
+    note_schedule,
+    note_slant,
+    note_steering,
+)
 from osc2tx.backends.xosc.actions.position.points_and_lines import (
     Line,
     line_of,
     line_of_route,
     relative_line,
 )
-from osc2tx.backends.xosc.actions.position.routes import assign_route, lane_position
-from osc2tx.backends.xosc.actions.position.xml_positions import at_place
+from osc2tx.backends.xosc.actions.position.xml_positions import at_place, relative_lane
 from osc2tx.backends.xosc.actions.registry import action, modifier, to_goal
 from osc2tx.backends.xosc.actions.speed.speed_changes import may_jump
-from osc2tx.backends.xosc.entities.declared_roads import segment_of
+from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment_of
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.facts.curves import Waypoint, sample_curve
-from osc2tx.backends.xosc.facts.map_search import MapSegment, crossing_of
-from osc2tx.backends.xosc.facts.maps import Pose
+from osc2tx.backends.xosc.facts.map_search import (
+    MapSegment,
+    begin_of,
+    crossing_of,
+    end_of,
+)
+from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
 from osc2tx.backends.xosc.values.constants import Constant, Named
@@ -36,7 +44,7 @@ from osc2tx_shared.classes import replace
 @action("follow_path", "replay_path", "follow_trajectory", "replay_trajectory")
 def _on_line(leaf: Leaf) -> Performance:
     arguments = leaf.arguments
-    offsets = (arguments.number("start_offset") or 0.0, arguments.number("end_offset") or 0.0)
+    offsets = arguments.offsets()
     reference = arguments.get("reference")
     transform = arguments.get("transform")
     if "relative" in arguments:
@@ -45,7 +53,7 @@ def _on_line(leaf: Leaf) -> Performance:
     else:
         line = line_of(leaf.ctx, arguments.get("absolute"))
     if leaf.duration is not None:
-        raise Inexpressible("a duration beside that of the way", leaf.node.span)
+        raise Inexpressible("a duration beside that of the way")
     changes = along_line(leaf, line, offsets, is_exact=may_jump(leaf))
     return to_goal(leaf, *changes)
 
@@ -55,18 +63,16 @@ ACROSS = frozenset({"change_lane", "keep_lane", "lane", "lateral"})
 
 
 @modifier("along_trajectory")
-def _along_trajectory(
-    leaf: Leaf, call: ir.ModifierCall, arguments: Arguments
-) -> tuple[Change, ...]:
-    offsets = (arguments.number("start_offset") or 0.0, arguments.number("end_offset") or 0.0)
-    line = line_of(leaf.ctx, arguments.get("trajectory"))
+def _along_trajectory(leaf: Leaf, call: Call) -> Changes:
+    offsets = call.offsets()
+    line = line_of(leaf.ctx, call.get("trajectory"))
     return along_line(leaf, line, offsets, is_exact=may_jump(leaf))
 
 
 @modifier("along")
-def _along(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
-    offsets = (arguments.number("start_offset") or 0.0, arguments.number("end_offset") or 0.0)
-    route = arguments.get("route")
+def _along(leaf: Leaf, call: Call) -> Changes:
+    offsets = call.offsets()
+    route = call.get("route")
     segment = segment_of(leaf.ctx, route)
     if segment is not None and crossing_of(segment) is None:
         beside = [m for m in leaf.node.modifiers if m.name in ACROSS and m.at != "start"]
@@ -76,23 +82,19 @@ def _along(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Cha
     return along_line(leaf, line_of_route(leaf.ctx, route), offsets, is_exact=may_jump(leaf))
 
 
-def _along_segment(
-    leaf: Leaf, segment: MapSegment, offsets: tuple[float, float]
-) -> tuple[Change, ...]:
+def _along_segment(leaf: Leaf, segment: MapSegment, offsets: tuple[float, float]) -> Changes:
     """Return the changes that a route of the map makes: it goes on in the lanes, from wherever."""
     if offsets[1]:
         raise Inexpressible("a route of the map that is left before its end", leaf.node.span)
     action, goal = assign_route(leaf, segment)
     if leaf.duration is None:
-        there = at_place(leaf.ctx, lane_position(goal), goal, leaf.construct, leaf.node.span)
-        leaf.reached = tuple(map(leaf.on_me, there))
+        there = lane_position(goal)
+        leaf.reached = at_place(leaf.ctx, leaf.arguments, leaf.member.name, there, goal)
     after = replace(leaf.state, lane=None).finished(LATERAL)
     return (Change(LATERAL, (action,), None, after, after),)
 
 
-def along_line(
-    leaf: Leaf, line: Line, offsets: tuple[float, float], *, is_exact: bool
-) -> tuple[Change, ...]:
+def along_line(leaf: Leaf, line: Line, offsets: tuple[float, float], *, is_exact: bool) -> Changes:
     """Return the changes that a path or a trajectory makes."""
     if leaf.enters and line.frame is None:
         reason = "a run plans how the actor gets to the path by then"
@@ -133,15 +135,15 @@ def along_line(
 
 def _time(leaf: Leaf, corners: Sequence[Waypoint]) -> float | None:
     """Return how long a path takes at the present speed, if that is known."""
-    speed = leaf.state.speed
-    if speed is None or not speed.is_known or leaf.node.modifiers:
+    speed = leaf.state.known_speed
+    if speed is None or leaf.node.modifiers:
         return None
-    if speed.low <= 0.0:
+    if speed <= 0.0:
         raise Inexpressible(
             "it is at standstill, and a path states no speed: give it one before", leaf.node.span
         )
     way = sum(math.hypot(b.x - a.x, b.y - a.y) for a, b in pairwise(corners))
-    return way / speed.low
+    return way / speed
 
 
 def _here(leaf: Leaf) -> Waypoint:
@@ -188,10 +190,7 @@ def _vertex(leaf: Leaf, line: Line, point: Waypoint) -> tuple[float, xml.Positio
     if line.frame is None:
         h = None if point.h is None else round(point.h, 9)
         place = xml.WorldPosition(
-            x=round(point.x, 6),
-            y=round(point.y, 6),
-            z=round(point.z, 6),
-            h=h,
+            x=round(point.x, 6), y=round(point.y, 6), z=round(point.z, 6), h=h
         )
         return point.time, place
     assert line.reference is not None
@@ -217,15 +216,7 @@ def _road_relative(leaf: Leaf, reference: str, point: Waypoint) -> xml.RelativeR
 
 
 def _lane_relative(leaf: Leaf, reference: str, point: Waypoint) -> xml.RelativeLanePosition:
-    along = round(point.x, 6)
-    newer = leaf.ctx.version >= "1.1"
-    return xml.RelativeLanePosition(
-        entityRef=reference,
-        dLane=0,
-        dsLane=along if newer else None,
-        ds=None if newer else along,
-        offset=round(point.y, 6),
-    )
+    return relative_lane(leaf.ctx, reference, 0, round(point.x, 6), round(point.y, 6))
 
 
 _FRAMES: Mapping[str, Callable[[Leaf, str, Waypoint], xml.PositionPart]] = {
@@ -253,8 +244,8 @@ def follow(
                         time=round(time, 6) if is_timed else float(number) if older else None,
                     )
                     for number, (time, place) in enumerate(vertices)
-                ),
-            ),
+                )
+            )
         ),
         name=leaf.ctx.names.new(f"way_{leaf.event}"),
         closed=False,
@@ -267,8 +258,32 @@ def follow(
                 xml.TimeReference(timing if is_timed else xml.None_()),
                 xml.TrajectoryFollowingMode(
                     # Between times tools that `follow` choose speeds of their own.
-                    followingMode="position" if is_exact or is_timed else "follow",
+                    followingMode="position" if is_exact or is_timed else "follow"
                 ),
-            ),
-        ),
+            )
+        )
     )
+
+
+def assign_route(leaf: Leaf, segment: MapSegment) -> tuple[xml.PrivateAction, LanePosition]:
+    """Return the action that gives an actor a route, and the place of its end."""
+    roads = required_roads(leaf.ctx)
+    begin, end = begin_of(roads, segment), end_of(roads, segment)
+    lane = leaf.state.lane
+    if lane is not None and lane.road == end.road:  # it keeps its own lane
+        begin, end = (
+            LanePosition(each.road, lane.lane, each.s) if each.road == lane.road else each
+            for each in (begin, end)
+        )
+    waypoints = (
+        xml.Waypoint(xml.Position(place), routeStrategy="shortest")
+        for place in (lane_position(begin), lane_position(end))
+    )
+    route = xml.Route(*waypoints, name=leaf.ctx.names.new(f"route_{leaf.event}"), closed=False)
+    assign = xml.RoutingAction(xml.AssignRouteAction(route))
+    return xml.PrivateAction(assign), end
+
+
+def lane_position(place: LanePosition) -> xml.LanePosition:
+    """Return the element of the middle of a lane at a place."""
+    return xml.LanePosition(roadId=place.road, laneId=place.lane, s=round(place.s, 6), offset=0.0)

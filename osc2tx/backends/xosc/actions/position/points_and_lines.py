@@ -179,9 +179,9 @@ def line_of(ctx: Context, value: Constant | None) -> Line:
         return _made_line(ctx, value)
     if not isinstance(value, Named):
         raise Inexpressible("the way is only known during the run")
-    fields = (ctx.values.field(value.name, (name,)) for name in ("points", "time_stamps"))
+    fields = (ctx.values.field(value.name, name) for name in ("points", "time_stamps"))
     points, times = fields
-    joined = ctx.values.field(value.name, ("interpolation",))
+    joined = ctx.values.field(value.name, "interpolation")
     return Line(_posed(ctx, points, times), _is_smooth(joined), times is not None)
 
 
@@ -230,14 +230,14 @@ def _posed(ctx: Context, points: Constant | None, times: Constant | None) -> tup
 def _pose(ctx: Context, pose: Constant, time: float) -> Waypoint:
     if not isinstance(pose, Named) or ctx.values.type_of(pose.name) != "pose_3d":
         raise Inexpressible("a point of the way is no pose")
-    position = ctx.values.field(pose.name, ("position",))
+    position = ctx.values.field(pose.name, "position")
     owner, path = (position.name, ()) if isinstance(position, Named) else (pose.name, ("position",))
-    x, y, z = (number_of(ctx.values.field(owner, (*path, name))) for name in "xyz")
-    turned = ctx.values.field(pose.name, ("orientation",))
+    x, y, z = (number_of(ctx.values.field(owner, *path, name)) for name in "xyz")
+    turned = ctx.values.field(pose.name, "orientation")
     if isinstance(turned, Named):
-        yaw = ctx.values.field(turned.name, ("yaw",))
+        yaw = ctx.values.field(turned.name, "yaw")
     else:
-        yaw = ctx.values.field(pose.name, ("orientation", "yaw"))
+        yaw = ctx.values.field(pose.name, "orientation", "yaw")
     return Waypoint(time, x, y, z, None if yaw is None else number_of(yaw))
 
 

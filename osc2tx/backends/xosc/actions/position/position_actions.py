@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 
-from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf, Performance
-from osc2tx.backends.xosc.actions.position.other_actors import lane_of
+from osc2tx.backends.xosc.actions.arguments import Arguments, Call
+from osc2tx.backends.xosc.actions.lateral.lanes import lane_of
+from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance
 from osc2tx.backends.xosc.actions.position.path_steering import note_steering
 from osc2tx.backends.xosc.actions.position.paths import follow
 from osc2tx.backends.xosc.actions.position.points_and_lines import Line, xml_position
 from osc2tx.backends.xosc.actions.position.xml_positions import (
     XmlPosition,
     at_place,
+    relative_lane,
     world_position,
 )
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
@@ -37,7 +39,7 @@ def _assign_position(leaf: Leaf) -> Performance:
     return Performance(_put(leaf, _beside(leaf)), "goal")
 
 
-def _put(leaf: Leaf, target: XmlPosition) -> tuple[Change, ...]:
+def _put(leaf: Leaf, target: XmlPosition) -> Changes:
     place: xml.PositionPart = target.element
     state = leaf.state
     if leaf.member.walks and target.pose is not None:
@@ -53,20 +55,20 @@ def _beside(leaf: Leaf) -> XmlPosition:
     """Return the place that modifiers give relative to another actor."""
     lanes, along, left = 0, 0.0, 0.0
     references: list[CastMember] = []
-    for call in leaf.node.modifiers:
-        with leaf.ctx.report_as(f"modifier {call.name}", call.span):
-            arguments = Arguments(leaf.ctx, call.arguments, call)
+    for node in leaf.node.modifiers:
+        call = Call(leaf.ctx, node)
+        with leaf.ctx.report_as(call.construct, call.span):
             match call.name:
                 case "lane":
-                    lanes, other = _lanes(arguments)
+                    lanes, other = _lanes(call)
                 case "position":
-                    along, other = _distance(arguments)
+                    along, other = _distance(call)
                 case _:
-                    raise Inexpressible(f"`{call.name}` of a place to be put to", call.span)
-            arguments.finish()
+                    raise Inexpressible(f"`{call.name}` of a place to be put to")
+            call.finish()
             references.append(other)
     if not references or len({each.name for each in references}) > 1:
-        raise Inexpressible("it is put relative to none or to several actors", leaf.node.span)
+        raise Inexpressible("it is put relative to none or to several actors")
     reference = references[0]
     place = beside(leaf, reference, lanes, along, left)
     lane, roads = lane_of(leaf, reference), leaf.ctx.roads
@@ -84,9 +86,7 @@ def _lanes(arguments: Arguments) -> tuple[int, CastMember]:
         return 0, same
     if side is None:
         raise Inexpressible("a lane by its number, at a place that is only known during the run")
-    number = arguments.number("lane")
-    count = 1 if number is None else round(number)
-    return (count if arguments.member("side", "left") == "left" else -count), side
+    return arguments.lanes_to_left(), side
 
 
 def _distance(arguments: Arguments) -> tuple[float, CastMember]:
@@ -104,26 +104,18 @@ def beside(
     """Return the place so many lanes to the left of another actor and so far ahead of it (m)."""
     ctx = leaf.ctx
     lane = lane_of(leaf, reference)
-    newer = ctx.version >= "1.1"
-    if not newer and (lane is None or lane.lane > 0):
+    if ctx.version == "1.0" and (lane is None or lane.lane > 0):
         raise Inexpressible(
             "OpenSCENARIO XML 1.0 counts along the road, not in the direction of travel",
-            leaf.node.span,
-            Remedy(version="1.1"),
+            remedy=Remedy(version="1.1"),
         )
-    return xml.RelativeLanePosition(
-        entityRef=reference.name,
-        dLane=lanes,
-        dsLane=along if newer else None,
-        ds=None if newer else along,
-        offset=offset,
-    )
+    return relative_lane(ctx, reference.name, lanes, along, offset)
 
 
 def _teleport(leaf: Leaf, place: xml.PositionPart) -> xml.PrivateAction:
     """Return the action that puts an actor somewhere, who may be on its way."""
     if leaf.member.kind == VEHICLE or leaf.state.speed != known(0.0):
-        leaf.ctx.require_support("TeleportAction/moving", leaf.node.span)
+        leaf.ctx.require_support("TeleportAction/moving")
     return xml.PrivateAction(xml.TeleportAction(xml.Position(place)))
 
 
@@ -131,12 +123,12 @@ def _teleport(leaf: Leaf, place: xml.PositionPart) -> xml.PrivateAction:
 def _assign_orientation(leaf: Leaf) -> Performance:
     ctx, given = leaf.ctx, leaf.arguments.get("orientation")
     if not isinstance(given, Named):
-        raise Inexpressible("the orientation is only known during the run", leaf.node.span)
+        raise Inexpressible("the orientation is only known during the run")
     if not leaf.member.walks:
         raise Inexpressible("a vehicle follows its lane, whatever its orientation")
     angles = {}
     for attribute, name in (("h", "yaw"), ("p", "pitch"), ("r", "roll")):
-        value = ctx.values.field(given.name, (name,))
+        value = ctx.values.field(given.name, name)
         angles[attribute] = float(value) if isinstance(value, (int, float)) else 0.0
     h, pose = round(angles["h"], 9), leaf.state.pose
     place: xml.PositionPart
@@ -145,10 +137,7 @@ def _assign_orientation(leaf: Leaf) -> Performance:
         place = world_position(pose)
     else:
         turn = xml.Orientation(
-            type="absolute",
-            h=h,
-            p=round(angles["p"], 9) or None,
-            r=round(angles["r"], 9) or None,
+            type="absolute", h=h, p=round(angles["p"], 9) or None, r=round(angles["r"], 9) or None
         )
         place = xml.RelativeObjectPosition(turn, entityRef=leaf.member.name, dx=0.0, dy=0.0)
     after = replace(leaf.state, pose=pose)
@@ -161,16 +150,16 @@ def _change_position(leaf: Leaf) -> Performance:
     names = ("target_position", "target_xyz", "target_st", "target_odr")
     name = next((each for each in names if each in arguments), None)
     if name is None:
-        raise Inexpressible("no place is stated", leaf.node.span)
+        raise Inexpressible("no place is stated")
     target = xml_position(leaf.ctx, arguments.get(name))
     joined, on_network = arguments.get("interpolation"), arguments.get("on_road_network")
     is_smooth = isinstance(joined, Member) and joined.name == "smooth"
     if leaf.duration is not None:
-        raise Inexpressible("a duration beside that of the way", leaf.node.span)
+        raise Inexpressible("a duration beside that of the way")
     if on_network if on_network is not None else not leaf.member.walks:
         return _acquire(leaf, target)
     if is_smooth:
-        raise Inexpressible("a curve from wherever it is then", leaf.node.span)
+        raise Inexpressible("a curve from wherever it is then")
     return _straight_to(leaf, target)
 
 
@@ -185,8 +174,8 @@ def _acquire(leaf: Leaf, target: XmlPosition) -> Performance:
     acquire = xml.RoutingAction(xml.AcquirePositionAction(position))
     after = replace(state, lane=target.lane, offset=known(0.0)).finished(LATERAL)
     change = Change(LATERAL, (xml.PrivateAction(acquire),), None, replace(state, lane=None), after)
-    there = at_place(leaf.ctx, target.element, target.lane, leaf.construct, leaf.node.span)
-    reached = tuple(map(leaf.on_me, there))
+    name = leaf.member.name
+    reached = at_place(leaf.ctx, leaf.arguments, name, target.element, target.lane)
     return to_goal(leaf, change, reached=reached)
 
 
@@ -206,9 +195,8 @@ def _straight_to(leaf: Leaf, target: XmlPosition) -> Performance:
         there = Pose(there.x, there.y, there.z, heading)
         goal = world_position(there)
         time = math.hypot(there.x - here.x, there.y - here.y)
-    speed = leaf.state.speed
     actions: tuple[xml.ActionPart, ...] = ()
-    v = speed.low if speed is not None and speed.is_known else None
+    v = leaf.state.known_speed
     if v == 0.0:
         v = CRUISE
         actions = (speed_action(v, "step", "time", 0.0),)
@@ -219,7 +207,7 @@ def _straight_to(leaf: Leaf, target: XmlPosition) -> Performance:
     vertices = [(0.0, start), (length or 1.0, goal)]
     move = follow(leaf, vertices, is_timed, False)
     after = ActorState(
-        speed=speed if v is None else known(v),
+        speed=leaf.state.speed if v is None else known(v),
         offset=None,
         pose=there,
         rate=0.0,
@@ -239,9 +227,7 @@ def _straight_to(leaf: Leaf, target: XmlPosition) -> Performance:
 def _note_turn(leaf: Leaf, here: Pose | None, there: Pose, speed: float | None) -> None:
     """Report by how much the curve in which an actor turns to its place is beside the line."""
     if here is None:
-        leaf.ctx.report.approximate(
-            leaf.construct,
-            leaf.node.span,
+        leaf.approximate(
             "how it looks when it sets out is only known during the run, so it turns at once",
             "at most the circle in which it turns, and later by the time that this takes",
         )

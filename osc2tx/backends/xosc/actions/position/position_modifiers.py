@@ -2,40 +2,43 @@
 
 from __future__ import annotations
 
-from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
+from osc2tx.backends.xosc.actions.arguments import Call
+from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf
 from osc2tx.backends.xosc.actions.position.points_and_lines import xml_position
-from osc2tx.backends.xosc.actions.position.xml_positions import at_place
+from osc2tx.backends.xosc.actions.position.xml_positions import at_place, lane_place
 from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed.gap_elements import Gap, hold, missing_at_start
 from osc2tx.backends.xosc.actions.speed.speed_changes import through_points
 from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
-from osc2tx.backends.xosc.actions.speed.speed_notes import NEAR, PROFILE_ACTION, with_profiles
-from osc2tx.backends.xosc.actions.speed.steady_speeds import steady_speed
+from osc2tx.backends.xosc.actions.speed.speed_notes import (
+    NEAR,
+    PROFILE_ACTION,
+    steady_speed,
+    with_profiles,
+)
 from osc2tx.backends.xosc.facts.actors import Linear, way_between
 from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
-from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass, replace
 
 
 @modifier("position")
-def _position(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
-    if "at_point" in arguments:
-        return _at_point(leaf, call, arguments)
-    ahead, behind = arguments.entity("ahead_of"), arguments.entity("behind")
+def _position(leaf: Leaf, call: Call) -> Changes:
+    if "at_point" in call:
+        return _at_point(leaf, call)
+    ahead, behind = call.entity("ahead_of"), call.entity("behind")
     reference = ahead or behind
     if reference is None:
-        along = _size(arguments, "distance")
+        along = call.size("distance")
         if along is None:
-            raise Inexpressible("no distance is stated", call.span)
+            raise Inexpressible("no distance is stated")
         return _along_road(leaf, call, along)
     for name in ("movement_mode", "track"):
-        if name in arguments and arguments.member(name, "") not in ("other", "actual"):
-            raise Inexpressible(f"`{name}` has no counterpart", call.span)
-    distance, time = (_size(arguments, name) for name in ("distance", "time"))
+        if name in call and call.member(name, "") not in ("other", "actual"):
+            raise Inexpressible(f"`{name}` has no counterpart")
+    distance, time = (call.size(name) for name in ("distance", "time"))
     if distance is None and time is None:
-        raise Inexpressible("neither a distance nor a time is stated", call.span)
+        raise Inexpressible("neither a distance nor a time is stated")
     size = distance if distance is not None else time
     assert size is not None
     side = "ahead" if ahead is not None else "behind"
@@ -47,15 +50,11 @@ def _position(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[
     if not leaf.is_start:
         raise Inexpressible(
             "it holds from the start of the action on, and where both are then only the run shows",
-            call.span,
-            Remedy(instead="`at: end`, or `keep_space_gap` from the distance that is there then"),
+            remedy=Remedy(
+                instead="`at: end`, or `keep_space_gap` from the distance that is there then"
+            ),
         )
     return (_held(leaf, gap, keeps=True),)
-
-
-def _size(arguments: Arguments, name: str) -> float | None:
-    given = arguments.number(name)
-    return arguments.number(f"{name}_range") if given is None else given
 
 
 def _held(leaf: Leaf, gap: Gap, *, keeps: bool) -> Change:
@@ -64,35 +63,28 @@ def _held(leaf: Leaf, gap: Gap, *, keeps: bool) -> Change:
     return hold(leaf, gap, distance, time, freespace=False, keeps=keeps, missing=missing)
 
 
-def _at_point(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
+def _at_point(leaf: Leaf, call: Call) -> Changes:
     """End an invocation at a point that the way leads to."""
-    point = xml_position(leaf.ctx, arguments.get("at_point"))
-    arguments.get("project_on_route")
+    point = xml_position(leaf.ctx, call.get("at_point"))
+    call.get("project_on_route")
     if call.at != "end" or leaf.duration is not None:
-        raise Inexpressible("a point that is not the end of the way", call.span)
-    there = at_place(leaf.ctx, point.element, point.lane, f"modifier {call.name}", call.span)
-    leaf.reached = tuple(map(leaf.on_me, there))
+        raise Inexpressible("a point that is not the end of the way")
+    leaf.reached = at_place(leaf.ctx, call, leaf.member.name, point.element, point.lane)
     return ()
 
 
-def _along_road(leaf: Leaf, call: ir.ModifierCall, distance: float) -> tuple[Change, ...]:
+def _along_road(leaf: Leaf, call: Call, distance: float) -> Changes:
     """End an invocation so far (m) along the road; it keeps its lane until then."""
     lane, roads = leaf.state.lane, leaf.ctx.roads
     if call.at != "end" or leaf.duration is not None:
         raise Inexpressible("a distance from the start of the road that is not the end of the way")
     if lane is None or roads is None:
-        raise Inexpressible("which road it is on is only known during the run", call.span)
+        raise Inexpressible("which road it is on is only known during the run")
     place = roads.from_entry(lane, distance)
     if place is None:
-        raise Inexpressible(f"the road ends before {distance:g} m", call.span)
-    goal = xml.LanePosition(
-        roadId=place.road,
-        laneId=place.lane,
-        s=round(place.s, 6),
-        offset=round(place.offset * (roads.leftwards(place) or 1), 6) or 0.0,
-    )
-    there = at_place(leaf.ctx, goal, place, f"modifier {call.name}", call.span)
-    leaf.reached = tuple(map(leaf.on_me, there))
+        raise Inexpressible(f"the road ends before {distance:g} m")
+    goal = lane_place(roads, place)
+    leaf.reached = at_place(leaf.ctx, call, leaf.member.name, goal, place)
     return ()
 
 
@@ -121,33 +113,27 @@ class Arrival:
         return self.start + 3.0 * self.missing / self.duration * share * (1.0 - 0.5 * share)
 
 
-def _in_time(leaf: Leaf, call: ir.ModifierCall, gap: Gap) -> Change:
+def _in_time(leaf: Leaf, call: Call, gap: Gap) -> Change:
     """Return the change of the speed that leads to a place beside another actor in time."""
-    ctx, speed = leaf.ctx, leaf.state.speed
+    ctx, speed, time = leaf.ctx, leaf.state.known_speed, leaf.duration
     apart = ctx.init_gaps.get((leaf.member.name, gap.reference.name)) if leaf.is_start else None
     theirs = steady_speed(leaf, gap.reference)
-    is_known = speed is not None and speed.is_known and apart is not None and theirs is not None
-    if not (is_known and leaf.duration is not None and not gap.is_time):
-        ctx.report.approximate(
-            f"modifier {call.name}",
-            call.span,
+    if speed is None or apart is None or theirs is None or time is None or gap.is_time:
+        call.approximate(
             "where both are by then is only known during the run",
             "the place is reached, but when is up to the tool",
         )
         return _held(leaf, gap, keeps=False)
-    assert speed is not None and apart is not None and theirs is not None
-    time = leaf.duration
-    assert time is not None
     way = apart + (gap.size if gap.side == "ahead" else -gap.size)
-    arrival = Arrival(speed.low, way + (theirs - speed.low) * time, time)
+    arrival = Arrival(speed, way + (theirs - speed) * time, time)
     can_draw = ctx.can(PROFILE_ACTION, "1.2")
     # Without courses of the speed an even change leads to the same place in the same time.
-    end = arrival.value(time) if can_draw else speed.low + 2.0 * arrival.missing / time
+    end = arrival.value(time) if can_draw else speed + 2.0 * arrival.missing / time
     if end < 0.0:
-        raise Inexpressible("it would have to go backwards", call.span)
+        raise Inexpressible("it would have to go backwards")
     after = replace(leaf.state, speed=known(end)).finished(LONGITUDINAL)
-    during = replace(after, speed=speed.over(known(end)))
-    even = Linear(speed.low, end, time)
+    during = replace(after, speed=known(speed).over(known(end)))
+    even = Linear(speed, end, time)
     leaf.course = arrival if can_draw else even
     if not can_draw:
         _note_even_arrival(leaf, call, arrival, even)
@@ -157,15 +143,13 @@ def _in_time(leaf: Leaf, call: ir.ModifierCall, gap: Gap) -> Change:
     return Change(LONGITUDINAL, (action,), time, during, after)
 
 
-def _note_even_arrival(leaf: Leaf, call: ir.ModifierCall, arrival: Arrival, even: Linear) -> None:
+def _note_even_arrival(leaf: Leaf, call: Call, arrival: Arrival, even: Linear) -> None:
     """Report that an even change leads to the same place in time, with another speed there."""
     apart = way_between(arrival, even)
     if apart <= NEAR:
         return
     faster = even.end - arrival.value(arrival.duration)
-    leaf.ctx.report.approximate(
-        f"modifier {call.name}",
-        call.span,
+    call.approximate(
         "a speed that changes unevenly needs SpeedProfileAction; it changes evenly instead",
         f"{Metres(apart, 'on the way')}; it arrives {abs(faster):.2g} m/s too"
         f" {'fast' if faster > 0.0 else 'slow'}",

@@ -13,7 +13,7 @@ from osc2tx.backends.xosc.actions.position.paths import follow
 from osc2tx.backends.xosc.actions.speed.speed_changes import jump_to
 from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
 from osc2tx.backends.xosc.entities.cast import PEDESTRIAN
-from osc2tx.backends.xosc.facts.actors import Profile, course_of_speed
+from osc2tx.backends.xosc.facts.actors import FASTEST, Pace, Profile, course_of_speed
 from osc2tx.backends.xosc.facts.curves import Waypoint, thinned
 from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import Inexpressible, Metres
@@ -38,13 +38,13 @@ PIECES = 64
 def walk_on(leaf: Leaf, target: float | None) -> Change:
     """Return the walk straight on at a speed (m/s), or at the present one."""
     state = leaf.state
-    if state.speed is None or not state.speed.is_known or state.pose is None:
-        raise Inexpressible("where and how fast it walks is not known", leaf.node.span)
-    start = state.speed.low
+    start = state.known_speed
+    if start is None or state.pose is None:
+        raise Inexpressible("where and how fast it walks is not known")
     goal = start if target is None else target
-    course = course_of_speed(start, goal, "none", None, None, leaf.limits)
+    course = course_of_speed(start, goal, Pace(), leaf.limits)
     action = _straight_on(leaf, state.pose, course)
-    during = replace(state, speed=state.speed.over(known(goal)), pose=None)
+    during = replace(state, speed=known(start).over(known(goal)), pose=None)
     if leaf.duration is None:
         return Change(WAY, (action,), None, during, during)
     pose = _ahead(state.pose, _covered(course, leaf.duration))
@@ -66,21 +66,19 @@ def change_pace(leaf: Leaf, goal: float, course: Profile) -> Change:
 
 def stand(leaf: Leaf) -> Change:
     """Return the stop of a walker."""
-    state = leaf.state
-    if state.pose is None or state.speed is None or not state.speed.is_known:
+    state, speed = leaf.state, leaf.state.known_speed
+    if state.pose is None or speed is None:
         change = jump_to(leaf, 0.0)
         fastest = 3.0 if state.speed is None else state.speed.high
-        course = course_of_speed(fastest, 0.0, "asap", None, None, leaf.limits)
-        leaf.ctx.report.approximate(
-            f"action {leaf.node.action}",
-            leaf.node.span,
+        course = course_of_speed(fastest, 0.0, FASTEST, leaf.limits)
+        leaf.approximate(
             "where it stops is only known during the run, so it stops at once",
             Metres(
                 _covered(course, course.duration), "before the place where it would have stopped"
             ),
         )
         return change
-    course = course_of_speed(state.speed.low, 0.0, "asap", None, None, leaf.limits)
+    course = course_of_speed(speed, 0.0, FASTEST, leaf.limits)
     return change_pace(leaf, 0.0, course)
 
 
@@ -111,10 +109,7 @@ def _trajectory(leaf: Leaf, start: Pose, course: Profile) -> xml.PrivateAction:
         (
             point.time,
             xml.WorldPosition(
-                x=round(point.x, 6),
-                y=round(point.y, 6),
-                z=point.z,
-                h=round(start.h, 9),
+                x=round(point.x, 6), y=round(point.y, 6), z=point.z, h=round(start.h, 9)
             ),
         )
         for point in (points if is_read else thinned(points, is_timed=True))

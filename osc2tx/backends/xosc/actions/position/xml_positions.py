@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 
+from osc2tx.backends.xosc.actions.arguments import Arguments
+from osc2tx.backends.xosc.conditions.comparisons import of_entity
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
+from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
 from osc2tx.backends.xosc.report import Inexpressible, Metres
-from osc2tx.backends.xosc.values.constants import Constant, MethodResult, Named
-from osc2tx.diagnostics import Span
+from osc2tx.backends.xosc.values.constants import Constant, MethodResult, Named, as_number
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import Rule
 from osc2tx_shared.classes import dataclass
@@ -52,33 +53,59 @@ def at_world(ctx: Context, x: float, y: float, z: float) -> XmlPosition:
 
 
 def at_place(
-    ctx: Context, place: xml.PositionPart, lane: LanePosition | None, construct: str, span: Span
-) -> tuple[xml.DistanceCondition, ...]:
-    """Return the conditions to have come to a place along its lane; all have to hold.
+    ctx: Context, said: Arguments, actor: str, place: xml.PositionPart, lane: LanePosition | None
+) -> tuple[xml.ByEntityCondition, ...]:
+    """Return the conditions that an actor has come to a place along its lane; all have to hold.
 
     Args:
         ctx: The context.
+        said: What names the place, and is reported where they say it nearly only.
+        actor: The entity.
         place: The place.
         lane: The same on a lane of the map; `None` if that is not known.
-        construct: What is reported where they say it nearly only.
-        span: Where that stands.
     """
     roads = ctx.roads
     before = None if lane is None or roads is None else roads.ahead(lane, -BEFORE)
     if before is None or lane is None or roads is None or ctx.profile.latches_conditions:
         bound = Metres(REACHED, "before the place, where it counts as there")
-        ctx.report.approximate(construct, span, "a place is a circle about a point", bound)
-        return (_distance(ctx, place, REACHED, "lessThan"),)
-    there = xml.LanePosition(
-        roadId=before.road,
-        laneId=before.lane,
-        s=round(before.s, 6),
-        offset=round(before.offset * (roads.leftwards(before) or 1), 6) or 0.0,
-    )
+        said.approximate("a place is a circle about a point", bound)
+        return (of_entity(actor, _distance(ctx, place, REACHED, "lessThan")),)
     apart = math.dist(roads.pose(before)[:3], roads.pose(lane)[:3])  # less in a bend than on it
-    return (
-        _distance(ctx, place, BEFORE, "lessThan"),
-        _distance(ctx, there, round(apart - SURE, 6), "greaterThan"),
+    far = _distance(ctx, lane_place(roads, before), round(apart - SURE, 6), "greaterThan")
+    near = _distance(ctx, place, BEFORE, "lessThan")
+    return of_entity(actor, near), of_entity(actor, far)
+
+
+def lane_place(roads: Roads, place: LanePosition) -> xml.LanePosition:
+    """Return the element of a place in a lane of the map and beside its middle."""
+    return xml.LanePosition(
+        roadId=place.road,
+        laneId=place.lane,
+        s=round(place.s, 6),
+        offset=round(place.offset * (roads.leftwards(place) or 1), 6) or 0.0,
+    )
+
+
+def relative_lane(
+    ctx: Context,
+    reference: str,
+    lanes: int,
+    along: float,
+    offset: float,
+    turn: xml.Orientation | None = None,
+) -> xml.RelativeLanePosition:
+    """Return the place so many lanes to the left of an actor and so far ahead of it (m).
+
+    1.0 counts along the road, later versions in the direction of travel.
+    """
+    is_old = ctx.version == "1.0"
+    return xml.RelativeLanePosition(
+        turn,
+        entityRef=reference,
+        dLane=lanes,
+        dsLane=None if is_old else along,
+        ds=along if is_old else None,
+        offset=offset,
     )
 
 
@@ -168,14 +195,14 @@ def parts_of(ctx: Context, point: Constant | None) -> tuple[str, dict[str, Const
         "geodetic_position_2d": ("latitude", "longitude"),
     }
     if kind == "xyz_point":
-        inner = ctx.values.field(point.name, ("position",))
+        inner = ctx.values.field(point.name, "position")
         if inner is not None:
             return parts_of(ctx, inner)
-        found = {name: ctx.values.field(point.name, ("position", name)) for name in "xyz"}
+        found = {name: ctx.values.field(point.name, "position", name) for name in "xyz"}
         return "xyz", {name: value for name, value in found.items() if value is not None}
     if kind not in names:
         raise Inexpressible(f"a `{kind}` is no place that the map alone gives")
-    fields = {name: ctx.values.field(point.name, (name,)) for name in names[kind]}
+    fields = {name: ctx.values.field(point.name, name) for name in names[kind]}
     return kind, {name: value for name, value in fields.items() if value is not None}
 
 
@@ -185,8 +212,7 @@ def number_of(value: Constant | None) -> float:
     Raises:
         Inexpressible: It is not known before the run.
     """
-    if value is None:
-        return 0.0
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
+    number = 0.0 if value is None else as_number(value)
+    if number is None:
         raise Inexpressible(UNKNOWN)
-    return float(value)
+    return number

@@ -11,7 +11,8 @@ from itertools import cycle as endless
 from typing import NamedTuple
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import Arguments, Global, Later
+from osc2tx.backends.xosc.actions.arguments import Arguments
+from osc2tx.backends.xosc.actions.leaf import Global, Globals, Later
 from osc2tx.backends.xosc.actions.registry import global_action
 from osc2tx.backends.xosc.actions.signals.traffic_lights import (
     States,
@@ -23,7 +24,6 @@ from osc2tx.backends.xosc.actions.signals.traffic_lights import (
     switch,
 )
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.flattening.tree_queries import is_first, is_last
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Named
 from osc2tx.xosc import elements as xml
@@ -71,24 +71,22 @@ class _Cycle(NamedTuple):
 
 
 @global_action("play_cycles")
-def _play_cycles(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[Global | Later, ...]:
+def _play_cycles(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     given = arguments.get("cycles")
     if not isinstance(given, tuple):
-        raise Inexpressible("the cycles are not known before the run", node.span)
+        raise Inexpressible("the cycles are not known before the run")
     cycles = [_cycle(ctx, each) for each in given]
     body = ctx.scenario.body
     has_end = node.duration is not None or bool(node.until)
-    spans_run = is_first(body, node) and (not has_end or is_last(body, node))
+    spans_run = ir.is_first(body, node) and (not has_end or ir.is_last(body, node))
     is_supported = ctx.can(CONTROLLER, "1.0")
     lasting = None if node.duration is None else ctx.values.number(node.duration)
     is_alone = not any(_switches(other) for other in ir.walk_behaviors(body) if other is not node)
     if not (spans_run and is_supported) and lasting is not None and not node.until and is_alone:
         return tuple(each for cycle in cycles for each in _written_out(ctx, cycle, lasting))
-    ctx.require_support(CONTROLLER, node.span)
+    ctx.require_support(CONTROLLER)
     if not spans_run:
-        ctx.report.approximate(
-            f"action {node.action}",
-            node.span,
+        arguments.approximate(
             "controllers of the XML play their cycles from the start of the run to its end",
             "phases and their lengths are exact; the lights also change before and after",
         )
@@ -106,21 +104,21 @@ def _switches(node: ir.Behavior) -> bool:
 def _cycle(ctx: Context, cycle: Constant) -> _Cycle:
     if not isinstance(cycle, Named):
         raise Inexpressible("a cycle is not known before the run")
-    phases = ctx.values.field(cycle.name, ("phases",))
+    phases = ctx.values.field(cycle.name, "phases")
     named = [each for each in phases if isinstance(each, Named)] if type(phases) is tuple else []
     if not named:
         raise Inexpressible(f"cycle `{cycle.name}` has no phases")
-    offset = ctx.values.field(cycle.name, ("start_offset",))
+    offset = ctx.values.field(cycle.name, "start_offset")
     late = float(offset) if isinstance(offset, (int, float)) else 0.0
     return _Cycle(cycle.name, tuple(_phase(ctx, phase.name) for phase in named), late)
 
 
 def _phase(ctx: Context, name: str) -> _Phase:
-    duration = ctx.values.field(name, ("duration",))
+    duration = ctx.values.field(name, "duration")
     if not isinstance(duration, (int, float)) or duration <= 0.0:
         raise Inexpressible(f"phase `{name}` has no duration")
-    shown = ctx.values.field(name, ("bulbs_state",))
-    signals = lights_of_group(ctx, ctx.values.field(name, ("group",)))
+    shown = ctx.values.field(name, "bulbs_state")
+    signals = lights_of_group(ctx, ctx.values.field(name, "group"))
     states = tuple((signal, states_of(ctx, shown, signal)) for signal in signals)
     return _Phase(name, float(duration), states)
 

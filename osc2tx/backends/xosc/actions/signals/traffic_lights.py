@@ -10,7 +10,8 @@ from collections.abc import Mapping
 from typing import TypeAlias
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import Arguments
+from osc2tx.backends.xosc.actions.arguments import Arguments
+from osc2tx.backends.xosc.actions.leaf import Globals
 from osc2tx.backends.xosc.actions.registry import global_action
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.maps import Roads
@@ -31,9 +32,7 @@ States: TypeAlias = tuple[str, ...]
 
 
 @global_action("set_semantic_state", "set_group_semantic_state")
-def _set_meaning(
-    ctx: Context, node: ir.Invoke, arguments: Arguments
-) -> tuple[xml.GlobalAction, ...]:
+def _set_meaning(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     meaning = arguments.member("state", "off")
     actions = []
     for signal in _addressed(ctx, node, arguments):
@@ -44,14 +43,14 @@ def _set_meaning(
 
 
 @global_action("set_state", "set_group_state")
-def _set_state(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[xml.GlobalAction, ...]:
+def _set_state(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     given = arguments.get("state")
     signals = _addressed(ctx, node, arguments)
     return tuple(switch(ctx, signal, states_of(ctx, given, signal)) for signal in signals)
 
 
 @global_action("set_bulb_state", "set_group_bulb_state")
-def _set_lamp(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[xml.GlobalAction, ...]:
+def _set_lamp(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     color = arguments.member("bulb_color", "unknown")
     icon = arguments.member("bulb_kind", "unknown")
     wanted = arguments.member("bulb_state", OFF)
@@ -75,10 +74,7 @@ def switch(ctx: Context, signal: str, states: States) -> xml.GlobalAction:
     """Return the action that lets a light show something, and note that it does."""
     ctx.lamps[signal] = states
     return infrastructure(
-        xml.TrafficSignalStateAction(
-            name=_name(ctx, signal),
-            state=state_text(ctx, signal, states),
-        )
+        xml.TrafficSignalStateAction(name=_name(ctx, signal), state=state_text(ctx, signal, states))
     )
 
 
@@ -126,9 +122,7 @@ def shows(ctx: Context, call: ir.MethodCall) -> tuple[xml.ConditionPart, ...]:
     signals = lights_of_group(ctx, owner) if is_group else (_map_id(ctx, owner),)
     texts = [(signal, state_text(ctx, signal, states_of(ctx, given, signal))) for signal in signals]
     return tuple(
-        xml.ByValueCondition(
-            xml.TrafficSignalCondition(name=_name(ctx, signal), state=text),
-        )
+        xml.ByValueCondition(xml.TrafficSignalCondition(name=_name(ctx, signal), state=text))
         for signal, text in texts
     )
 
@@ -139,7 +133,7 @@ def shows(ctx: Context, call: ir.MethodCall) -> tuple[xml.ConditionPart, ...]:
 def _addressed(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[str, ...]:
     """Return the lights that an action mentions."""
     if arguments.get("sync"):
-        raise Inexpressible("a switch in step with a cycle", node.span)
+        raise Inexpressible("a switch in step with a cycle")
     light = arguments.get("traffic_light")
     if light is not None:
         signal = _map_id(ctx, light)
@@ -148,7 +142,7 @@ def _addressed(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[str
 
 
 def _group_of(ctx: Context, light: Constant) -> tuple[str, ...]:
-    group = ctx.values.field(light.name, ("group",)) if isinstance(light, Named) else None
+    group = ctx.values.field(light.name, "group") if isinstance(light, Named) else None
     return (
         roads_of(ctx).group_of(_map_id(ctx, light))
         if group is None
@@ -158,14 +152,14 @@ def _group_of(ctx: Context, light: Constant) -> tuple[str, ...]:
 
 def lights_of_group(ctx: Context, group: Constant | None) -> tuple[str, ...]:
     """Return the ids of the lights of a group."""
-    listed = ctx.values.field(group.name, ("traffic_lights",)) if isinstance(group, Named) else None
+    listed = ctx.values.field(group.name, "traffic_lights") if isinstance(group, Named) else None
     if isinstance(listed, tuple):
         return tuple(_map_id(ctx, light) for light in listed)
     return roads_of(ctx).group(_map_id(ctx, group))
 
 
 def _map_id(ctx: Context, value: Constant | None) -> str:
-    id_ = ctx.values.field(value.name, ("map_id",)) if isinstance(value, Named) else None
+    id_ = ctx.values.field(value.name, "map_id") if isinstance(value, Named) else None
     if not isinstance(id_, str):
         raise Inexpressible("a traffic light without `map_id` is in no map")
     return id_
@@ -173,12 +167,7 @@ def _map_id(ctx: Context, value: Constant | None) -> str:
 
 def roads_of(ctx: Context) -> Roads:
     """Return the map, which has the lights."""
-    if ctx.roads is None:
-        raise Inexpressible(
-            f"traffic lights need the map {ctx.map_file}, which is not at hand: give its folder"
-            " with --map-path"
-        )
-    return ctx.roads
+    return ctx.required_roads("traffic lights need")
 
 
 def _lamps(ctx: Context, signal: str) -> tuple[tuple[str, str], ...]:
@@ -186,15 +175,15 @@ def _lamps(ctx: Context, signal: str) -> tuple[tuple[str, str], ...]:
     for declaration in ctx.scenario.declarations:
         if isinstance(declaration, ir.Struct) and declaration.type == "traffic_light":
             light = Named(declaration.name)
-            listed = ctx.values.field(light.name, ("bulbs",))
-            if isinstance(listed, tuple) and ctx.values.field(light.name, ("map_id",)) == signal:
+            listed = ctx.values.field(light.name, "bulbs")
+            if isinstance(listed, tuple) and ctx.values.field(light.name, "map_id") == signal:
                 return tuple(_lamp(ctx, bulb) for bulb in listed)
     return tuple((lamp.color, lamp.icon) for lamp in roads_of(ctx).lamps(signal))
 
 
 def _lamp(ctx: Context, bulb: Constant) -> tuple[str, str]:
     name = bulb.name if isinstance(bulb, Named) else ""
-    color, icon = (ctx.values.field(name, (part,)) for part in ("color", "icon"))
+    color, icon = (ctx.values.field(name, part) for part in ("color", "icon"))
     if not isinstance(color, Member) or not isinstance(icon, Member):
         raise Inexpressible("a lamp needs `color` and `icon`")
     return color.name, icon.name
@@ -218,7 +207,7 @@ def states_of(ctx: Context, given: Constant | None, signal: str) -> States:
 
 
 def _state(ctx: Context, given: Constant) -> str:
-    state = ctx.values.field(given.name, ("state",)) if isinstance(given, Named) else given
+    state = ctx.values.field(given.name, "state") if isinstance(given, Named) else given
     if not isinstance(state, Member):
         raise Inexpressible("the state of a lamp is not known before the run")
     return state.name

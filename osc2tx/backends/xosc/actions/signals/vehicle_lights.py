@@ -30,7 +30,7 @@ def _set_lights(leaf: Leaf) -> Performance:
     mode = leaf.arguments.text("mode") or leaf.arguments.member("mode", AUTO)
     lit = automatic_light(ctx.weather) if mode == AUTO else mode
     if lit not in LIGHTS:
-        raise Inexpressible(f"there is no counterpart of the light mode `{mode}`", leaf.node.span)
+        raise Inexpressible(f"there is no counterpart of the light mode `{mode}`")
     # The schema of 1.2 asks for both alternatives of each choice at once.
     if ctx.version < "1.3":
         ctx.report.approximate(
@@ -41,7 +41,7 @@ def _set_lights(leaf: Leaf) -> Performance:
             Remedy(version="1.3"),
         )
         return Performance((), "instant")
-    ctx.require_support("LightStateAction", leaf.node.span)
+    ctx.require_support("LightStateAction")
     ctx.automatic_lights.pop(leaf.member.name, None)
     if mode == AUTO:
         ctx.automatic_lights[leaf.member.name] = lit
@@ -65,8 +65,7 @@ def _light(light: VehicleLightType, state: LightMode) -> xml.PrivateAction:
     return xml.PrivateAction(
         xml.AppearanceAction(
             xml.LightStateAction(
-                xml.LightType(xml.VehicleLight(vehicleLightType=light)),
-                xml.LightState(mode=state),
-            ),
-        ),
+                xml.LightType(xml.VehicleLight(vehicleLightType=light)), xml.LightState(mode=state)
+            )
+        )
     )

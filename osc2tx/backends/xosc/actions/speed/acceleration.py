@@ -10,13 +10,8 @@ import math
 from collections.abc import Iterable
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import (
-    Arguments,
-    Change,
-    Leaf,
-    Performance,
-    Uneven,
-)
+from osc2tx.backends.xosc.actions.arguments import Call
+from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance, Uneven
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, modifier, to_goal
 from osc2tx.backends.xosc.actions.speed.speed_changes import through_points
 from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
@@ -30,25 +25,20 @@ from osc2tx.backends.xosc.facts.actors import (
     course_of_acceleration,
     way_between,
 )
-from osc2tx.backends.xosc.flattening.tree_queries import follower
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
-from osc2tx.backends.xosc.values.constants import Member, Named
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass, replace
 
 
 @action("assign_acceleration")
 def _assign_acceleration(leaf: Leaf) -> Performance:
-    rate = leaf.arguments.number("acceleration")
-    if rate is None:
-        raise Inexpressible("no acceleration is stated", leaf.node.span)
-    after = follower(leaf.ctx.scenario.body, leaf.node)
+    rate = leaf.arguments.required("acceleration", "no acceleration is stated")
+    after = ir.follower(leaf.ctx.scenario.body, leaf.node)
     if after is None or after.action != "keep_acceleration":
         raise Inexpressible(
             "the XML has no acceleration, only changes of the speed: `keep_acceleration` has to"
-            " follow, which says for how long",
-            leaf.node.span,
+            " follow, which says for how long"
         )
     state = replace(leaf.state.finished(LONGITUDINAL), rate=rate)
     return Performance((Change(LONGITUDINAL, (), 0.0, state, state),), "goal")
@@ -63,62 +53,38 @@ def _keep_acceleration(leaf: Leaf) -> Performance:
 
 @action("change_acceleration")
 def _change_acceleration(leaf: Leaf) -> Performance:
-    arguments = leaf.arguments
-    target = arguments.number("target")
-    profile = arguments.member("rate_profile", "none")
-    peak = arguments.number("rate_peak")
+    target, pace = leaf.arguments.number("target"), leaf.arguments.pace()
     if target is None or leaf.state.rate is None:
-        raise Inexpressible("the acceleration before or after is not known", leaf.node.span)
-    duration = leaf.duration if peak is None and profile != "asap" else None
-    course = course_of_acceleration(leaf.state.rate, target, profile, peak, duration, leaf.limits)
-    change = _ramp(leaf, course, course.duration)
-    return to_goal(leaf, change)
+        raise Inexpressible("the acceleration before or after is not known")
+    if pace.peak is None and pace.profile != "asap":
+        pace = pace._replace(duration=leaf.duration)
+    course = course_of_acceleration(leaf.state.rate, target, pace, leaf.limits)
+    return to_goal(leaf, _ramp(leaf, course, course.duration))
 
 
 @modifier("acceleration")
-def _acceleration(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
+def _acceleration(leaf: Leaf, call: Call) -> Changes:
     if call.at != "all":
-        raise Inexpressible(f"an acceleration at the {call.at} only", call.span)
-    own = user_shape(arguments)
+        raise Inexpressible(f"an acceleration at the {call.at} only")
+    own = user_shape(call)
     if own is not None:
         return (acceleration_by(leaf, own),)
-    profile, peak, target = shape_of(leaf, arguments)
+    pace, target = call.shape()
     for name in ("acceleration", "acceleration_range"):
-        given = arguments.number(name)
+        given = call.number(name)
         target = given if given is not None else target
     if target is None:
-        raise Inexpressible("no acceleration is stated", call.span)
+        raise Inexpressible("no acceleration is stated")
     if any(other.name == "speed" and other.at != "start" for other in leaf.node.modifiers):
         return ()  # it says how fast the speed is reached, see `speed`
-    if "shape" not in arguments:
+    if "shape" not in call:
         return (accelerated(leaf, target),)
     if leaf.duration is None:
         raise Inexpressible("how long the acceleration lasts is only known during the run")
     if leaf.state.rate is None:
         raise Inexpressible("the present acceleration is only known during the run")
-    course = course_of_acceleration(leaf.state.rate, target, profile, peak, None, leaf.limits)
+    course = course_of_acceleration(leaf.state.rate, target, pace, leaf.limits)
     return (_ramp(leaf, course, leaf.duration),)
-
-
-def shape_of(leaf: Leaf, arguments: Arguments) -> tuple[str, float | None, float | None]:
-    """Return profile, peak and target of a `shape`; `none` without one.
-
-    Raises:
-        Inexpressible: It is a shape of the scenario's own.
-    """
-    shape = arguments.get("shape")
-    if shape is None:
-        return "none", None, None
-    values = leaf.ctx.values
-    if not isinstance(shape, Named) or not values.is_library_shape(shape.name):
-        raise Inexpressible("a user-defined shape is computed during the run")
-    profile = values.field(shape.name, ("rate_profile",))
-    peak, target = (values.field(shape.name, (name,)) for name in ("rate_peak", "target"))
-    return (
-        profile.name if isinstance(profile, Member) else "none",
-        float(peak) if isinstance(peak, (int, float)) else None,
-        float(target) if isinstance(target, (int, float)) else None,
-    )
 
 
 def accelerated(leaf: Leaf, rate: float) -> Change:
@@ -130,26 +96,23 @@ def accelerated(leaf: Leaf, rate: float) -> Change:
         duration = _time_over_distance(leaf, rate)
     goal = TOP_SPEED if rate > 0.0 else 0.0
     leaf.demand(max(rate, 0.0), max(-rate, 0.0))
-    if duration is None or state.speed is None or not state.speed.is_known:
-        # Whatever ends it cuts the change short.
-        if state.speed is not None and state.speed.is_known:
-            leaf.course = Linear(state.speed.low, goal, (goal - state.speed.low) / rate)
+    start = state.known_speed
+    if duration is None or start is None:  # whatever ends it cuts the change short
+        if start is not None:
+            leaf.course = Linear(start, goal, (goal - start) / rate)
         speed = None if state.speed is None else state.speed.over(known(goal))
         during = replace(state.finished(LONGITUDINAL), speed=speed, rate=rate)
         after = replace(during, speed=known(goal), rate=0.0)
-        return Change(
-            LONGITUDINAL, (speed_action(goal, "linear", "rate", abs(rate)),), None, during, after
-        )
-    start = state.speed.low
+        action = speed_action(goal, "linear", "rate", abs(rate))
+        return Change(LONGITUDINAL, (action,), None, during, after)
     end = start + rate * duration
     if rate < 0.0 and end < 0.0 <= start:
         end, duration = 0.0, -start / rate
     after = replace(state.finished(LONGITUDINAL), speed=known(end), rate=rate if end else 0.0)
-    during = replace(after, speed=state.speed.over(known(end)))
+    during = replace(after, speed=known(start).over(known(end)))
     leaf.course = Linear(start, end, duration)
-    return Change(
-        LONGITUDINAL, (speed_action(end, "linear", "time", duration),), duration, during, after
-    )
+    action = speed_action(end, "linear", "time", duration)
+    return Change(LONGITUDINAL, (action,), duration, during, after)
 
 
 def _time_over_distance(leaf: Leaf, rate: float) -> float | None:
@@ -157,13 +120,12 @@ def _time_over_distance(leaf: Leaf, rate: float) -> float | None:
 
     `None`: no distance ends it, or it comes to a stand before, or the speed is not known.
     """
-    speed = leaf.state.speed
-    call = next((call for call in leaf.node.modifiers if call.name == "distance"), None)
-    if call is None or speed is None or not speed.is_known:
+    speed, call = leaf.state.known_speed, leaf.modifier("distance")
+    if call is None or speed is None:
         return None
-    distance = Arguments(leaf.ctx, call.arguments, call).number("distance")
-    square = 0.0 if distance is None else speed.low**2 + 2.0 * rate * distance
-    return round((math.sqrt(square) - speed.low) / rate, 9) if square > 0.0 else None
+    distance = call.number("distance")
+    square = 0.0 if distance is None else speed**2 + 2.0 * rate * distance
+    return round((math.sqrt(square) - speed) / rate, 9) if square > 0.0 else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,10 +163,7 @@ def _simpson(values: Iterable[float]) -> float:
 
 def _ramp(leaf: Leaf, course: Linear | Quintic, duration: float) -> Change:
     """Return the change of the speed that a course of the acceleration makes."""
-    state = leaf.state
-    if state.speed is None or not state.speed.is_known:
-        raise Inexpressible("the speed at the start is only known during the run", leaf.node.span)
-    start = state.speed.low
+    state, start = leaf.state, leaf.known_speed()
     ramp = Ramp(start, course, duration)
     end = ramp.value(duration)
     after = replace(state.finished(LONGITUDINAL), speed=known(end), rate=course.end)
@@ -221,9 +180,7 @@ def _drawn(leaf: Leaf, ramp: Ramp, points: list[float]) -> xml.PrivateAction:
         return through_points(ramp)
     even = Linear(points[0], points[-1], ramp.duration)
     leaf.uneven = Uneven(apart(ramp, even), ramp.duration)
-    leaf.ctx.report.approximate(
-        leaf.construct,
-        leaf.node.span,
+    leaf.approximate(
         "a change of the acceleration needs SpeedProfileAction; the speed changes evenly instead",
         Metres(way_between(ramp, even), "ahead or behind; the speed at its end is exact"),
         with_profiles(leaf.ctx),

@@ -9,12 +9,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import inf
 
+from osc2tx import ir
+from osc2tx.backends.xosc.actions.lateral.lanes import lateral
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.speed.speed_elements import longitudinal, relative_speed
-from osc2tx.backends.xosc.actions.speed.steady_speeds import steady_speed
+from osc2tx.backends.xosc.actions.speed.speed_notes import steady_speed
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
-from osc2tx.backends.xosc.flattening.tree_queries import predecessor
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
 from osc2tx.xosc import elements as xml
@@ -136,9 +137,7 @@ def hold(
         )
     )
     if is_rigid and time is not None and steady_speed(leaf, gap.reference) is None:
-        leaf.ctx.report.approximate(
-            leaf.construct,
-            leaf.node.span,
+        leaf.approximate(
             "a time gap without limits follows each change of a speed at once",
             "while the other one changes its speed, by what it covers in the lag of a driver",
         )
@@ -153,9 +152,7 @@ def _is_there(missing: float | None, *, keeps: bool) -> bool:
 
 def _keep_speed_of(leaf: Leaf, reference: str) -> Change:
     """Return what keeps a gap that is there in tools that control none: the speed of the other."""
-    leaf.ctx.report.approximate(
-        leaf.construct,
-        leaf.node.span,
+    leaf.approximate(
         f"{leaf.ctx.profile.name} controls no gap; it gets the speed of {reference} in each step",
         "off by the way that it takes to change its speed",
         GENERIC,
@@ -171,9 +168,7 @@ def _is_rigid(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> bo
     if _is_there(missing, keeps=keeps):
         mine, theirs = leaf.limits, gap.reference.limits
         if mine.acceleration < theirs.acceleration or mine.deceleration < theirs.deceleration:
-            leaf.ctx.report.approximate(
-                leaf.construct,
-                leaf.node.span,
+            leaf.approximate(
                 f"a gap without limits is kept even where {gap.reference.name} changes its speed"
                 f" faster than {leaf.member.name} can",
                 "none while it does not",
@@ -182,7 +177,7 @@ def _is_rigid(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> bo
     bound: Metres | str = "until it is there, at most by what was missing at its start"
     if missing is not None:
         bound = Metres(missing, "until it is there")
-    leaf.ctx.report.approximate(leaf.construct, leaf.node.span, HOW, bound, ARRIVING)
+    leaf.approximate(HOW, bound, ARRIVING)
     return False
 
 
@@ -198,9 +193,7 @@ def _measured(leaf: Leaf, gap: Gap) -> tuple[float | None, float | None, bool]:
     if not gap.is_time:
         return round(gap.size + overhang, 6), None, False
     if abs(overhang) > 1e-6:
-        leaf.ctx.report.approximate(
-            leaf.construct,
-            leaf.node.span,
+        leaf.approximate(
             "a time in the XML counts between reference points, not between fronts",
             f"off by the time for {abs(overhang):.2g} m",
         )
@@ -232,7 +225,7 @@ def _require_side(leaf: Leaf, gap: Gap) -> None:
 
 def _side_at_start(leaf: Leaf, gap: Gap) -> str | None:
     """Return the side on which an actor is, where nothing has changed it since the start."""
-    before = predecessor(leaf.ctx.scenario.body, leaf.node)
+    before = ir.predecessor(leaf.ctx.scenario.body, leaf.node)
     if before is not None and before.action.startswith(("change_space_", "change_time_")):
         return gap.side if leaf.node.action.startswith("keep_") else None
     if not leaf.is_start or gap.is_lateral:
@@ -249,9 +242,7 @@ def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None)
     _require_side(leaf, gap)
     newer = leaf.ctx.version >= "1.1"
     if not newer:
-        leaf.ctx.report.approximate(
-            leaf.construct,
-            leaf.node.span,
+        leaf.approximate(
             "OpenSCENARIO XML 1.0 counts a lateral distance across the actor, not across the road",
             "off while it looks aside, by the sine of that angle times the way between both",
             Remedy(version="1.1"),
@@ -260,9 +251,7 @@ def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None)
     # Between reference points: the free space of the XML shrinks where boxes turn.
     sides = 0.5 * (leaf.member.shape.width + gap.reference.shape.width)
     constraints = xml.DynamicConstraints(
-        maxAcceleration=limits.lateral,
-        maxDeceleration=limits.lateral,
-        maxSpeed=LATERAL_SPEED,
+        maxAcceleration=limits.lateral, maxDeceleration=limits.lateral, maxSpeed=LATERAL_SPEED
     )
     action = xml.LateralDistanceAction(
         None if _is_rigid(leaf, gap, keeps=keeps, missing=missing) else constraints,
@@ -274,12 +263,8 @@ def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None)
         coordinateSystem="road" if newer else None,
     )
     after = replace(leaf.state, offset=None, lane=None).finished(LATERAL)
-    return Change(LATERAL, (_lateral(action),), inf if keeps else None, after, after)
+    return Change(LATERAL, (lateral(action),), inf if keeps else None, after, after)
 
 
 LATERAL_SPEED = 3.0
 """m/s across the road; the DSL says none."""
-
-
-def _lateral(action: xml.LateralActionPart) -> xml.PrivateAction:
-    return xml.PrivateAction(xml.LateralAction(action))

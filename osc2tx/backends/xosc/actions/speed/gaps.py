@@ -8,11 +8,11 @@ there is, which the XML cannot ask for: it has to be known from what stands befo
 from __future__ import annotations
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import Arguments, Leaf, Performance
+from osc2tx.backends.xosc.actions.arguments import Arguments
+from osc2tx.backends.xosc.actions.leaf import Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
 from osc2tx.backends.xosc.actions.speed.gap_elements import ACROSS, ALONG, Gap, reach
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.flattening.tree_queries import predecessor
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_shared.classes import replace
 
@@ -38,7 +38,7 @@ def _keep_gap(leaf: Leaf) -> Performance:
     reference = leaf.arguments.entity("reference")
     direction = leaf.arguments.member("direction", "longitudinal")
     if reference is None:
-        raise Inexpressible("it names no actor", leaf.node.span)
+        raise Inexpressible("it names no actor")
     is_time, is_headway = "_time_" in leaf.node.action, leaf.node.action.endswith("headway")
     found = _reached_before(leaf, reference, direction, is_time, is_headway)
     missing: float | None = 0.0
@@ -49,7 +49,6 @@ def _keep_gap(leaf: Leaf) -> Performance:
     if found is None:
         raise Inexpressible(
             "the present gap is not known before the run, and the XML has no action that keeps it",
-            leaf.node.span,
         )
     change = reach(leaf, found, keeps=True, missing=missing)
     return Performance((change, *apply_modifiers(leaf)), "open")
@@ -64,7 +63,7 @@ def _asked_for(leaf: Leaf, node: ir.Invoke, arguments: Arguments) -> Gap:
         is_right_hand = roads is None or lane is None or roads.is_right_hand(lane.road)
         side = "left" if (side == "inside") is is_right_hand else "right"
     if target is None or reference is None or side not in (*ALONG, *ACROSS):
-        raise Inexpressible("it needs a target, a direction and a reference", node.span)
+        raise Inexpressible("it needs a target, a direction and a reference")
     if target < 0.0:
         target, side = -target, OPPOSITE[side]
     is_time, is_headway = "_time_" in node.action, node.action.endswith("headway")
@@ -75,14 +74,14 @@ def _reached_before(
     leaf: Leaf, reference: CastMember, direction: str, is_time: bool, is_headway: bool
 ) -> Gap | None:
     """Return the gap that the invocation before has made."""
-    before = predecessor(leaf.ctx.scenario.body, leaf.node)
+    before = ir.predecessor(leaf.ctx.scenario.body, leaf.node)
     if before is None or not before.action.startswith(("change_space_", "change_time_")):
         return None
     if before.until or before.actor is None:
         return None
     if leaf.ctx.values.actor(before.actor) != leaf.member.actor.name:
         return None
-    gap = _asked_for(leaf, before, Arguments(leaf.ctx, before.arguments, before))
+    gap = _asked_for(leaf, before, Arguments(leaf.ctx, before))
     same = (gap.reference.name, gap.is_time, gap.is_lateral)
     if same != (reference.name, is_time, direction == "lateral"):
         return None
@@ -106,7 +105,8 @@ def _at_start(leaf: Leaf, reference: CastMember, is_time: bool, is_headway: bool
     size = abs(apart) - behind.front + (ahead.front if is_headway else -ahead.rear)
     if is_time:
         trailing = leaf.state if side == "behind" else leaf.ctx.at_start[reference.name]
-        if trailing.speed is None or not trailing.speed.is_known or trailing.speed.low <= 0.0:
+        speed = trailing.known_speed
+        if speed is None or speed <= 0.0:
             return None
-        size /= trailing.speed.low
+        size /= speed
     return Gap(reference, side, max(size, 0.0), is_time, is_headway)

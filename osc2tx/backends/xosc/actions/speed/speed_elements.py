@@ -17,16 +17,7 @@ def speed_action(
     target: float, shape: DynamicsShape, dimension: DynamicsDimension, value: float
 ) -> xml.PrivateAction:
     """Return a `SpeedAction` to an absolute speed."""
-    return longitudinal(
-        xml.SpeedAction(
-            xml.SpeedActionDynamics(
-                dynamicsShape=shape,
-                dynamicsDimension=dimension,
-                value=value,
-            ),
-            xml.SpeedActionTarget(xml.AbsoluteTargetSpeed(value=target)),
-        )
-    )
+    return _speed_action(xml.AbsoluteTargetSpeed(value=target), shape, dimension, value)
 
 
 def relative_speed(
@@ -51,20 +42,21 @@ def relative_speed(
         length: That length: seconds, or m/s^2 for a rate.
     """
     goal = xml.RelativeTargetSpeed(
-        entityRef=reference,
-        value=value,
-        speedTargetValueType=kind,
-        continuous=continuous,
+        entityRef=reference, value=value, speedTargetValueType=kind, continuous=continuous
     )
-    action = xml.SpeedAction(
-        xml.SpeedActionDynamics(
-            dynamicsShape=shape,
-            dynamicsDimension=dimension,
-            value=length,
-        ),
-        xml.SpeedActionTarget(goal),
+    return _speed_action(goal, shape, dimension, length)
+
+
+def _speed_action(
+    goal: xml.SpeedActionTargetPart,
+    shape: DynamicsShape,
+    dimension: DynamicsDimension,
+    value: float,
+) -> xml.PrivateAction:
+    dynamics = xml.SpeedActionDynamics(
+        dynamicsShape=shape, dynamicsDimension=dimension, value=value
     )
-    return longitudinal(action)
+    return longitudinal(xml.SpeedAction(dynamics, xml.SpeedActionTarget(goal)))
 
 
 def hold_speed(entity: str) -> xml.PrivateAction:
@@ -104,9 +96,7 @@ def in_steps(leaf: Leaf, performance: Performance) -> tuple[xml.ActionPart, ...]
     length = course.duration / max(count, 1)
     if count < 2 or length <= 2.0 * TICK:
         return ()
-    leaf.ctx.report.approximate(
-        leaf.construct,
-        leaf.node.span,
+    leaf.approximate(
         f"{leaf.ctx.profile.name} takes up a speed at once, so it changes in {count} steps",
         "off by the way that each of them takes, more where throttle and brakes are not enough",
         GENERIC,

@@ -5,14 +5,14 @@ from __future__ import annotations
 from math import inf
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
+from osc2tx.backends.xosc.actions.arguments import Call
+from osc2tx.backends.xosc.actions.leaf import UNKNOWN_SPEED, Change, Changes, Leaf
 from osc2tx.backends.xosc.actions.registry import modifier
-from osc2tx.backends.xosc.actions.speed.acceleration import shape_of
 from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to, may_jump
 from osc2tx.backends.xosc.actions.speed.speed_elements import relative_speed, speed_action
 from osc2tx.backends.xosc.actions.speed.user_shapes import speed_by, user_shape
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.facts.actors import COMFORT, Course
+from osc2tx.backends.xosc.facts.actors import COMFORT, FASTEST, Course, Pace
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, Demand, known
 from osc2tx.backends.xosc.values.constants import Bounds
@@ -30,17 +30,15 @@ RELATIVE = {"faster_than": 1.0, "slower_than": -1.0, "same_as": 1.0}
 
 
 @modifier("physical_movement")
-def _physical(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
-    arguments.member("option", "must_be_physical")
+def _physical(leaf: Leaf, call: Call) -> Changes:
+    call.member("option", "must_be_physical")
     return ()  # steps are written for changes that may jump, courses for all others
 
 
 @modifier("avoid_collisions", takes=())
-def _avoid(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
-    if arguments.get("avoid") is not False:
-        leaf.ctx.report.approximate(
-            f"modifier {call.name}",
-            call.span,
+def _avoid(leaf: Leaf, call: Call) -> Changes:
+    if call.get("avoid") is not False:
+        call.approximate(
             "the XML cannot ask for caution; only controllers of the tool may have it",
             "speed and place are those of the other modifiers, without braking for others or for"
             " red lights",
@@ -53,101 +51,94 @@ def _avoid(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Cha
 
 
 @modifier("keep_speed", "keep_lane", takes=())
-def _keep(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
+def _keep(leaf: Leaf, call: Call) -> Changes:
     return ()
 
 
 @modifier("keep_position", takes=(LONGITUDINAL,))
-def _keep_position(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
+def _keep_position(leaf: Leaf, call: Call) -> Changes:
     if leaf.state.speed == known(0.0):
         return ()
-    return (change_speed(leaf, 0.0, "asap", None, None),)
+    return (change_speed(leaf, 0.0, FASTEST),)
 
 
 @modifier("speed")
-def _speed(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
-    if arguments.member("direction", "longitudinal") != "longitudinal":
+def _speed(leaf: Leaf, call: Call) -> Changes:
+    if call.member("direction", "longitudinal") != "longitudinal":
         instead = "`change_lane` or `lateral(…)` with a duration moves across the road exactly"
         remedy = Remedy(instead=instead, asks=("LaneChangeActionDynamics",))
-        raise Inexpressible("there is no action on a speed across the road", call.span, remedy)
-    own = user_shape(arguments)
+        raise Inexpressible("there is no action on a speed across the road", remedy=remedy)
+    own = user_shape(call)
     if own is not None and call.at == "all":
         return (speed_by(leaf, own),)
-    profile, peak, target = shape_of(leaf, arguments)
-    if "rate_profile" in arguments or "rate_peak" in arguments:
-        profile = arguments.member("rate_profile", "none")
-        peak = arguments.number("rate_peak")
-    given = arguments.number("speed")
+    pace, target = call.shape()
+    if "rate_profile" in call or "rate_peak" in call:
+        pace = call.pace()
+    given = call.number("speed")
     target = given if given is not None else target
-    allowed = arguments.get("speed_range")
+    allowed = call.get("speed_range")
     if isinstance(allowed, Bounds):
         if any(other.name == "acceleration" for other in leaf.node.modifiers):
-            raise Inexpressible("the XML has no acceleration within a range of speeds", call.span)
+            raise Inexpressible("the XML has no acceleration within a range of speeds")
         target = _nearest(leaf, allowed)
-    reference = next((name for name in RELATIVE if name in arguments), None)
+    reference = next((name for name in RELATIVE if name in call), None)
     if reference is not None:
-        return (_relative(leaf, call, arguments, reference, target or 0.0),)
+        return (_relative(leaf, call, reference, target or 0.0),)
     if target is None:
-        raise Inexpressible("no speed is stated", call.span)
+        raise Inexpressible("no speed is stated")
     if call.at == "start" and not may_jump(leaf):
-        return _holds(leaf, call, target)
+        return _holds(leaf, target)
     rate = _rate_beside(leaf)
     if rate is not None:
-        profile, peak = "constant", rate
-    in_time = call.at == "end" and profile != "asap" and peak is None
-    return (change_speed(leaf, target, profile, peak, leaf.duration if in_time else None),)
+        pace = Pace("constant", rate)
+    return (change_speed(leaf, target, leaf.in_time(call, pace)),)
 
 
-def _holds(leaf: Leaf, call: ir.ModifierCall, target: float) -> tuple[Change, ...]:
+def _holds(leaf: Leaf, target: float) -> Changes:
     """Check a speed that has to be there already."""
     speed = leaf.state.speed
     if speed is not None and speed.low - 1e-6 <= target <= speed.high + 1e-6:
         return ()
-    raise Inexpressible("the speed at the start is another one, and must not jump", call.span)
+    raise Inexpressible("the speed at the start is another one, and must not jump")
 
 
 def _nearest(leaf: Leaf, allowed: Bounds) -> float:
     """Return the allowed speed nearest to the present one; the middle if that is unknown."""
-    speed = leaf.state.speed
-    if speed is None or not speed.is_known:
+    speed = leaf.state.known_speed
+    if speed is None:
         return 0.5 * (allowed.lower + allowed.upper)
-    return min(max(speed.low, allowed.lower), allowed.upper)
+    return min(max(speed, allowed.lower), allowed.upper)
 
 
 def _rate_beside(leaf: Leaf) -> float | None:
     """Return the acceleration (m/s^2) that another modifier gives the change of the speed."""
-    for call in leaf.node.modifiers:
-        if call.name == "acceleration":
-            arguments = Arguments(leaf.ctx, call.arguments, call)
-            if "acceleration_range" in arguments:
-                reason = "how fast a speed is reached within a range of accelerations"
-                raise Inexpressible(f"{reason} is not known before the run", call.span)
-            rate = arguments.number("acceleration")
-            return None if rate is None else abs(rate)
-    return None
+    call = leaf.modifier("acceleration")
+    if call is None:
+        return None
+    if "acceleration_range" in call:
+        reason = "how fast a speed is reached within a range of accelerations"
+        raise Inexpressible(f"{reason} is not known before the run", call.span)
+    rate = call.number("acceleration")
+    return None if rate is None else abs(rate)
 
 
-def _relative(
-    leaf: Leaf, call: ir.ModifierCall, arguments: Arguments, name: str, difference: float
-) -> Change:
+def _relative(leaf: Leaf, call: Call, name: str, difference: float) -> Change:
     """Return the change to a speed relative to that of another actor."""
-    reference = arguments.entity(name)
-    factor = arguments.number("factor")
+    reference = call.entity(name)
+    factor = call.number("factor")
     difference *= RELATIVE[name]
     if reference is None:
-        raise Inexpressible(f"`{name}` names no actor", call.span)
+        raise Inexpressible(f"`{name}` names no actor")
     if factor not in (None, 1.0) and difference != 0.0:
-        raise Inexpressible("a factor and a difference at once", call.span)
+        raise Inexpressible("a factor and a difference at once")
     if factor == 1.0:
         factor = None
     leaf.follow(reference, rigid=False)
     shape: DynamicsShape = "linear"
     dimension: DynamicsDimension = "rate"
     length = _rate_towards(leaf, call, reference, factor, difference)
-    if any(name in arguments for name in SHAPED):
-        leaf.ctx.report.approximate(
-            f"modifier {call.name}",
-            call.span,
+    if any(name in call for name in SHAPED):
+        call.approximate(
             "the difference to the speed of another actor has a course of its own in the world, and"
             " a rate in the XML",
             "until the speed is reached; the speed itself is exact",
@@ -155,9 +146,7 @@ def _relative(
         )
     if "SpeedActionDynamics/rate" in leaf.ctx.profile.unsupported:
         shape, dimension, length = "step", "time", 0.0
-        leaf.ctx.report.approximate(
-            f"modifier {call.name}",
-            call.span,
+        call.approximate(
             f"{leaf.ctx.profile.name} takes up such a speed at once",
             "until the speed is reached; the speed itself is exact",
             GENERIC,
@@ -176,21 +165,21 @@ def _relative(
 
 
 def _rate_towards(
-    leaf: Leaf, call: ir.ModifierCall, reference: CastMember, factor: float | None, more: float
+    leaf: Leaf, call: Call, reference: CastMember, factor: float | None, more: float
 ) -> float:
     """Return the rate (m/s^2) of the way to a speed relative to another one.
 
     The world speeds up and brakes at different rates, the XML has one. That is exact where it is
     the one of the world whenever the other actor is faster than that.
     """
-    limits, mine = leaf.limits, leaf.state.speed
+    limits, mine = leaf.limits, leaf.state.known_speed
     faster, slower = COMFORT * limits.acceleration, COMFORT * limits.deceleration
     states = leaf.ctx.at_start if leaf.is_start else leaf.ctx.states
-    theirs = states[reference.name].speed
-    if mine is None or theirs is None or not (mine.is_known and theirs.is_known):
+    theirs = states[reference.name].known_speed
+    if mine is None or theirs is None:
         bound = "until the speed is reached; the speed itself is exact"
     else:
-        missing = (theirs.low * factor if factor is not None else theirs.low + more) - mine.low
+        missing = (theirs * factor if factor is not None else theirs + more) - mine
         demand, share = leaf.ctx.demand_on(reference.name), 1.0 if factor is None else abs(factor)
         rises, falls = (
             inf if demand.jumps else share * rate
@@ -204,9 +193,7 @@ def _rate_towards(
             if is_up and is_down:
                 return rate
         bound = f"until the speed is reached, from which {abs(missing):.2g} m/s are missing"
-    leaf.ctx.report.approximate(
-        f"modifier {call.name}",
-        call.span,
+    call.approximate(
         f"how fast {leaf.member.name} takes up a speed relative to one that changes is one rate in"
         " the XML, and another one for braking in the world",
         bound,
@@ -216,54 +203,48 @@ def _rate_towards(
 
 
 @modifier("change_speed")
-def _change_speed(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
-    profile, peak, target = shape_of(leaf, arguments)
-    given = arguments.number("speed")
+def _change_speed(leaf: Leaf, call: Call) -> Changes:
+    pace, target = call.shape()
+    given = call.number("speed")
     difference = given if given is not None else target
-    allowed = arguments.get("speed_range")
+    allowed = call.get("speed_range")
     if isinstance(allowed, Bounds):
         difference = min(max(0.0, allowed.lower), allowed.upper)
     if difference is None:
-        raise Inexpressible("no difference is stated", call.span)
-    speed = leaf.state.speed
-    if speed is None or not speed.is_known:
-        raise Inexpressible(
-            "the speed at the start is only known during the run, and tools read a speed relative"
-            " to itself again and again",
-            call.span,
-        )
-    goal = speed.low + difference
+        raise Inexpressible("no difference is stated")
+    speed = leaf.state.known_speed
+    if speed is None:
+        again = "tools read a speed relative to itself again and again"
+        raise Inexpressible(f"{UNKNOWN_SPEED}, and {again}")
+    goal = speed + difference
     if may_jump(leaf):
         return (jump_to(leaf, goal),)
-    in_time = call.at == "end" and profile != "asap" and peak is None
-    return (change_speed(leaf, goal, profile, peak, leaf.duration if in_time else None),)
+    return (change_speed(leaf, goal, leaf.in_time(call, pace)),)
 
 
 # --- distances ----------------------------------------------------------------------------------
 
 
 @modifier("distance", takes=())
-def _distance(leaf: Leaf, call: ir.ModifierCall, arguments: Arguments) -> tuple[Change, ...]:
-    distance = arguments.number("distance")
-    if distance is None:
-        raise Inexpressible("no distance is stated", call.span)
+def _distance(leaf: Leaf, call: Call) -> Changes:
+    distance = call.required("distance", "no distance is stated")
     if any(_has_to_fit(leaf, other) for other in leaf.node.modifiers):
         reason = "what has to hold at the end of its distance decides how it gets there"
-        raise Inexpressible(reason, call.span)
+        raise Inexpressible(reason)
     if leaf.duration is None:
         leaf.distance = distance
         return ()
-    start, time = leaf.state.speed, leaf.duration
-    if start is None or not start.is_known:
-        raise Inexpressible("the speed at the start is only known during the run", call.span)
-    end = 2.0 * distance / time - start.low
+    start, time = leaf.state.known_speed, leaf.duration
+    if start is None:
+        raise Inexpressible(UNKNOWN_SPEED)
+    end = 2.0 * distance / time - start
     if end < 0.0:
-        raise Inexpressible("it would stop before its time is over", call.span)
-    rate = (end - start.low) / time
+        raise Inexpressible("it would stop before its time is over")
+    rate = (end - start) / time
     leaf.demand(max(rate, 0.0), max(-rate, 0.0))
     left = rate if end > 0.0 else 0.0
     after = replace(leaf.state.finished(LONGITUDINAL), speed=known(end), rate=left)
-    during = replace(after, speed=start.over(known(end)))
+    during = replace(after, speed=known(start).over(known(end)))
     action = speed_action(end, "linear", "time", time)
     return (Change(LONGITUDINAL, (action,), time, during, after),)
 
@@ -282,21 +263,14 @@ def time_to_cover(leaf: Leaf) -> float | None:
     """
     if leaf.distance is None:
         return None
-    speed = leaf.state.speed
-    if leaf.course is None:
-        if speed is None or not speed.is_known:
-            raise Inexpressible(
-                "how long it takes depends on a speed that is only known during the run",
-                leaf.node.span,
-                Remedy(),
-            )
-        return _positive(leaf, leaf.distance / speed.low if speed.low > 0.0 else inf)
-    return _positive(leaf, _time_along(leaf.course, leaf.distance))
-
-
-def _positive(leaf: Leaf, time: float) -> float:
+    if leaf.course is not None:
+        time = _time_along(leaf.course, leaf.distance)
+    else:
+        reason = "how long it takes depends on a speed that is only known during the run"
+        speed = leaf.known_speed(reason)
+        time = leaf.distance / speed if speed > 0.0 else inf
     if time == inf:
-        raise Inexpressible("it comes to a stand before", leaf.node.span)
+        raise Inexpressible("it comes to a stand before")
     return round(time, 9)
 
 

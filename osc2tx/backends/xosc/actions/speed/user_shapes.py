@@ -10,11 +10,13 @@ from itertools import pairwise
 from math import inf
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Leaf
+from osc2tx.backends.xosc.actions.arguments import Arguments
+from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.speed.speed_changes import through_points
 from osc2tx.backends.xosc.actions.speed.speed_notes import PROFILE_ACTION
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
+from osc2tx.backends.xosc.values.constants import as_number
 from osc2tx_shared.classes import dataclass, replace
 
 NEAR = 0.02
@@ -58,13 +60,11 @@ def speed_by(leaf: Leaf, shape: ir.UserShape) -> Change:
 
 def acceleration_by(leaf: Leaf, shape: ir.UserShape) -> Change:
     """Return the change that a shape of the acceleration makes."""
-    speed = leaf.state.speed
-    if speed is None or not speed.is_known:
-        raise Inexpressible("the speed at the start is only known during the run", leaf.node.span)
+    start = leaf.known_speed()
     length = _length(leaf, shape)
     step = length / STEPS
     rates = [_computed(leaf, shape, index * step) for index in range(STEPS + 1)]
-    speeds = [speed.low]
+    speeds = [start]
     for left, right in pairwise(rates):
         speeds.append(speeds[-1] + 0.5 * step * (left + right))
 
@@ -89,9 +89,7 @@ def _change(leaf: Leaf, course: Computed) -> Change:
     count = next((each for each in COUNTS if _beside(course, each) <= NEAR), COUNTS[-1])
     off = _beside(course, count)
     if off > NEAR:
-        leaf.ctx.report.approximate(
-            leaf.construct,
-            leaf.node.span,
+        leaf.approximate(
             f"a course of the speed goes through {count} points, in straight lines",
             Metres(off * course.duration, "ahead or behind"),
         )
@@ -132,7 +130,7 @@ def _number(leaf: Leaf, shape: ir.UserShape, name: str, *given: float) -> float:
     method = next(method for method in scenario.methods if method.name == name)
     arguments = (values.of(shape.operand), *given)
     names = (parameter.name for parameter in method.parameters)
-    value = values.result_of(method, dict(zip(names, arguments, strict=False)))
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
+    value = as_number(values.result_of(method, dict(zip(names, arguments, strict=False))))
+    if value is None:
         raise Inexpressible(f"`{name}` gives no number", method.span)
-    return float(value)
+    return value

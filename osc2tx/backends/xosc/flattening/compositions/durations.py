@@ -1,19 +1,25 @@
-"""Compositions that have a duration (§7.3.13.4).
+"""Compositions that have a duration (§7.3.13.4), and the open-ended actions that it ends.
 
 One whose content takes longer fails, and so does one whose content is over before and has no member
 without end that fills the rest. A member of a race that fails leaves it; elsewhere the scenario
 fails, which the verdict of 1.3 can tell. In the dialect `carla` whatever comes first is the end.
+
+In `parallel(duration: 8s)` the members that never end by themselves end after 8 s; what holds
+`at: end` for one of them holds then, as in a run.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal, TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
+from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.compositions.parallel_overlaps import is_open, length_of
 from osc2tx.backends.xosc.flattening.events.directives import VERDICT
 from osc2tx.backends.xosc.flattening.storyboard.builder import StoryboardBuilder, construct_of
+from osc2tx.backends.xosc.flattening.tree_queries import is_instant
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx.xosc import elements as xml
@@ -35,7 +41,7 @@ def end_within_duration(
     until = builder.until(node, start)
     if node.duration is None:
         return content | until
-    low, high = _bounds(builder, node.duration)
+    low, high = builder.ctx.values.bounds(node.duration)
     builder.ctx.report.exact("duration", node.duration.span)
     if content.is_never:  # it goes on for as long as one likes
         return start.later(low) | until
@@ -77,14 +83,6 @@ def _always_fails(length: float, low: float, high: float) -> str:
     return f"it takes {length:g} s, longer than {high:g} s: every run fails"
 
 
-def _bounds(builder: StoryboardBuilder, duration: ir.Expression) -> tuple[float, float]:
-    value = builder.ctx.values.of(duration)
-    if isinstance(value, Bounds):
-        return value.lower, value.upper
-    number = builder.ctx.values.number(duration)
-    return number, number
-
-
 def _length(builder: StoryboardBuilder, node: Timed) -> float | None:
     """Return how long (s) the content takes, if that is known."""
     if isinstance(node, ir.InvokeScenario):
@@ -122,3 +120,76 @@ def _failing(
     builder.finished = builder.finished | told
     ctx.report.exact(construct, span, f"if it takes another time, the monitor `{VERDICT}` says so")
     return in_time
+
+
+def time_left(ctx: Context, node: ir.Invoke) -> float | None:
+    """Return the time (s) from the start of an open-ended action to its end, if that is planned.
+
+    Raises:
+        Inexpressible: A duration ends it, and only the run shows when it starts; modifiers state
+            what holds at its end.
+    """
+    if not is_open(node):
+        return None
+    passed: float | None = 0.0
+    child: ir.Behavior = node
+    for parent in reversed(_around(ctx.scope.scenario.body, node)):
+        fixed = _fixed(ctx, parent)
+        if isinstance(parent, ir.Serial):
+            *before, last = parent.members
+            if last is not child:
+                return None
+            for member in before:
+                length = length_of(ctx, member)
+                passed = None if passed is None or length is None else passed + length
+        elif not _ends_with_it(parent, has_duration=fixed is not None):
+            return None
+        if fixed is not None:
+            return _rest(node, fixed, passed)
+        if parent.duration is not None:
+            return None
+        child = parent
+    return None
+
+
+def _rest(node: ir.Invoke, fixed: float, passed: float | None) -> float | None:
+    """Return what is left of a duration (s) after a time, which may be unknown."""
+    if passed is not None:
+        return max(0.0, fixed - passed)
+    ending = next((call for call in node.modifiers if call.at == "end"), None)
+    if ending is None:
+        return None
+    reason = f"only the run shows how much is left of the {fixed:g} s when it starts"
+    raise Inexpressible(reason, ending.span)
+
+
+def _around(body: ir.Behavior, node: ir.Invoke) -> Sequence[ir.Composition]:
+    """Return the compositions around a member, the outermost first."""
+    compositions = (ir.Serial, ir.Parallel, ir.OneOf)
+    return [
+        each
+        for each in ir.walk_behaviors(body)
+        if isinstance(each, compositions) and ir.holds(each, node)
+    ]
+
+
+def _fixed(ctx: Context, node: ir.Composition) -> float | None:
+    """Return a duration (s) that is one number."""
+    if node.duration is None or ctx.module.dialect == "carla":
+        return None
+    is_range = isinstance(ctx.values.of(node.duration), Bounds)
+    return None if is_range else ctx.values.number(node.duration)
+
+
+def _ends_with_it(node: ir.Composition, *, has_duration: bool) -> bool:
+    """Whether the open-ended members of a composition start and end with it."""
+    if not isinstance(node, ir.Parallel) or node.overlap not in (None, "start"):
+        return False
+    if node.start_to_start or node.end_to_end:
+        return False
+    return has_duration or all(map(_never_ends, node.members))
+
+
+def _never_ends(node: ir.Behavior) -> bool:
+    """Whether a member of a `parallel` does not end it."""
+    return is_instant(node) or is_open(node)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
 from osc2tx.backends.xosc.flattening.storyboard.builder import StoryboardBuilder
-from osc2tx.backends.xosc.flattening.tree_queries import may_be_cut
 from osc2tx.backends.xosc.report import Inexpressible
 
 
@@ -30,7 +29,7 @@ def unless_active(builder: StoryboardBuilder, node: ir.Behavior, start: Flow) ->
     skip, go = builder.ctx.names.new(f"skip_{name}"), builder.ctx.names.new(f"go_{name}")
     active, idle = NEVER, Flow(((),))
     for override in blocking:
-        if may_be_cut(scenario.body, override.by):
+        if ir.may_be_cut(scenario.body, override.by):
             reason = f"whether `{override.by}` is active when it is interrupted is not known"
             raise Inexpressible(reason, override.span)
         began, ended = builder.events.activity(override.by)

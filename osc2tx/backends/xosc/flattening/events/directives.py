@@ -67,10 +67,10 @@ def emit(builder: StoryboardBuilder, node: ir.Emit, start: Flow) -> Flow:
 def call(builder: StoryboardBuilder, node: ir.Call, start: Flow) -> Flow:
     """Give the tool a command; nothing waits for its end, for tools do not tell it."""
     ctx = builder.ctx
-    ctx.require_support("CustomCommandAction", node.span)
+    ctx.require_support("CustomCommandAction")
     called = node.call
     if not isinstance(called, ir.MethodCall):
-        raise Inexpressible("only methods are called", node.span)
+        raise Inexpressible("only methods are called")
     if called.method == "set_bm" and called.owner == "physical_object":
         raise no_model("another behavioral model", node.span)
     arguments = {each.parameter: ctx.values.of(each.value) for each in called.arguments}
@@ -85,8 +85,8 @@ def finish(builder: StoryboardBuilder, node: ir.Finish, start: Flow) -> Flow:
     """Let the scenario end; that it fails is told by a monitor."""
     ctx = builder.ctx
     if not node.succeeds:
-        ctx.require("a verdict", "1.3", node.span)
-        ctx.require_support("SetMonitorAction", node.span)
+        ctx.require("a verdict", "1.3")
+        ctx.require_support("SetMonitorAction")
         ctx.monitors[VERDICT] = True
         action = xml.SetMonitorAction(monitorRef=VERDICT, value=False)
         actions = (xml.GlobalAction(action),)
@@ -111,7 +111,7 @@ def react(builder: StoryboardBuilder, node: ir.On, start: Flow) -> Flow:
         ctx.report.exact("on", node.span)
         return NEVER
     if node.trigger.event is None and not isinstance(condition, ir.Edge):
-        raise Inexpressible("only an event or an edge can be reacted to", node.span)
+        raise Inexpressible("only an event or an edge can be reacted to")
     once = not events.may_recur(node.trigger)
     occurs = builder.after(node.trigger, start)
     if not once:

@@ -11,7 +11,7 @@ from osc2tx.backends.xosc.actions.lateral.lanes import LANE_WIDTH
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.speed.speed_elements import hold_speed
 from osc2tx.backends.xosc.conditions.flow import Flow
-from osc2tx.backends.xosc.facts.actors import apart, course_of_shift
+from osc2tx.backends.xosc.facts.actors import Pace, apart, course_of_shift
 from osc2tx.backends.xosc.flattening.storyboard.builder import StoryboardBuilder
 from osc2tx.backends.xosc.report import Metres, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, WAY, ActorState
@@ -98,8 +98,8 @@ def _beside(builder: StoryboardBuilder, actor: str) -> float:
     drift, ways = builder.ctx.states[actor].drift, (0.0, 0.25 * LANE_WIDTH, 0.5 * LANE_WIDTH)
     return max(
         apart(
-            course_of_shift(way, "none", None, None, member.limits, rate),
-            course_of_shift(way, "smooth", None, BACK_TO_CENTRE, member.limits),
+            course_of_shift(way, Pace(), member.limits, rate),
+            course_of_shift(way, Pace("smooth", None, BACK_TO_CENTRE), member.limits),
         )
         for way in ways
         for rate in (-drift, drift)
@@ -118,19 +118,16 @@ def _ending(
     bound = Metres(_beside(builder, actor), "beside, while it returns")
     construct = "an interrupted lane change"
     finishing = Remedy(
-        instead="an uninterrupted lane change is exact",
-        asks=("LaneChangeActionDynamics",),
+        instead="an uninterrupted lane change is exact", asks=("LaneChangeActionDynamics",)
     )
     builder.ctx.report.approximate(construct, member.span, reason, bound, finishing)
     return xml.PrivateAction(
         xml.LateralAction(
             xml.LaneChangeAction(
                 xml.LaneChangeActionDynamics(
-                    dynamicsShape="sinusoidal",
-                    dynamicsDimension="time",
-                    value=BACK_TO_CENTRE,
+                    dynamicsShape="sinusoidal", dynamicsDimension="time", value=BACK_TO_CENTRE
                 ),
                 xml.LaneChangeTarget(xml.RelativeTargetLane(entityRef=actor, value=0)),
-            ),
-        ),
+            )
+        )
     )

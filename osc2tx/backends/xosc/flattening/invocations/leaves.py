@@ -5,22 +5,23 @@ from __future__ import annotations
 from math import inf
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import Arguments, Change, Global, Later, Leaf, Performance
+from osc2tx.backends.xosc.actions.arguments import Arguments
+from osc2tx.backends.xosc.actions.leaf import Change, Globals, Later, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, WITHOUT_FORM
 from osc2tx.backends.xosc.actions.signals.vehicle_lights import followed_lights
 from osc2tx.backends.xosc.actions.speed.speed_elements import in_steps
 from osc2tx.backends.xosc.actions.speed.speed_notes import note_cut
 from osc2tx.backends.xosc.actions.user_actions import global_command, user_action
 from osc2tx.backends.xosc.conditions.flow import Flow, Test
-from osc2tx.backends.xosc.flattening.compositions.enclosing_phases import time_left
+from osc2tx.backends.xosc.flattening.compositions.durations import time_left
 from osc2tx.backends.xosc.flattening.invocations.action_endings import record_end_state
 from osc2tx.backends.xosc.flattening.storyboard.builder import (
     RUN_START,
     StoryboardBuilder,
     construct_of,
 )
-from osc2tx.backends.xosc.flattening.storyboard.member_names import event_name
-from osc2tx.backends.xosc.flattening.tree_queries import entry_of, is_first
+from osc2tx.backends.xosc.flattening.tree_queries import entry_of
+from osc2tx.backends.xosc.names import event_name
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LONGITUDINAL
 from osc2tx.xosc import elements as xml
@@ -45,7 +46,7 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     if node.until or overriding or node.duration is not None or is_measured:
         start = builder.latched(start, builder.name_of(node))
     name = ctx.names.new(event_name(ctx.scope.deeds, node, member.name))
-    is_start = start == RUN_START or is_first(ctx.scenario.body, node)
+    is_start = start == RUN_START or ir.is_first(ctx.scenario.body, node)
     leaf = Leaf(ctx, node, member, name, is_start=is_start, time_left=time_left(ctx, node))
     ctx.present.add(member.name)
     performance = Performance((), "instant")
@@ -151,9 +152,9 @@ def _is_over(change: Change, lasting: float | None) -> bool:
 def _invoke_global(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     """Write down an action that concerns no entity; at the very start it goes to `Init`."""
     ctx, entry = builder.ctx, entry_of(node)
-    actions: tuple[Global | Later, ...] = ()
+    actions: Globals = ()
     with ctx.report_as(construct_of(node), node.span):
-        arguments = Arguments(ctx, node.arguments, node)
+        arguments = Arguments(ctx, node)
         perform = global_command if entry is None else GLOBAL_ACTIONS[node.action]
         actions = perform(ctx, node, arguments)
         arguments.finish()
@@ -171,9 +172,7 @@ def _invoke_global(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> 
     return builder.mark_end(node, builder.limit(node, start))
 
 
-def _act_globally(
-    builder: StoryboardBuilder, name: str, actions: tuple[Global | Later, ...], start: Flow
-) -> Flow:
+def _act_globally(builder: StoryboardBuilder, name: str, actions: Globals, start: Flow) -> Flow:
     """Add an event for actions that concern no entity; return when they are done."""
     ctx = builder.ctx
     at_once = tuple(action for action in actions if not isinstance(action, Later))

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.leaf import construct_of_action
+from osc2tx.backends.xosc.actions.arguments import construct_of_action
 from osc2tx.backends.xosc.conditions.expressions import condition_flow
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Test, run_start, single, state_of
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.events.events import EventTable
-from osc2tx.backends.xosc.flattening.storyboard.member_names import member_name
 from osc2tx.backends.xosc.flattening.storyboard.storyboard import ACTION, Act, Event
-from osc2tx.backends.xosc.flattening.tree_queries import actors_of, claims
+from osc2tx.backends.xosc.flattening.tree_queries import claims
+from osc2tx.backends.xosc.names import member_name
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import LATERAL, ActorState, merged
-from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 
@@ -264,16 +263,16 @@ class StoryboardBuilder:
         """Return the duration (s) that is written for a member; of a range the least."""
         if node.duration is None:
             return None
-        value = self.ctx.values.of(node.duration)
+        least, _ = self.ctx.values.bounds(node.duration)
         self.ctx.report.exact("duration", node.duration.span)
-        return value.lower if isinstance(value, Bounds) else self.ctx.values.number(node.duration)
+        return least
 
     # --- actors -----------------------------------------------------------------------------------
 
     def acting(self, member: ir.Behavior) -> list[str]:
         """Return the entities that act in a member, in source order."""
         cast = self.ctx.cast
-        found = [cast[name].name for name in actors_of(member) if name in cast]
+        found = [cast[name].name for name in ir.actors_of(member) if name in cast]
         for node in ir.walk_behaviors(member):
             if isinstance(node, ir.InvokeScenario):
                 with self.ctx.within(self.ctx.scope.of(node)):

@@ -127,7 +127,7 @@ class StoryboardWriter:
                         conditionEdge=test.edge,
                     )
                     for test in _in_order(group)
-                ),
+                )
             )
             for group in flow.groups
         ]
@@ -154,10 +154,7 @@ class StoryboardWriter:
         reference = None if actor is None else xml.EntityRef(entityRef=actor)
         return xml.ManeuverGroup(
             xml.Actors(reference, selectTriggeringEntities=False),
-            xml.Maneuver(
-                *(self._event(event) for event in events),
-                name=name,
-            ),
+            xml.Maneuver(*(self._event(event) for event in events), name=name),
             name=name,
             maximumExecutionCount=1,
         )

@@ -1,0 +1,102 @@
+"""Dimensions of values, units for them, and values as texts of the language."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from osc2tx_shared.classes import dataclass
+
+
+class Dimension(NamedTuple):
+    """Exponents of metre, second and radian."""
+
+    m: int
+    s: int
+    rad: int
+
+    def __mul__(self, other: Dimension) -> Dimension:  # type: ignore[override]
+        return Dimension(self.m + other.m, self.s + other.s, self.rad + other.rad)
+
+    def __truediv__(self, other: Dimension) -> Dimension:
+        return Dimension(self.m - other.m, self.s - other.s, self.rad - other.rad)
+
+
+NUMBER, LENGTH, TIME = Dimension(0, 0, 0), Dimension(1, 0, 0), Dimension(0, 1, 0)
+SPEED, ACCELERATION = Dimension(1, -1, 0), Dimension(1, -2, 0)
+JERK, ANGLE = Dimension(1, -3, 0), Dimension(0, 0, 1)
+
+UNITS: Mapping[Dimension, tuple[tuple[str, float], ...]] = {
+    LENGTH: (("m", 1.0),),
+    TIME: (("s", 1.0),),
+    SPEED: (("mps", 1.0), ("kph", 1.0 / 3.6)),
+    ACCELERATION: (("mpss", 1.0),),
+    JERK: (("mpspsps", 1.0),),
+    ANGLE: (("deg", 0.017453292519943295), ("rad", 1.0)),
+}
+"""Units of the language that people write, with their SI values; the first is the usual one."""
+
+TYPES = {
+    LENGTH: "length",
+    TIME: "time",
+    SPEED: "speed",
+    ACCELERATION: "acceleration",
+    JERK: "jerk",
+    ANGLE: "angle",
+    NUMBER: "float",
+}
+OF_SCHEMA = {
+    "m": LENGTH,
+    "s": TIME,
+    "m/s": SPEED,
+    "m/s²": ACCELERATION,
+    "m/s^2": ACCELERATION,
+    "m/s³": JERK,
+    "rad": ANGLE,
+}
+SUM, PRODUCT, ATOM = 1, 2, 3
+DIGITS = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A value of the document.
+
+    Attributes:
+        text: The expression of the language, with units.
+        value: Its nominal value, in SI units.
+        is_open: Whether parameters give it.
+        binding: How tightly its outermost operator binds.
+    """
+
+    text: str
+    value: float
+    is_open: bool = False
+    binding: int = ATOM
+
+    def within(self, binding: int) -> str:
+        """Return its text as an operand of an operator."""
+        is_loose = self.binding < binding or (binding > SUM and self.text.startswith("-"))
+        return f"({self.text})" if is_loose else self.text
+
+
+def literal(value: float, dimension: Dimension) -> str:
+    """Return a number with the unit in which it is shortest."""
+    if abs(value) < 1e-12:
+        value = 0.0
+    units = UNITS.get(dimension, (("", 1.0),))
+    shown = [(short(value / factor), unit) for unit, factor in units]
+    fits = [
+        (len(text.rstrip("0").lstrip("-")), index)
+        for index, (text, unit) in enumerate(shown)
+        if abs(float(text) * units[index][1] - value) <= 1e-9 * max(abs(value), 1e-3)
+    ]
+    index = min(fits, default=(0, 0))[1]
+    text, unit = shown[index]
+    return f"{text}{unit}" if unit else text if "." in text else f"{text}.0"
+
+
+def short(value: float) -> str:
+    """Return a number without needless digits."""
+    text = f"{value:.{DIGITS}f}".rstrip("0").rstrip(".")
+    return "0" if text in ("-0", "") else text

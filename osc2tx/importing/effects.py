@@ -1,0 +1,67 @@
+"""What actions do to actors, and what their readers share."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field
+
+from osc2tx.importing.cast import Actor
+from osc2tx.importing.cursor import Node
+from osc2tx.importing.dimensions import ACCELERATION, LENGTH, SPEED, TIME, Dimension, Quantity
+from osc2tx.importing.places import Places
+from osc2tx.importing.program import Statement
+from osc2tx.importing.values import Values
+from osc2tx_shared.classes import dataclass
+
+LONGITUDINAL, LATERAL = "longitudinal", "lateral"
+BOTH = frozenset((LONGITUDINAL, LATERAL))
+PROFILES = {"linear": "constant", "sinusoidal": "smooth", "cubic": "smooth"}
+
+
+@dataclass(frozen=True, slots=True)
+class Effect:
+    """What an action does to an actor.
+
+    Attributes:
+        statement: The invocation.
+        actor: The actor; `""`: none.
+        slots: What of its motion the action controls.
+    """
+
+    statement: Statement
+    actor: str = ""
+    slots: frozenset[str] = frozenset()
+
+
+@dataclass
+class Readings:
+    """What readers of actions share.
+
+    Attributes:
+        values: The values of the document.
+        places: Its places.
+        actors: The actors, by their names in the document.
+        lanes: The lanes in which actors are by now; `None`: not known.
+        speeds: The speeds last commanded; `None`: not known.
+    """
+
+    values: Values
+    places: Places
+    actors: Mapping[str, Actor]
+    lanes: dict[str, int | None] = field(default_factory=dict)
+    speeds: dict[str, Quantity | None] = field(default_factory=dict)
+
+
+class Reader:
+    """Reads some actions of a document."""
+
+    def __init__(self, readings: Readings) -> None:
+        self._values, self._places, self._actors = readings.values, readings.places, readings.actors
+        self._lanes, self._speeds = readings.lanes, readings.speeds
+
+
+def of_dynamics(node: Node) -> Dimension:
+    """Return the dimension of the value of dynamics."""
+    dimension = node.text("dynamicsDimension") or "time"
+    rate = ACCELERATION if node.tag == "SpeedActionDynamics" else SPEED
+    return {"time": TIME, "distance": LENGTH, "rate": rate}.get(dimension, TIME)

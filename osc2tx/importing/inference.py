@@ -1,0 +1,102 @@
+"""What the uses of parameters say about their dimensions."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+
+from osc2tx.importing.dimensions import (
+    ACCELERATION,
+    LENGTH,
+    NUMBER,
+    OF_SCHEMA,
+    SPEED,
+    TIME,
+    Dimension,
+)
+from osc2tx.importing.expressions import (
+    Expression,
+    Name,
+    Number,
+    Operation,
+    Untyped,
+    is_per_hour,
+    parsed,
+)
+from osc2tx.xosc.element import Element
+from osc2tx.xosc.schema import attributes_of
+
+Vote = tuple[Dimension, bool]
+"""A dimension, and whether the number counts kilometres per hour."""
+Votes = dict[str, set[Vote]]
+"""What the uses of parameters say, by their names."""
+
+
+def votes_of(root: Element) -> Votes:
+    """Return what the attributes of a document say about its parameters."""
+    votes: Votes = defaultdict(set)
+    for node in root.walk():
+        _collect(node, votes)
+    return votes
+
+
+def _collect(node: Element, votes: Votes) -> None:
+    if not any(text.startswith("$") for _, text in node.attributes):
+        return
+    parts = attributes_of(node.tag) if not node.tag.startswith("Parameter") else {}
+    for name, text in node.attributes:
+        if not text.startswith("$") or name not in parts:
+            continue
+        dimension = dimension_of(node, name)
+        if dimension is None:
+            continue
+        try:
+            vote(parsed(text), dimension, False, votes)
+        except Untyped:
+            continue
+
+
+def dimension_of(node: Element, name: str) -> Dimension | None:
+    """Return the dimension of an attribute; `None` if the schema says none."""
+    part = attributes_of(node.tag).get(name)
+    if part is None or part.type != "Double":
+        return None
+    if node.tag.endswith("Dynamics") and name == "value":
+        rate = ACCELERATION if node.tag == "SpeedActionDynamics" else SPEED
+        by = {"time": TIME, "distance": LENGTH, "rate": rate}
+        return by.get(node.get("dynamicsDimension") or "")
+    if node.tag == "RelativeTargetSpeed":
+        return SPEED if node.get("speedTargetValueType") != "factor" else NUMBER
+    return OF_SCHEMA.get(part.unit) if part.unit else None
+
+
+def vote(
+    node: Expression,
+    dimension: Dimension,
+    is_hourly: bool,
+    votes: Votes,
+) -> None:
+    """Note what an expression of a dimension says about its parameters."""
+    if isinstance(node, Name):
+        votes[node.name].add((dimension, is_hourly))
+    elif isinstance(node, Operation):
+        if dimension == SPEED and not is_hourly and is_per_hour(node):
+            vote(node.left, dimension, True, votes)
+        elif node.sign in "+-":
+            vote(node.left, dimension, is_hourly, votes)
+            vote(node.right, dimension, is_hourly, votes)
+        else:
+            _vote_in_product(node, dimension, is_hourly, votes)
+
+
+def _vote_in_product(
+    node: Operation,
+    dimension: Dimension,
+    is_hourly: bool,
+    votes: Votes,
+) -> None:
+    """A number times something is of its dimension, unless that is a speed by itself."""
+    for side, other in ((node.left, node.right), (node.right, node.left)):
+        if is_per_hour(side):
+            vote(side, SPEED, False, votes)
+        elif isinstance(other, Number) and (node.sign == "*" or side is node.left):
+            vote(side, dimension, is_hourly, votes)

@@ -1,0 +1,174 @@
+"""Actions across the road."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from osc2tx.importing.cast import Actor
+from osc2tx.importing.cursor import Node
+from osc2tx.importing.dimensions import LENGTH, PRODUCT, SPEED, TIME, literal
+from osc2tx.importing.effects import LATERAL, PROFILES, Effect, Reader, of_dynamics
+from osc2tx.importing.program import Statement
+from osc2tx.xosc.element import Unresolved
+
+SHIFT_FACTORS = {"sinusoidal": 0.5 * math.pi**2, "linear": 0.5 * math.pi**2, "cubic": 6.0}
+
+
+class Offsets(Reader):
+    """Reads lane changes and lane offsets."""
+
+    def effects(self, node: Node, said: str, actor: Actor) -> Iterator[Effect]:
+        """Return what a lateral action does."""
+        if actor.kind != "vehicle":
+            node.leave_out("only vehicles have lanes")
+            return
+        match node.tag:
+            case "LaneChangeAction":
+                statement = self._lane_change(node, said, actor)
+            case "LaneOffsetAction":
+                statement = self._lane_offset(node, said, actor)
+            case _:
+                node.leave_out("a distance across the road is not kept here")
+                return
+        if statement is not None:
+            yield Effect(statement, actor.name, frozenset((LATERAL,)))
+
+    def _lane_change(self, node: Node, said: str, actor: Actor) -> Statement | None:
+        target = node.one("LaneChangeTarget").inner
+        lanes, reference = self._lanes_to(target, said)
+        if lanes is None:
+            target.leave_out("which lane the actor is in is not known before the run")
+            node.use_all()
+            return None
+        arguments = []
+        if lanes == 0 and not reference:
+            node.use_all()  # it is in that lane
+            return None
+        if lanes == 0:
+            arguments.append("side: same")
+        else:
+            if abs(lanes) > 1:
+                arguments.append(f"num_of_lanes: {abs(lanes)}")
+            arguments.append(f"side: {'left' if lanes > 0 else 'right'}")
+        if reference:
+            arguments.append(f"reference: {reference}")
+        offset = self._values.quantity(node, "targetLaneOffset", LENGTH)
+        if offset.is_open or abs(offset.value) > 1e-9:
+            sign = self._along(said)
+            text = offset.text if sign > 0 else f"-{offset.within(PRODUCT)}"
+            arguments.append(f"offset: {text}")
+        dynamics = node.one("LaneChangeActionDynamics")
+        shape = dynamics.text("dynamicsShape") or "sinusoidal"
+        dynamics.text("followingMode")
+        dimension = dynamics.text("dynamicsDimension") or "time"
+        value = self._values.quantity(dynamics, "value", of_dynamics(dynamics))
+        length: float | None = None
+        if shape == "step" or value.value <= 0.0:
+            dynamics.approximate("a jump to another lane is a quick change here")
+            arguments += ["rate_profile: constant", "duration: 0.1s"]
+            return Statement(f"{actor.name}.change_lane({', '.join(arguments)})", length=0.1)
+        if shape == "cubic":
+            dynamics.approximate("a cubic course across the road is smooth here")
+        if shape == "linear":
+            arguments.append("rate_profile: constant")
+        if dimension == "time":
+            arguments.append(f"duration: {value.text}")
+            length = value.value
+        elif dimension == "rate":
+            if shape != "linear":
+                arguments.append("rate_profile: smooth")
+                peak = 0.5 * math.pi * value.value
+                text = (
+                    f"{_number(0.5 * math.pi)} * {value.within(PRODUCT)}"
+                    if value.is_open
+                    else literal(round(peak, 9), SPEED)
+                )
+            else:
+                text = value.text
+            arguments.append(f"rate_peak: {text}")
+        else:
+            now = self._speeds.get(said)
+            if now is None or now.value <= 0.0:
+                dynamics.approximate("the way of the change is that of its usual time")
+            else:
+                dynamics.approximate("the way of the change is that at the speed last commanded")
+                length = value.value / now.value
+                arguments.append(f"duration: {literal(round(length, 6), TIME)}")
+        return Statement(f"{actor.name}.change_lane({', '.join(arguments)})", length=length)
+
+    def _along(self, said: str) -> int:
+        """Return 1 for an actor in a lane along its road, -1 against it."""
+        body, road_map = self._places.bodies.get(said), self._places.map
+        if body is None or body.place is None or road_map is None:
+            return 1
+        return road_map.travel_direction(body.place.road, body.place.lane)
+
+    def _lanes_to(self, target: Node, said: str) -> tuple[int | None, str]:
+        """Return how many lanes to the left a target is, and of which other actor."""
+        if target.tag == "RelativeTargetLane":
+            reference = self._values.text(target, "entityRef")
+            lanes = int(self._values.fixed(target, "value"))
+            if reference == said:
+                self._move(said, lanes)
+                return lanes, ""
+            self._lanes[said] = None
+            actor = self._actors.get(reference)
+            if actor is None:
+                raise Unresolved(f"there is no entity {reference}", target.place)
+            return lanes, actor.name
+        goal = int(self._values.fixed(target, "value"))
+        body, road_map = self._places.bodies.get(said), self._places.map
+        here = self._lane_of(said)
+        if here is None or road_map is None or body is None or body.place is None:
+            return None, ""
+        section = road_map.roads[body.place.road].section_at(body.place.s)
+        low, high = sorted((here, goal))
+        between = [each for each in section.lanes if low <= each <= high and each != here]
+        driving = [each for each in between if section.lanes[each].type == "driving"]
+        self._lanes[said] = goal
+        sign = (1 if goal > here else -1) * road_map.travel_direction(body.place.road, here)
+        return sign * len(driving) * body.along, ""
+
+    def _lane_of(self, said: str) -> int | None:
+        if said in self._lanes:
+            return self._lanes[said]
+        body = self._places.bodies.get(said)
+        return None if body is None or body.place is None else body.place.lane
+
+    def _move(self, said: str, lanes: int) -> None:
+        here = self._lane_of(said)
+        if here is not None:
+            there = here + lanes * self._along(said)
+            self._lanes[said] = there if there * here > 0 else None
+
+    def _lane_offset(self, node: Node, said: str, actor: Actor) -> Statement | None:
+        target = node.one("LaneOffsetTarget").inner
+        if target.tag != "AbsoluteTargetLaneOffset":
+            target.leave_out("an offset from that of another actor has no counterpart in the DSL")
+            return None
+        offset = self._values.quantity(target, "value", LENGTH)
+        text = offset.text if self._along(said) > 0 else f"-{offset.within(PRODUCT)}"
+        dynamics = node.one("LaneOffsetActionDynamics")
+        shape = dynamics.text("dynamicsShape") or "step"
+        peak = self._values.nominal(dynamics, "maxLateralAcc", math.inf)
+        continuous = (node.text("continuous") or "false").lower() in ("true", "1")
+        body = self._places.bodies.get(said)
+        before = 0.0 if body is None or body.place is None else body.place.offset
+        change = abs(offset.value * self._along(said) - before)
+        time = math.sqrt(SHIFT_FACTORS.get(shape, 0.0) * change / peak) if peak > 0.0 else 0.0
+        if time <= 0.0 or shape == "step":
+            node.approximate(
+                "how fast an offset without limits is reached is a matter of the world"
+            )
+            time = 1.0
+        profile = PROFILES.get(shape, "smooth")
+        lasting = literal(round(time, 6), TIME)
+        call = f"follow_lane(offset: {text}, rate_profile: {profile}, duration: {lasting})"
+        if continuous:
+            node.approximate("an offset that is kept ends here when it is reached")
+        return Statement(f"{actor.name}.{call}", length=time)
+
+
+def _number(value: float) -> str:
+    return f"{value:.9f}".rstrip("0")

@@ -1,0 +1,117 @@
+"""Actions that put actors elsewhere, or on ways of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from osc2tx.importing.cast import Actor
+from osc2tx.importing.cursor import Node
+from osc2tx.importing.dimensions import SPEED, TIME, literal
+from osc2tx.importing.effects import BOTH, LONGITUDINAL, Effect, Reader
+from osc2tx.importing.places import Spot
+from osc2tx.importing.program import Statement
+
+
+class Routes(Reader):
+    """Reads teleports, routes, trajectories and synchronizations."""
+
+    def teleport(self, node: Node, said: str, actor: Actor) -> Iterator[Effect]:
+        """Return what a teleport in the run does."""
+        spot = self._places.spot(node.one("Position"), actor.name, at_start=False)
+        self._lanes[said] = None
+        if spot is not None:
+            if spot.yaw:
+                node.approximate("it looks along its lane")
+            yield from self.moved(spot, actor)
+
+    @staticmethod
+    def moved(spot: Spot, actor: Actor) -> Iterator[Effect]:
+        """Return what puts an actor at a place at once."""
+        call = f"{actor.name}.assign_position({spot.argument})"
+        statement = Statement(call, modifiers=list(spot.modifiers), length=0.0)
+        yield Effect(statement, actor.name, BOTH)
+
+    def effects(self, node: Node, said: str, actor: Actor) -> Iterator[Effect]:
+        """Return what a routing action does."""
+        if node.tag == "AssignRouteAction":
+            node.leave_out("routes are not imported yet: the actor goes on along its road")
+            return
+        if node.tag == "AcquirePositionAction":
+            spot = self._places.spot(node.one("Position"), actor.name, at_start=False)
+            if spot is None or not spot.argument.startswith("odr_point"):
+                return
+            node.approximate("the way to the place is that of the world")
+            target = spot.argument.replace("odr_point:", "target_odr:", 1)
+            yield Effect(
+                Statement(f"{actor.name}.change_position({target}, on_road_network: true)"),
+                actor.name,
+                BOTH,
+            )
+            return
+        if node.tag == "FollowTrajectoryAction":
+            yield from self._trajectory(node, said, actor)
+            return
+        node.leave_out("the language has no such action")
+
+    def _trajectory(self, node: Node, said: str, actor: Actor) -> Iterator[Effect]:
+        lines = [each for each in node.element.walk() if each.tag == "Polyline"]
+        if not lines:
+            node.leave_out("of trajectories only polylines are imported yet")
+            return
+        points, times = [], []
+        for holder in node.children("TrajectoryRef", "Trajectory"):
+            trajectory = holder if holder.tag == "Trajectory" else holder.find("Trajectory")
+            if trajectory is None:
+                continue
+            for shape in trajectory.children("Shape"):
+                for vertex in (
+                    each for line in shape.children("Polyline") for each in line.children("Vertex")
+                ):
+                    found = self._places.coordinates(vertex.one("Position"))
+                    if found is None:
+                        node.leave_out("a corner of the trajectory is not known before the run")
+                        return
+                    vertex.use_all()
+                    if any(
+                        text.startswith("$")
+                        for each in vertex.element.walk()
+                        for _, text in each.attributes
+                    ):
+                        vertex.approximate("the corner keeps the place of its nominal values")
+                    times.append(self._values.nominal(vertex, "time"))
+                    points.append(self._places.pose(*found, actor.name))
+        timed = any(each.tag == "Timing" for each in node.element.walk())
+        for name in ("initialDistanceOffset",):
+            if abs(self._values.nominal(node, name)) > 1e-9:
+                node.approximate(f"{name} has no counterpart in the DSL")
+        node.use_all()
+        listed = ", ".join(points)
+        told = f"points: [{listed}], interpolation: straight_line"
+        length = None
+        if timed:
+            stamps = ", ".join(literal(round(each, 6), TIME) for each in times)
+            made = f"trajectory(absolute: road.create_trajectory({told}, time_stamps: [{stamps}]))"
+            length = times[-1] if times else None
+        else:
+            made = f"path(absolute: road.create_path({told}))"
+        yield Effect(Statement(f"{actor.name}.replay_{made}", length=length), actor.name, BOTH)
+        self._lanes[said] = None
+
+    def synchronize(self, node: Node, actor: Actor) -> Iterator[Effect]:
+        """Return what a synchronization does."""
+        final = node.find("FinalSpeed")
+        speed = None if final is None else next(final.children("AbsoluteSpeed"), None)
+        node.approximate(
+            "the time at which both reach their positions has no counterpart in the DSL; the actor"
+            " takes its final speed"
+        )
+        if speed is not None:
+            target = self._values.quantity(speed, "value", SPEED)
+            node.use_all()
+            yield Effect(
+                Statement(f"{actor.name}.change_speed(target: {target.text})"),
+                actor.name,
+                frozenset((LONGITUDINAL,)),
+            )
+        else:
+            node.leave_out("the actor goes on as it does")

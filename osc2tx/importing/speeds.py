@@ -1,0 +1,203 @@
+"""Actions along the road."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from osc2tx.importing.cast import Actor
+from osc2tx.importing.cursor import Node
+from osc2tx.importing.dimensions import (
+    ACCELERATION,
+    LENGTH,
+    NUMBER,
+    PRODUCT,
+    SPEED,
+    SUM,
+    TIME,
+    Quantity,
+    literal,
+)
+from osc2tx.importing.effects import LONGITUDINAL, PROFILES, Effect, Reader, of_dynamics
+from osc2tx.importing.program import Statement, composed
+from osc2tx.xosc.element import Unresolved
+
+COMFORT = {"maxAcceleration": 2.0, "maxDeceleration": 4.0, "maxAccelerationRate": 10.0}
+"""Limits of a change of the speed without a profile, in the embedded world."""
+
+
+class Speeds(Reader):
+    """Reads actions on speeds, and on distances along the road."""
+
+    def effects(self, node: Node, said: str, actor: Actor, at_start: bool) -> Iterator[Effect]:
+        """Return what a longitudinal action does."""
+        slots = frozenset((LONGITUDINAL,))
+        match node.tag:
+            case "SpeedAction":
+                statement = self._speed(node, said, actor, at_start)
+            case "SpeedProfileAction":
+                statement = self._profile(node, said, actor)
+            case "LongitudinalDistanceAction":
+                statement = self._gap(node, actor)
+            case _:
+                node.leave_out("the language has no such action")
+                return
+        if statement is not None:
+            yield Effect(statement, actor.name, slots)
+
+    def _speed(self, node: Node, said: str, actor: Actor, at_start: bool) -> Statement | None:
+        target_node = node.one("SpeedActionTarget").inner
+        dynamics = node.one("SpeedActionDynamics")
+        target = self._target(target_node, at_start)
+        shape = dynamics.text("dynamicsShape") or "step"
+        dynamics.text("followingMode")
+        if (target_node.text("continuous") or "false").lower() in ("true", "1"):
+            return self._as_fast_as(node, target_node, dynamics, actor)
+        standing = Quantity(literal(0.0, SPEED), 0.0) if at_start else None
+        before = self._speeds.get(said, standing)
+        self._speeds[said] = target
+        value = self._values.quantity(dynamics, "value", of_dynamics(dynamics))
+        dimension = dynamics.text("dynamicsDimension") or "time"
+        if shape == "step" or (dimension in ("time", "distance") and value.value == 0.0):
+            dynamics.idle("the speed is there at once")
+            return Statement(f"{actor.name}.assign_speed({target.text})", length=0.0)
+        if shape == "cubic":
+            dynamics.approximate("a cubic course of the speed is smooth here")
+        arguments = f"target: {target.text}, rate_profile: {PROFILES.get(shape, 'constant')}"
+        call = f"{actor.name}.change_speed"
+        if dimension == "time":
+            return Statement(f"{call}({arguments}, duration: {value.text})", length=value.value)
+        if dimension == "rate":
+            if value.value == 0.0:
+                dynamics.approximate(
+                    "a change at a rate of 0 never changes anything; there is none"
+                )
+                self._speeds[said] = before
+                return None
+            if value.value < 0.0:
+                dynamics.approximate("a rate has no sign; its size counts")
+                value = Quantity(literal(-value.value, ACCELERATION), -value.value)
+            length = None
+            if before is not None:
+                length = abs(target.value - before.value) / value.value * _peak(shape)
+            return Statement(f"{call}({arguments}, rate_peak: {value.text})", length=length)
+        if before is not None and before.value + target.value > 0.0:
+            time = Quantity(
+                f"2 * {value.within(PRODUCT)} / ({before.text} + {target.text})",
+                2.0 * value.value / (before.value + target.value),
+            )
+            return Statement(f"{call}({arguments}, duration: {time.text})", length=time.value)
+        dynamics.approximate("the way of the change is that of its usual rate")
+        return Statement(f"{call}(target: {target.text})")
+
+    def _target(self, node: Node, at_start: bool) -> Quantity:
+        if node.tag == "AbsoluteTargetSpeed":
+            for each in node.children():
+                each.leave_out("a steady state has no counterpart in the DSL")
+            return self._values.quantity(node, "value", SPEED)
+        reference_said = self._values.text(node, "entityRef")
+        reference = self._actors.get(reference_said)
+        if reference is None:
+            raise Unresolved(f"there is no entity {reference_said}", node.place)
+        known = self._speeds.get(reference_said) if at_start else None
+        now = self._speeds.get(reference_said)
+        nominal = now.value if now is not None else 0.0
+        base = known.within(SUM) if known is not None else f"{reference.name}.speed"
+        if (node.text("speedTargetValueType") or "delta") == "factor":
+            factor = self._values.quantity(node, "value", NUMBER)
+            base = known.within(PRODUCT) if known is not None else base
+            return Quantity(
+                f"{factor.within(PRODUCT)} * {base}", factor.value * nominal, True, PRODUCT
+            )
+        delta = self._values.quantity(node, "value", SPEED)
+        if not delta.is_open and delta.value == 0.0:
+            return Quantity(base, nominal, True, SUM)
+        if not delta.is_open and delta.value < 0.0:
+            return Quantity(
+                f"{base} - {literal(-delta.value, SPEED)}", nominal + delta.value, True, SUM
+            )
+        return Quantity(f"{base} + {delta.within(SUM)}", nominal + delta.value, True, SUM)
+
+    def _as_fast_as(self, node: Node, target: Node, dynamics: Node, actor: Actor) -> Statement:
+        """Return a speed that is kept against that of another actor."""
+        reference = self._actors[self._values.text(target, "entityRef")].name
+        if dynamics.text("dynamicsShape") != "step":
+            node.approximate("how fast a relative speed is reached is a matter of the world")
+        self._values.quantity(dynamics, "value", of_dynamics(dynamics))
+        dynamics.text("dynamicsDimension")
+        if (target.text("speedTargetValueType") or "delta") == "factor":
+            factor = self._values.quantity(target, "value", NUMBER)
+            modifier = f"speed(0mps, faster_than: {reference}, factor: {factor.text})"
+        else:
+            delta = self._values.quantity(target, "value", SPEED)
+            modifier = f"speed({delta.text}, faster_than: {reference})"
+            if not delta.is_open and delta.value == 0.0:
+                modifier = f"speed(same_as: {reference})"
+        return Statement(f"{actor.verb}()", modifiers=[modifier], length=math.inf)
+
+    def _profile(self, node: Node, said: str, actor: Actor) -> Statement | None:
+        mode = node.text("followingMode") or "position"
+        if node.has("entityRef"):
+            node.leave_out(
+                "a speed profile relative to another actor has no counterpart in the DSL"
+            )
+            return None
+        limits = node.find("DynamicConstraints")
+        changes = []
+        for entry in node.children("SpeedProfileEntry"):
+            speed = self._values.quantity(entry, "speed", SPEED)
+            time = self._values.quantity(entry, "time", TIME)
+            if not entry.has("time"):
+                changes.append(Statement(f"{actor.name}.change_speed(target: {speed.text})"))
+                told = (
+                    {}
+                    if limits is None
+                    else {name: self._values.nominal(limits, name, math.inf) for name in COMFORT}
+                )
+                if told != COMFORT:
+                    entry.approximate("the speed changes with the usual accelerations of the world")
+            elif time.value == 0.0:
+                changes.append(Statement(f"{actor.name}.assign_speed({speed.text})", length=0.0))
+            else:
+                arguments = f"target: {speed.text}, rate_profile: constant, duration: {time.text}"
+                call = f"{actor.name}.change_speed({arguments})"
+                changes.append(Statement(call, length=time.value))
+            self._speeds[said] = speed
+        if limits is not None:
+            limits.use_all()
+        del mode
+        return composed("serial", changes) if changes else None
+
+    def _gap(self, node: Node, actor: Actor) -> Statement | None:
+        said = self._values.text(node, "entityRef")
+        reference = self._actors.get(said)
+        if reference is None or actor.kind != "vehicle":
+            node.leave_out("only vehicles keep gaps to actors")
+            return None
+        node.approximate("how a gap is closed is a matter of the world")
+        side = node.text("displacement") or "trailingReferencedEntity"
+        direction = "ahead" if side.startswith("leading") else "behind"
+        for name in ("freespace", "coordinateSystem"):
+            node.text(name)
+        for each in node.children("DynamicConstraints"):
+            each.use_all()
+        continuous = (node.text("continuous") or "false").lower() in ("true", "1")
+        if node.has("timeGap"):
+            target = self._values.quantity(node, "timeGap", TIME)
+            kind = "time"
+        else:
+            target = self._values.quantity(node, "distance", LENGTH)
+            kind = "space"
+        arguments = f"target: {target.text}, direction: {direction}, reference: {reference.name}"
+        change = Statement(f"{actor.name}.change_{kind}_gap({arguments})")
+        if not continuous:
+            return change
+        keep = Statement(
+            f"{actor.name}.keep_{kind}_gap(reference: {reference.name}, direction: longitudinal)",
+            length=math.inf,
+        )
+        return composed("serial", [change, keep])
+
+
+def _peak(shape: str) -> float:
+    return {"sinusoidal": 0.5 * math.pi, "cubic": 1.5}.get(shape, 1.0)

@@ -1,0 +1,181 @@
+"""How the actors of a document begin."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from osc2tx.importing.actions import Actions
+from osc2tx.importing.cast import Cast
+from osc2tx.importing.cursor import Node
+from osc2tx.importing.places import Places, Spot
+from osc2tx.importing.program import Statement, composed
+from osc2tx.importing.routes import Routes
+from osc2tx.importing.values import Values
+from osc2tx.xosc.element import Unresolved
+
+
+class Starts:
+    """How the actors of a document begin.
+
+    Attributes:
+        world: What concerns no actor.
+    """
+
+    def __init__(
+        self, storyboard: Node, values: Values, places: Places, actions: Actions, cast: Cast
+    ) -> None:
+        self._cast = cast
+        self._actions = actions
+        self.world: list[Statement] = []
+        self._spots: dict[str, tuple[Spot, Node]] = {}
+        self._speeds: dict[str, Statement] = {}
+        self._others: dict[str, list[Statement]] = {}
+        self._references: dict[str, set[str]] = {}
+        init = storyboard.find("Init")
+        for holder in () if init is None else init.children("Actions"):
+            for node in holder.children():
+                if node.tag == "Private":
+                    self._private(node, values, places)
+                elif node.tag == "GlobalAction":
+                    self.world += [
+                        each.statement for each in actions.effects(node, (), at_start=True)
+                    ]
+                else:
+                    node.leave_out("actions of a user are for one tool")
+
+    def _private(self, node: Node, values: Values, places: Places) -> None:
+        said = values.text(node, "entityRef")
+        actor = self._cast.actors.get(said)
+        if actor is None:
+            node.leave_out(f"there is no entity {said}")
+            return
+        for action in node.children("PrivateAction"):
+            inner = next(action.children(), None)
+            if inner is None:
+                action.leave_out("it is empty")
+                continue
+            self._references.setdefault(said, set()).update(
+                ref for each in inner.element.walk() if (ref := each.get("entityRef")) is not None
+            )
+            if inner.tag == "TeleportAction":
+                try:
+                    spot = places.spot(inner.one("Position"), actor.name, at_start=True)
+                except Unresolved as error:
+                    inner.leave_out(error.reason)
+                    spot = None
+                if spot is not None:
+                    self._spots[said] = (spot, inner)
+                continue
+            for effect in self._actions.effects(action, (said,), at_start=True):
+                if effect.statement.text.startswith(f"{actor.name}.assign_speed("):
+                    self._speeds[said] = effect.statement
+                else:
+                    self._others.setdefault(said, []).append(effect.statement)
+
+    def order(self, said: Sequence[str]) -> list[str]:
+        """Return entities with those that others refer to first."""
+        left, found = list(said), list[str]()
+        while left:
+            ready = [
+                each
+                for each in left
+                if not (self._references.get(each, set()) - {each}) & set(left)
+            ] or left[:1]
+            found += ready
+            left = [each for each in left if each not in ready]
+        return found
+
+    def _on_foot(self, said: str) -> list[str]:
+        """Return the modifiers of an actor that begins at a point, with a heading of its own."""
+        spot, _ = self._spots[said]
+        point = spot.argument.removeprefix("position: ")
+        modifiers = [f"position(at_point: {point}, project_on_route: false, at: start)"]
+        if spot.yaw:
+            modifiers.append(_at_start(spot.yaw))
+        speed = self._speeds.get(said)
+        if speed is not None:
+            value = speed.text.removeprefix(f"{self._cast.actors[said].name}.assign_speed(")[:-1]
+            modifiers.append(f"speed({value})")
+        return modifiers
+
+    @property
+    def has_relations(self) -> bool:
+        """Whether an actor begins at a place beside another one."""
+        return any(spot.modifiers for spot, _ in self._spots.values())
+
+    def places(self, said: str) -> bool:
+        """Whether an entity is put anywhere, or does anything."""
+        return said in self._spots or bool(self._others.get(said))
+
+    def starts(self, places: Places) -> dict[str, tuple[str, int, float]]:
+        """Return the lanes in which actors are put, with the s (m) along their roads."""
+        found = {
+            said: places.bodies[said].place
+            for said, (spot, _) in self._spots.items()
+            if said in places.bodies and spot.argument.startswith("odr_point")
+        }
+        return {
+            self._cast.actors[said].name: (place.road, place.lane, place.s)
+            for said, place in found.items()
+            if place is not None
+        }
+
+    def turns_alone(self, said: str) -> bool:
+        """Whether an entity has a heading of its own, and no other one begins beside it."""
+        found = self._spots.get(said)
+        others = (refs for name, refs in self._references.items() if name != said)
+        return found is not None and bool(found[0].yaw) and not any(said in refs for refs in others)
+
+    def _is_at_point(self, said: str) -> bool:
+        found = self._spots.get(said)
+        return found is not None and found[0].argument.startswith("position: ")
+
+    def going_on(self, said: str) -> list[Statement]:
+        """Return how an actor begins and goes on."""
+        actor = self._cast.actors[said]
+        if self._is_at_point(said) and not self._others.get(said):
+            modifiers = self._on_foot(said)
+            return [Statement(f"{actor.verb}()", modifiers=modifiers, length=math.inf)]
+        last = Statement(actor.goes_on, length=math.inf)
+        return [*self.statements(said), *(self.lasting(said) or [last])]
+
+    def statements(self, said: str, then: list[Statement] | None = None) -> list[Statement]:
+        """Return how an actor begins, at once.
+
+        Args:
+            said: The entity.
+            then: What follows: a first wait in it ends the way up to there.
+        """
+        actor = self._cast.actors[said]
+        others = self._others.get(said, [])
+        is_wait = bool(then) and then is not None and then[0].text.startswith("wait ")
+        if is_wait and not others and said in self._spots:
+            if self._is_at_point(said):
+                modifiers = self._on_foot(said)
+                return [Statement(f"{actor.verb}()", modifiers=modifiers, length=math.inf)]
+            last = Statement(actor.goes_on, length=math.inf)
+            return [*self.statements(said), last]
+        found: list[Statement] = []
+        if said in self._spots:
+            spot, node = self._spots[said]
+            if spot.yaw:
+                node.approximate("it looks along its lane at the start")
+            found += [each.statement for each in Routes.moved(spot, actor)]
+        if said in self._speeds:
+            found.append(self._speeds[said])
+        return [*found, *(each for each in others if each.length == 0.0)]
+
+    def lasting(self, said: str) -> list[Statement]:
+        """Return what an entity does from the start on, and goes on with."""
+        others = [each for each in self._others.get(said, []) if each.length != 0.0]
+        if not others:
+            return []
+        last = Statement(self._cast.actors[said].goes_on, length=math.inf)
+        found = composed("serial", [*others, last])
+        found.length = math.inf
+        return [found]
+
+
+def _at_start(modifier: str) -> str:
+    return f"{modifier[:-1]}, at: start)"

@@ -1,0 +1,119 @@
+"""The behavior of a scenario: how it begins, its branches, how it ends."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from osc2tx.importing.cast import Cast
+from osc2tx.importing.conditions import Trigger
+from osc2tx.importing.document import Document
+from osc2tx.importing.names import Names
+from osc2tx.importing.program import Statement, composed, wait
+from osc2tx.importing.report import ImportReport
+from osc2tx.importing.starts import Starts
+from osc2tx.importing.structure import Branch, Structure
+
+LONGEST = "60s"
+"""How long a scenario runs whose document has no end."""
+
+
+class Whole:
+    """Composes the behavior."""
+
+    def __init__(self, document: Document, cast: Cast, names: Names, report: ImportReport) -> None:
+        self._document, self._cast, self._names, self._report = document, cast, names, report
+
+    def behavior(
+        self, structure: Structure, branches: Sequence[Branch], inits: Starts, end: Trigger
+    ) -> Statement:
+        """Return the behavior of branches, with their starts and what ends it."""
+        actors = list(self._cast.actors.items())
+        leading: list[Statement] = list(inits.world)
+        by_name = {
+            actor.name: [b for b in branches if actor.name in b.actors] for _, actor in actors
+        }
+        single = {id(b) for b in branches if len(b.actors) == 1}
+        shared = [actor.name for _, actor in actors if len(by_name[actor.name]) > 1]
+        members: list[Statement] = []
+        placed: set[str] = set()
+        is_open = True
+        order = inits.order([said for said, _ in actors])
+        together = bool(shared) or inits.has_relations
+        for said in order:
+            actor = self._cast.actors[said]
+            mine = by_name[actor.name]
+            is_alone = not mine or (len(mine) == 1 and id(mine[0]) in single)
+            stays = is_alone and (not together or inits.turns_alone(said))
+            if actor.kind != "movable_object" and stays:
+                continue
+            leading += inits.statements(said)
+            placed.add(said)
+        for said in order:
+            actor = self._cast.actors[said]
+            if by_name[actor.name] or actor.kind == "movable_object" or not inits.places(said):
+                continue
+            if said in placed:
+                members += inits.lasting(said) or structure.go_on([actor.name])
+            else:
+                members.append(composed("serial", inits.going_on(said)))
+        for branch in branches:
+            branch_said = [said for said, actor in actors if by_name[actor.name] == [branch]]
+            own = [
+                said for said, actor in actors if actor.name in branch.actors and said not in placed
+            ]
+            before = [each for said in own for each in inits.statements(said, branch.members)]
+            content = [*before, *branch.members]
+            if branch.members and branch.members[0].text.startswith("wait "):
+                lasting = [each for said in branch_said for each in inits.lasting(said)]
+                content = [*before, *lasting, *branch.members]
+            alone = [actor.name for _, actor in actors if by_name[actor.name] == [branch]]
+            if content:
+                content += structure.go_on(alone) if content[-1].length != math.inf else ()
+            is_open = is_open and content[-1:] != [] and content[-1].length == math.inf
+            if content:
+                members.append(composed("serial", content))
+        if not members and not leading:
+            members = [wait(f"elapsed({LONGEST})")]
+        return self._ended(structure, leading, members, end, is_open=is_open, branches=branches)
+
+    def _ended(
+        self,
+        structure: Structure,
+        leading: list[Statement],
+        members: list[Statement],
+        end: Trigger,
+        *,
+        is_open: bool,
+        branches: Sequence[Branch],
+    ) -> Statement:
+        never = all(any(each.kind == "never" for each in group) for group in end.groups)
+        endings: list[str] = []
+        if not end.groups or never:
+            self._report.add(
+                "approximated",
+                "<StopTrigger>",
+                f"nothing ends the document; the scenario ends after {LONGEST}",
+                self._document.root.place,
+            )
+            endings.append(f"elapsed({LONGEST})")
+        for group in end.groups if not never else ():
+            waits = structure.waits(Trigger([group]))
+            if not waits:
+                endings.append("elapsed(0s)")
+            elif len(waits) == 1 and waits[0].text.startswith("wait "):
+                endings.append(waits[0].text.removeprefix("wait "))
+            else:
+                name = self._names.new("", kind="event", base="finished")
+                structure.lines.append(f"event {name}")
+                members.append(composed("serial", [*waits, Statement(f"emit {name}")]))
+                endings.append(f"@{name}")
+        if not is_open or not members:
+            if len(endings) == 1 and endings[0].startswith("elapsed("):
+                members.append(wait(endings[0]))
+            else:
+                structure.lines.append("event forever")
+                members.append(wait("@forever"))
+        whole = Statement("parallel", members=members)
+        whole.modifiers = [f"until {each}" for each in endings]
+        return composed("serial", [*leading, whole]) if leading else whole
