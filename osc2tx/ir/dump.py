@@ -228,7 +228,7 @@ def _behavior(node: Behavior) -> Iterator[str]:
             who = f"{show(actor)}." if actor is not None else ""
             yield f"InvokeScenario {who}{scenario}({show_arguments(arguments)}){place}"
             if node.times:
-                yield from _indented((f"times {show_arguments(node.times)}",))
+                yield from _indented(iter((f"times {show_arguments(node.times)}",)))
             yield from _indented(_limits(node.duration, node.until))
         case Wait(trigger=trigger):
             yield f"Wait {_trigger(trigger)}{place}"
