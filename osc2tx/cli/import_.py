@@ -275,6 +275,7 @@ def _measure(result: Result, compilation: Compilation) -> None:
                 imported.actors,
                 _in_si_units(given, imported.parameters),
                 imported.starts,
+                is_endless=imported.is_endless,
             )
     except (NoEvidence, ScenarioError) as error:
         imported.report.measure(None, str(error))

@@ -62,6 +62,8 @@ def import_deviation(
     names: Mapping[str, str],
     values: Mapping[str, float | str],
     starts: Mapping[str, tuple[str, int, float]],
+    *,
+    is_endless: bool = False,
 ) -> ImportDeviation:
     """Run an imported scenario in the embedded world and compare it with its document.
 
@@ -72,6 +74,7 @@ def import_deviation(
         names: Names of the actors in the scenario, by those in the document.
         values: Values of open parameters of the scenario, in SI units.
         starts: Where the scenario puts actors at once, so that no free places are looked for.
+        is_endless: Nothing ends the document, so the end of the scenario does not count.
 
     Raises:
         NoEvidence: The scenario cannot be run, or the document not be played.
@@ -79,7 +82,9 @@ def import_deviation(
     played = plain(document)
     if sum(1 for _ in played.below(xml.Event)) > MOST_EVENTS:
         raise NoEvidence(f"it has more than {MOST_EVENTS} events")
-    case = _Case(played, map_file or find_map(None, ()), scenario, names, values, starts)
+    case = _Case(
+        played, map_file or find_map(None, ()), scenario, names, values, starts, is_endless
+    )
     found = case.at(COARSE)
     return found if found.is_exact else case.at(FINE)
 
@@ -95,6 +100,7 @@ class _Case:
         names: Names of the actors in the scenario, by those in the document.
         values: Values of open parameters.
         starts: Where the scenario puts actors at once.
+        is_endless: Nothing ends the document.
     """
 
     document: Element
@@ -103,6 +109,7 @@ class _Case:
     names: Mapping[str, str]
     values: Mapping[str, float | str]
     starts: Mapping[str, tuple[str, int, float]]
+    is_endless: bool
 
     def at(self, dt: float) -> ImportDeviation:
         """Return the deviation at a length of steps (s)."""
@@ -124,7 +131,7 @@ class _Case:
             since = min(since, first)
             if place > worst:
                 worst, worst_actor, at = place, actor, when
-        time = abs(min(run.end, longest) - min(played.end, longest))
+        time = 0.0 if self.is_endless else abs(min(run.end, longest) - min(played.end, longest))
         return ImportDeviation(worst, worst_actor, at, since, time, late)
 
     def _played(self, dt: float, longest: float) -> Recording:

@@ -22,7 +22,7 @@ WITHOUT_MOTION = frozenset(
 )
 """Actions that move nothing."""
 
-UNUSED = frozenset({"ParameterDeclarations", "ObjectController"})
+UNUSED = frozenset({"ConstraintGroup", "ObjectController"})
 """Elements without a part in the motion, once parameters have their values."""
 
 DEFAULTS: Mapping[str, Mapping[str, str]] = {

@@ -6,7 +6,7 @@
 3. `cast`, `places`, `conditions` and `actions` (`speeds`, `offsets`, `routes`, `surroundings`): the
    parts of the storyboard, each by its table
 4. `steps`: events with their triggers; `structure`: the order of events as compositions, `waiting`
-   the triggers as waits, `starts` how actors begin, `whole` all together
+   the triggers as waits, `starts` how actors begin (`starting`: where), `whole` all together
 5. `declarations` and `program`: the text; `report`: how exactly it says what the document says
 
 `importer` runs them on one file, `distributions` turns values for runs into settings of campaigns.

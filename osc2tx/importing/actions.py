@@ -9,6 +9,7 @@ from osc2tx.importing.cursor import Node
 from osc2tx.importing.effects import Effect, Readings
 from osc2tx.importing.offsets import Offsets
 from osc2tx.importing.places import Places
+from osc2tx.importing.program import Statement
 from osc2tx.importing.routes import Routes
 from osc2tx.importing.speeds import Speeds
 from osc2tx.importing.surroundings import Surroundings
@@ -63,6 +64,10 @@ class Actions:
         except Unresolved as error:
             action.leave_out(error.reason)
         return found
+
+    def along_route(self, node: Node, said: str, actor: Actor) -> Statement | None:
+        """Return what takes an actor along the route that it is given in `Init`."""
+        return self._routes.assigned(node, said, actor)
 
     def _private(self, node: Node, said: str, actor: Actor, at_start: bool) -> Iterator[Effect]:
         match node.tag:

@@ -42,11 +42,13 @@ class Actor:
         name: Its name in the scenario.
         kind: `vehicle`, `person` or `movable_object`.
         is_under_test: Whether a controller drives it.
+        is_free: No bend lies ahead of its start: without an action it holds its speed.
     """
 
     name: str
     kind: str
     is_under_test: bool = False
+    is_free: bool = False
 
     @property
     def verb(self) -> str:

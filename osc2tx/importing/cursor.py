@@ -206,6 +206,10 @@ class Node:
             raise Unresolved(f"<{self.tag}> has no <{tag}>", self.place)
         return found
 
+    def other(self, element: Element) -> Node:
+        """Return another element of the document."""
+        return Node(element, self._ledger)
+
     @property
     def inner(self) -> Node:
         """The first thing in it.

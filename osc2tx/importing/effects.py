@@ -42,6 +42,7 @@ class Readings:
         places: Its places.
         actors: The actors, by their names in the document.
         lanes: The lanes in which actors are by now; `None`: not known.
+        offsets: The offsets (m) last commanded, to the left.
         speeds: The speeds last commanded; `None`: not known.
     """
 
@@ -49,6 +50,7 @@ class Readings:
     places: Places
     actors: Mapping[str, Actor]
     lanes: dict[str, int | None] = field(default_factory=dict)
+    offsets: dict[str, float] = field(default_factory=dict)
     speeds: dict[str, Quantity | None] = field(default_factory=dict)
 
 
@@ -58,6 +60,7 @@ class Reader:
     def __init__(self, readings: Readings) -> None:
         self._values, self._places, self._actors = readings.values, readings.places, readings.actors
         self._lanes, self._speeds = readings.lanes, readings.speeds
+        self._offsets = readings.offsets
 
 
 def of_dynamics(node: Node) -> Dimension:

@@ -17,11 +17,12 @@ from osc2tx.importing.names import Names, snake
 from osc2tx.importing.places import Places
 from osc2tx.importing.program import Program, comment_lines
 from osc2tx.importing.report import ImportReport
+from osc2tx.importing.starting import is_straight_ahead
 from osc2tx.importing.starts import Starts
 from osc2tx.importing.steps import BoardReader
 from osc2tx.importing.structure import Structure
 from osc2tx.importing.values import Parameter, Values
-from osc2tx.importing.whole import Whole
+from osc2tx.importing.whole import Whole, is_endless
 from osc2tx.xosc import Element, Unreadable, read
 from osc2tx.xosc.checking import problems, version_of
 from osc2tx.xosc.element import Unresolved
@@ -40,6 +41,7 @@ class Imported:
         document: What was read.
         parameters: The parameters by their names in the document.
         actors: The names of the actors by those in the document.
+        is_endless: Whether nothing ends the document.
         starts: Road, lane and s (m) at which the scenario puts actors first of all.
     """
 
@@ -49,6 +51,7 @@ class Imported:
     document: Document
     parameters: dict[str, Parameter]
     actors: dict[str, str]
+    is_endless: bool
     starts: dict[str, tuple[str, int, float]]
 
 
@@ -133,6 +136,8 @@ class _Import:
         actors = self._cast.actors
         kinds = {said: actor.name for said, actor in actors.items()}
         places = Places(self._document, self._values, self._names, kinds)
+        for said, actor in actors.items():
+            actor.is_free = is_straight_ahead(places.map, places.bodies.get(said))
         actions = Actions(self._values, places, actors, self._mark, self._emitted)
         conditions = Conditions(
             self._values, places, actors, self._mark, self._document.parameters.get
@@ -169,6 +174,7 @@ class _Import:
             self._document,
             parameters,
             kinds,
+            is_endless(board.end),
             inits.starts(places),
         )
 

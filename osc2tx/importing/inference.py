@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections.abc import Iterator
 
 from osc2tx.importing.dimensions import (
     ACCELERATION,
@@ -31,26 +31,21 @@ Votes = dict[str, set[Vote]]
 """What the uses of parameters say, by their names."""
 
 
-def votes_of(root: Element) -> Votes:
-    """Return what the attributes of a document say about its parameters."""
-    votes: Votes = defaultdict(set)
-    for node in root.walk():
-        _collect(node, votes)
-    return votes
+def uses_in(root: Element) -> list[tuple[Expression, Dimension]]:
+    """Return the expressions of attributes that the schema gives a dimension."""
+    return [each for node in root.walk() for each in _uses_at(node)]
 
 
-def _collect(node: Element, votes: Votes) -> None:
+def _uses_at(node: Element) -> Iterator[tuple[Expression, Dimension]]:
     if not any(text.startswith("$") for _, text in node.attributes):
         return
     parts = attributes_of(node.tag) if not node.tag.startswith("Parameter") else {}
     for name, text in node.attributes:
-        if not text.startswith("$") or name not in parts:
-            continue
-        dimension = dimension_of(node, name)
+        dimension = dimension_of(node, name) if text.startswith("$") and name in parts else None
         if dimension is None:
             continue
         try:
-            vote(parsed(text), dimension, False, votes)
+            yield parsed(text), dimension
         except Untyped:
             continue
 
@@ -88,15 +83,38 @@ def vote(
             _vote_in_product(node, dimension, is_hourly, votes)
 
 
-def _vote_in_product(
-    node: Operation,
-    dimension: Dimension,
-    is_hourly: bool,
-    votes: Votes,
-) -> None:
-    """A number times something is of its dimension, unless that is a speed by itself."""
+def _vote_in_product(node: Operation, dimension: Dimension, is_hourly: bool, votes: Votes) -> None:
+    """A number times something is of its dimension, unless that is a speed by itself.
+
+    Of two factors the one whose dimension is known says that of the other one.
+    """
+    left, right = known(node.left, votes), known(node.right, votes)
+    if left is None and right is not None:
+        vote(node.left, dimension / right if node.sign == "*" else dimension * right, False, votes)
+    elif right is None and left is not None:
+        vote(node.right, dimension / left if node.sign == "*" else left / dimension, False, votes)
     for side, other in ((node.left, node.right), (node.right, node.left)):
         if is_per_hour(side):
             vote(side, SPEED, False, votes)
         elif isinstance(other, Number) and (node.sign == "*" or side is node.left):
             vote(side, dimension, is_hourly, votes)
+
+
+def known(node: Expression, votes: Votes) -> Dimension | None:
+    """Return the dimension that votes give an expression; `None`: none, or several."""
+    if isinstance(node, Number):
+        return None
+    if isinstance(node, Name):
+        found = votes.get(node.name, set())
+        dimension, is_hourly = next(iter(found)) if len(found) == 1 else (None, False)
+        return None if is_hourly else dimension
+    if is_per_hour(node):
+        return SPEED
+    left, right = known(node.left, votes), known(node.right, votes)
+    if node.sign in "+-":
+        return right if left is None else left
+    if isinstance(node.right, Number):
+        return left
+    if left is None or right is None:
+        return right if isinstance(node.left, Number) and node.sign == "*" else None
+    return left * right if node.sign == "*" else left / right

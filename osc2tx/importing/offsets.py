@@ -58,6 +58,7 @@ class Offsets(Reader):
             sign = self._along(said)
             text = offset.text if sign > 0 else f"-{offset.within(PRODUCT)}"
             arguments.append(f"offset: {text}")
+        self._offsets[said] = offset.value * self._along(said)
         dynamics = node.one("LaneChangeActionDynamics")
         shape = dynamics.text("dynamicsShape") or "sinusoidal"
         dynamics.text("followingMode")
@@ -154,14 +155,18 @@ class Offsets(Reader):
         peak = self._values.nominal(dynamics, "maxLateralAcc", math.inf)
         continuous = (node.text("continuous") or "false").lower() in ("true", "1")
         body = self._places.bodies.get(said)
-        before = 0.0 if body is None or body.place is None else body.place.offset
-        change = abs(offset.value * self._along(said) - before)
+        at_start = 0.0 if body is None or body.place is None else body.place.offset
+        after = offset.value * self._along(said)
+        change = abs(after - self._offsets.get(said, at_start))
+        self._offsets[said] = after
         time = math.sqrt(SHIFT_FACTORS.get(shape, 0.0) * change / peak) if peak > 0.0 else 0.0
         if time <= 0.0 or shape == "step":
             node.approximate(
                 "how fast an offset without limits is reached is a matter of the world"
             )
             time = 1.0
+        elif offset.is_open:
+            node.approximate("the change takes as long as that of the nominal values")
         profile = PROFILES.get(shape, "smooth")
         lasting = literal(round(time, 6), TIME)
         call = f"follow_lane(offset: {text}, rate_profile: {profile}, duration: {lasting})"

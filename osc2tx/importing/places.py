@@ -7,23 +7,24 @@ language has no form for is computed where the reference is known: at the start.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import field
+from itertools import pairwise
 
 from osc2tx.importing.cast import bodies_of
 from osc2tx.importing.cursor import Node
-from osc2tx.importing.dimensions import ANGLE, LENGTH, Quantity, literal
+from osc2tx.importing.dimensions import ANGLE, LENGTH, PRODUCT, SUM, Quantity, literal
 from osc2tx.importing.document import Document
 from osc2tx.importing.names import Names
 from osc2tx.importing.program import declaration
+from osc2tx.importing.starting import STRAIGHT, privates, teleports, wrapped
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Element, Unresolved
 from osc2tx.xosc.player.bodies import Body, Pose, body_of
 from osc2tx.xosc.player.errors import Unplayable
-from osc2tx.xosc.player.places import place_of
+from osc2tx.xosc.player.places import place_of, waypoints
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap, read_map
 from osc2tx_shared.classes import dataclass
-
-STRAIGHT = 1e-4
 
 
 @dataclass
@@ -76,8 +77,8 @@ class Places:
             self.bodies[body.name] = body
         waiting = {
             private.get("entityRef") or "": teleport
-            for private in _privates(self._document.resolved)
-            for teleport in _teleports(private)
+            for private in privates(self._document.resolved)
+            for teleport in teleports(private)
         }
         for _ in range(len(waiting)):
             for name, position in list(waiting.items()):
@@ -128,6 +129,8 @@ class Places:
             return self._road(inner)
         if inner.tag == "RelativeLanePosition":
             found = self._beside(inner, name, at_start)
+            if found is None and at_start:
+                found = self._beside_in_road(inner)
             if found is not None:
                 return found
         if inner.tag == "WorldPosition" or at_start:
@@ -168,7 +171,7 @@ class Places:
                 orientation.approximate(f"{name} is that of the road here")
         h = self._values.nominal(orientation, "h")
         turned = h - of_lane if kind == "relative" else h - road - of_lane
-        turned = _wrapped(turned)
+        turned = wrapped(turned)
         if abs(turned) < STRAIGHT:
             return ""
         return f"yaw({literal(round(turned, 9), ANGLE)})"
@@ -231,6 +234,45 @@ class Places:
             f"position({ahead.text}, {side}: {reference})",
         ]
         return Spot(modifiers=modifiers)
+
+    def _beside_in_road(self, node: Node) -> Spot | None:
+        """Return a place on the road of another actor, whose own place says where that is."""
+        said = node.said("entityRef")
+        body, found = self.bodies.get(said), self._static_of(node)
+        start = next(
+            (
+                position.inner
+                for private in privates(self._document.root)
+                if private.get("entityRef") == said
+                for position in teleports(private)
+            ),
+            None,
+        )
+        if body is None or body.place is None or found is None or start is None:
+            return None
+        place, own = found[0], body.place
+        if not isinstance(place, LanePosition) or start.tag != "LanePosition":
+            return None
+        assert self.map is not None
+        s = self._values.quantity(node.other(start), "s", LENGTH)
+        along = "dsLane" if node.has("dsLane") else "ds"
+        ahead = self._values.quantity(node, along, LENGTH)
+        direction = self.map.travel_direction(own.road, own.lane) * body.along
+        sign = 1 if along == "ds" else direction
+        if place.road != own.road or abs(s.value + sign * ahead.value - place.s) > 1e-6:
+            return None
+        if (node.text("dLane") or "0").startswith("$"):
+            node.approximate(f"dLane keeps the nominal value of `{node.text('dLane')}`")
+        offset = self._values.quantity(node, "offset", LENGTH)
+        t = offset.text if direction > 0 else f"-{offset.within(PRODUCT)}"
+        way = f"{s.within(SUM)} {'+' if sign > 0 else '-'} {ahead.within(PRODUCT)}"
+        if not (s.is_open or ahead.is_open):
+            way = literal(place.s, LENGTH)
+        heading = found[1]
+        return Spot(
+            _odr_point(place.road, str(place.lane), way, t),
+            yaw="" if heading is None else _absolute(heading),
+        )
 
     def _beside_lane(self, node: Node, reference: str, lanes: int) -> str:
         text = node.text("dLane") or "0"
@@ -296,6 +338,39 @@ class Places:
         self.lines += declaration(made, "pose_3d", told)
         return made
 
+    def stops_of(self, route: Node) -> list[LanePosition]:
+        """Return the waypoints of a route in lanes; none if they are not known."""
+        try:
+            assert self.map is not None
+            return waypoints(self._document._resolve(route.element), self.bodies, self.map)
+        except (Unplayable, Unresolved, MapError, ValueError, LookupError, AssertionError):
+            return []
+
+    def is_way(self, stops: Sequence[LanePosition]) -> bool:
+        """Whether a lane leads from each place to the next one."""
+        road_map = self.map
+        if road_map is None:
+            return False
+        ways = (road_map.route_distance(a, b) for a, b in pairwise(stops))
+        return all(way is not None and way > 0.0 for way in ways)
+
+    def leads_on(self, start: LanePosition, goal: LanePosition) -> bool:
+        """Whether a lane leads to a place without a choice of branches."""
+        assert self.map is not None
+        length = self.map.route_distance(start, goal)
+        there = self.map.advance(start, length or 0.0).position
+        return there[:2] == goal[:2] and abs(there.s - goal.s) < 1.0
+
+    def way(self, stops: Sequence[LanePosition], name: str) -> str:
+        """Return the name of a route for an actor."""
+        made = self._names.new("", kind="route", base=f"{name}_way")
+        points = ", ".join(
+            _odr_point(each.road, str(each.lane), literal(each.s, LENGTH), "0m").partition(": ")[2]
+            for each in stops
+        )
+        self.lines.append(f"{made}: route = road.create_route([{points}])")
+        return made
+
     def coordinates(self, position: Node) -> tuple[float, float] | None:
         """Return where a place is in the world, if that is known."""
         found = self._static_of(position.inner)
@@ -318,28 +393,4 @@ def _odr_point(road: str, lane: str, s: str, t: str) -> str:
 
 
 def _absolute(h: float) -> str:
-    return f"orientation(yaw: {literal(round(_wrapped(h), 9), ANGLE)}, measure_by: absolute)"
-
-
-def _wrapped(angle: float) -> float:
-    return math.atan2(math.sin(angle), math.cos(angle))
-
-
-def _privates(root: Element) -> list[Element]:
-    board = next((each for each in root.children if each.tag == "Storyboard"), None)
-    init = (
-        None
-        if board is None
-        else next((each for each in board.children if each.tag == "Init"), None)
-    )
-    return [] if init is None else [node for node in init.walk() if node.tag == "Private"]
-
-
-def _teleports(private: Element) -> list[Element]:
-    return [
-        position
-        for action in private.walk()
-        if action.tag == "TeleportAction"
-        for position in action.children
-        if position.tag == "Position"
-    ][-1:]
+    return f"orientation(yaw: {literal(round(wrapped(h), 9), ANGLE)}, measure_by: absolute)"

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import SPEED, TIME, literal
-from osc2tx.importing.effects import BOTH, LONGITUDINAL, Effect, Reader
+from osc2tx.importing.effects import BOTH, LATERAL, LONGITUDINAL, Effect, Reader
 from osc2tx.importing.places import Spot
 from osc2tx.importing.program import Statement
 
@@ -19,6 +19,7 @@ class Routes(Reader):
         """Return what a teleport in the run does."""
         spot = self._places.spot(node.one("Position"), actor.name, at_start=False)
         self._lanes[said] = None
+        self._offsets[said] = 0.0
         if spot is not None:
             if spot.yaw:
                 node.approximate("it looks along its lane")
@@ -31,10 +32,28 @@ class Routes(Reader):
         statement = Statement(call, modifiers=list(spot.modifiers), length=0.0)
         yield Effect(statement, actor.name, BOTH)
 
+    def assigned(self, node: Node, said: str, actor: Actor) -> Statement | None:
+        """Return what takes an actor along a route."""
+        stops = self._places.stops_of(node)
+        body = self._places.bodies.get(said)
+        if body is not None and body.place is not None:
+            stops = [body.place, *stops]
+        stops = [*stops[:1], *stops[-1:]]  # it takes the shortest way to the last one
+        if len(stops) != 2 or not self._places.is_way(stops):
+            node.leave_out("no way along lanes leads to the end of the route")
+            return None
+        node.use_all()
+        if self._places.leads_on(*stops):
+            return None  # it goes there by itself
+        way = self._places.way(stops, actor.name)
+        return Statement(f"{actor.verb}()", modifiers=[f"along({way})"])
+
     def effects(self, node: Node, said: str, actor: Actor) -> Iterator[Effect]:
         """Return what a routing action does."""
         if node.tag == "AssignRouteAction":
-            node.leave_out("routes are not imported yet: the actor goes on along its road")
+            statement = self.assigned(node, said, actor)
+            if statement is not None:
+                yield Effect(statement, actor.name, frozenset((LATERAL,)))
             return
         if node.tag == "AcquirePositionAction":
             spot = self._places.spot(node.one("Position"), actor.name, at_start=False)

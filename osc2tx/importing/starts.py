@@ -14,6 +14,8 @@ from osc2tx.importing.routes import Routes
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Unresolved
 
+ROOM = 30.0  # m: so far apart are actors that do not touch
+
 
 class Starts:
     """How the actors of a document begin.
@@ -30,6 +32,7 @@ class Starts:
         self.world: list[Statement] = []
         self._spots: dict[str, tuple[Spot, Node]] = {}
         self._speeds: dict[str, Statement] = {}
+        self._ways: dict[str, Statement] = {}
         self._others: dict[str, list[Statement]] = {}
         self._references: dict[str, set[str]] = {}
         init = storyboard.find("Init")
@@ -66,6 +69,11 @@ class Starts:
                     spot = None
                 if spot is not None:
                     self._spots[said] = (spot, inner)
+                continue
+            if inner.tag == "RoutingAction" and inner.inner.tag == "AssignRouteAction":
+                way = self._actions.along_route(inner.inner, said, actor)
+                if way is not None:
+                    self._ways[said] = way
                 continue
             for effect in self._actions.effects(action, (said,), at_start=True):
                 if effect.statement.text.startswith(f"{actor.name}.assign_speed("):
@@ -109,17 +117,23 @@ class Starts:
         return said in self._spots or bool(self._others.get(said))
 
     def starts(self, places: Places) -> dict[str, tuple[str, int, float]]:
-        """Return the lanes in which actors are put, with the s (m) along their roads."""
+        """Return the lanes in which actors are put, with the s (m) along their roads.
+
+        Of those that would be too near to others only the first one counts.
+        """
         found = {
             said: places.bodies[said].place
             for said, (spot, _) in self._spots.items()
             if said in places.bodies and spot.argument.startswith("odr_point")
         }
-        return {
-            self._cast.actors[said].name: (place.road, place.lane, place.s)
-            for said, place in found.items()
-            if place is not None
-        }
+        taken: dict[str, tuple[str, int, float]] = {}
+        for said, place in found.items():
+            if place is None:
+                continue
+            near = (s for road, _, s in taken.values() if road == place.road)
+            if all(abs(s - place.s) > ROOM for s in near):
+                taken[self._cast.actors[said].name] = (place.road, place.lane, place.s)
+        return taken
 
     def turns_alone(self, said: str) -> bool:
         """Whether an entity has a heading of its own, and no other one begins beside it."""
@@ -137,8 +151,7 @@ class Starts:
         if self._is_at_point(said) and not self._others.get(said):
             modifiers = self._on_foot(said)
             return [Statement(f"{actor.verb}()", modifiers=modifiers, length=math.inf)]
-        last = Statement(actor.goes_on, length=math.inf)
-        return [*self.statements(said), *(self.lasting(said) or [last])]
+        return [*self.statements(said), *(self.lasting(said) or self.going(said))]
 
     def statements(self, said: str, then: list[Statement] | None = None) -> list[Statement]:
         """Return how an actor begins, at once.
@@ -154,27 +167,45 @@ class Starts:
             if self._is_at_point(said):
                 modifiers = self._on_foot(said)
                 return [Statement(f"{actor.verb}()", modifiers=modifiers, length=math.inf)]
-            last = Statement(actor.goes_on, length=math.inf)
-            return [*self.statements(said), last]
+            return [*self.statements(said), *self.going(said)]
         found: list[Statement] = []
-        if said in self._spots:
+        at_once = [each for each in others if each.length == 0.0]
+        is_moved = any(".assign_position(" in each.text for each in at_once)
+        if said in self._spots and not is_moved:
             spot, node = self._spots[said]
             if spot.yaw:
                 node.approximate("it looks along its lane at the start")
             found += [each.statement for each in Routes.moved(spot, actor)]
         if said in self._speeds:
             found.append(self._speeds[said])
-        return [*found, *(each for each in others if each.length == 0.0)]
+        return [*found, *at_once]
+
+    def ways(self) -> list[Statement]:
+        """Return what takes entities along routes from the start on."""
+        return list(self._ways.values())
+
+    def has_way(self, said: str) -> bool:
+        """Whether an entity has a route from the start on."""
+        return said in self._ways
 
     def lasting(self, said: str) -> list[Statement]:
         """Return what an entity does from the start on, and goes on with."""
         others = [each for each in self._others.get(said, []) if each.length != 0.0]
         if not others:
             return []
-        last = Statement(self._cast.actors[said].goes_on, length=math.inf)
-        found = composed("serial", [*others, last])
-        found.length = math.inf
+        last = self.going(said)
+        found = composed("serial", [*others, *last])
+        found.length = math.inf if last else found.length
         return [found]
+
+    def going(self, said: str) -> list[Statement]:
+        """Return what lets an entity go on as it does where it would not do so by itself."""
+        actor = self._cast.actors[said]
+        return (
+            []
+            if actor.is_free or said in self._ways
+            else [Statement(actor.goes_on, length=math.inf)]
+        )
 
 
 def _at_start(modifier: str) -> str:

@@ -8,6 +8,7 @@ is a plain number, which gets its unit where it is used.
 from __future__ import annotations
 
 import re
+from collections import defaultdict
 from math import isfinite
 
 from osc2tx.importing.cursor import Node
@@ -35,7 +36,7 @@ from osc2tx.importing.expressions import (
     names_in,
     parsed,
 )
-from osc2tx.importing.inference import vote, votes_of
+from osc2tx.importing.inference import Votes, uses_in, vote
 from osc2tx.importing.names import Names, snake
 from osc2tx.xosc.element import Unresolved
 from osc2tx_shared.classes import dataclass
@@ -102,7 +103,17 @@ class Values:
     # --- inference --------------------------------------------------------------------------------
 
     def _infer(self) -> None:
-        votes = votes_of(self._document.root)
+        uses = uses_in(self._document.root)
+        votes: Votes = defaultdict(set)
+        before = -1
+        while (count := sum(map(len, votes.values()))) > before:
+            before = count
+            for expression, dimension in uses:
+                vote(expression, dimension, False, votes)
+            self._take(votes)
+
+    def _take(self, votes: Votes) -> None:
+        """Take what votes say, and let the expressions of parameters vote for others."""
         for said, parameter in reversed(self.parameters.items()):
             found = votes[said]
             if len(found) == 1 and parameter.kind == "double":

@@ -44,7 +44,9 @@ class Whole:
             actor = self._cast.actors[said]
             mine = by_name[actor.name]
             is_alone = not mine or (len(mine) == 1 and id(mine[0]) in single)
-            stays = is_alone and (not together or inits.turns_alone(said))
+            stays = (
+                is_alone and not inits.has_way(said) and (not together or inits.turns_alone(said))
+            )
             if actor.kind != "movable_object" and stays:
                 continue
             leading += inits.statements(said)
@@ -54,9 +56,15 @@ class Whole:
             if by_name[actor.name] or actor.kind == "movable_object" or not inits.places(said):
                 continue
             if said in placed:
-                members += inits.lasting(said) or structure.go_on([actor.name])
-            else:
-                members.append(composed("serial", inits.going_on(said)))
+                members += inits.lasting(said) or inits.going(said)
+            elif going_on := inits.going_on(said):
+                if all(each.length == 0.0 for each in going_on):
+                    leading += going_on
+                else:
+                    members.append(composed("serial", going_on))
+        ways = inits.ways()
+        members += ways
+        is_open = not ways
         for branch in branches:
             branch_said = [said for said, actor in actors if by_name[actor.name] == [branch]]
             own = [
@@ -67,9 +75,14 @@ class Whole:
             if branch.members and branch.members[0].text.startswith("wait "):
                 lasting = [each for said in branch_said for each in inits.lasting(said)]
                 content = [*before, *lasting, *branch.members]
-            alone = [actor.name for _, actor in actors if by_name[actor.name] == [branch]]
-            if content:
-                content += structure.go_on(alone) if content[-1].length != math.inf else ()
+            last = [
+                each
+                for said, actor in actors
+                if by_name[actor.name] == [branch]
+                for each in inits.going(said)
+            ]
+            if content and content[-1].length != math.inf and last:
+                content.append(composed("parallel", last))
             is_open = is_open and content[-1:] != [] and content[-1].length == math.inf
             if content:
                 members.append(composed("serial", content))
@@ -87,9 +100,8 @@ class Whole:
         is_open: bool,
         branches: Sequence[Branch],
     ) -> Statement:
-        never = all(any(each.kind == "never" for each in group) for group in end.groups)
         endings: list[str] = []
-        if not end.groups or never:
+        if is_endless(end):
             self._report.add(
                 "approximated",
                 "<StopTrigger>",
@@ -97,7 +109,7 @@ class Whole:
                 self._document.root.place,
             )
             endings.append(f"elapsed({LONGEST})")
-        for group in end.groups if not never else ():
+        for group in () if is_endless(end) else end.groups:
             waits = structure.waits(Trigger([group]))
             if not waits:
                 endings.append("elapsed(0s)")
@@ -108,12 +120,31 @@ class Whole:
                 structure.lines.append(f"event {name}")
                 members.append(composed("serial", [*waits, Statement(f"emit {name}")]))
                 endings.append(f"@{name}")
-        if not is_open or not members:
-            if len(endings) == 1 and endings[0].startswith("elapsed("):
-                members.append(wait(endings[0]))
-            else:
-                structure.lines.append("event forever")
-                members.append(wait("@forever"))
-        whole = Statement("parallel", members=members)
-        whole.modifiers = [f"until {each}" for each in endings]
+        if members and not is_open and len(endings) > 1:
+            structure.lines.append("event forever")
+            members.append(wait("@forever"))
+            is_open = True
+        whole = _until(members, endings, is_open=is_open)
         return composed("serial", [*leading, whole]) if leading else whole
+
+
+def is_endless(end: Trigger) -> bool:
+    """Whether a trigger of the end is never met."""
+    return all(any(each.kind == "never" for each in group) for group in end.groups)
+
+
+def _until(members: list[Statement], endings: Sequence[str], *, is_open: bool) -> Statement:
+    """Return members side by side that end when one of some conditions is met.
+
+    Args:
+        members: What happens.
+        endings: The conditions.
+        is_open: Whether the members go on until then by themselves.
+    """
+    if not members:
+        return composed("one_of", [wait(each) for each in endings])
+    if not is_open:
+        members = [*members, wait(endings[0])]
+    whole = Statement("parallel", members=members)
+    whole.modifiers = [f"until {each}" for each in endings]
+    return whole

@@ -19,16 +19,22 @@ DEEPEST = 50
 
 _FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
     "abs": (1, abs),
+    "acos": (1, math.acos),
+    "asin": (1, math.asin),
+    "atan": (1, math.atan),
     "ceil": (1, math.ceil),
+    "cos": (1, math.cos),
     "floor": (1, math.floor),
     "max": (2, max),
     "min": (2, min),
     "pow": (2, math.pow),
     "round": (1, lambda value: math.floor(value + 0.5)),
     "sign": (1, lambda value: (value > 0.0) - (value < 0.0)),
+    "sin": (1, math.sin),
     "sqrt": (1, math.sqrt),
+    "tan": (1, math.tan),
 }
-"""Number of operands, and what is computed from them."""
+"""Number of operands, and what is computed from them; no version has those of angles, tools do."""
 
 CONSTANTS: Mapping[str, float] = {"pi": math.pi}
 """Names that no version has, and that tools and libraries take for numbers."""

@@ -8,7 +8,7 @@ from osc2tx.xosc import read
 from osc2tx.xosc.arithmetic import evaluated
 from osc2tx.xosc.element import Unresolved
 from osc2tx.xosc.player import Evaluator, Unplayable, map_of
-from osc2tx_runtime.opendrive import read_map
+from osc2tx_runtime.opendrive import LanePosition, read_map
 from osc2tx_shared.map_files import SHIPPED
 
 GENERATED = Path(__file__).parents[2] / "generated"
@@ -25,7 +25,7 @@ CYCLE = (
     [
         ('maximumExecutionCount="1">', 'maximumExecutionCount="2">', "repeated is not played"),
         ("</RoadNetwork>", CYCLE, "cycle that takes no time"),
-        ("LanePosition", "RoutePosition", "<RoutePosition> is not played"),
+        ("LanePosition", "TrajectoryPosition", "<TrajectoryPosition> is not played"),
     ],
 )
 def test_what_is_not_played_is_refused_with_a_reason(before: str, after: str, reason: str) -> None:
@@ -60,6 +60,8 @@ def test_equal_elements_are_two() -> None:
         ("${-$a / 2 + 1}", -0.5),
         ("${pow($a, 2) % 5 + max(round(2.5), 1)}", 7.0),
         ("${1e1 - .5}", 9.5),
+        ("${sin(pi / 2) + cos(0)}", 2.0),
+        ("${acos(2)}", None),
         ("${$a / 0}", None),
         ("${sqrt(-1)}", None),
         ("${pow(9e99, 9e99)}", None),
@@ -86,3 +88,41 @@ def test_expressions_are_computed_not_run(text: str, value: float | None) -> Non
 )
 def test_what_is_no_expression_has_no_value(text: str) -> None:
     assert evaluated(text, {"a": 3.0}) is None
+
+
+ROUTE = """<RoutePosition><RouteRef><Route name="r" closed="false">
+<Waypoint routeStrategy="shortest"><Position>
+<LanePosition roadId="1" laneId="-2" s="100"/></Position></Waypoint>
+<Waypoint routeStrategy="shortest"><Position>
+<LanePosition roadId="1" laneId="-2" s="400"/></Position></Waypoint></Route></RouteRef>
+<InRoutePosition>{}</InRoutePosition></RoutePosition>"""
+
+
+@pytest.mark.parametrize(
+    "position",
+    [
+        '<FromLaneCoordinates pathS="100" laneId="-3"/>',
+        '<FromRoadCoordinates pathS="100" t="{t}"/>',
+    ],
+)
+def test_a_place_on_a_route(position: str) -> None:
+    """It counts from the first waypoint on."""
+    at = MAP.pose(LanePosition("1", -3, 200.0))
+    start, end = TEXT.index("<LanePosition"), TEXT.index("/>", TEXT.index("<LanePosition")) + 2
+    told = ROUTE.format(position.format(t=at.y - MAP.road_pose("1", 200.0, 0.0).y))
+    evaluator = Evaluator(TEXT[:start] + told + TEXT[end:], MAP, 0.05)
+    placed = next(body.here for body in evaluator.bodies.values() if body.pose is not None)
+    assert placed[:2] == pytest.approx((at.x, at.y))
+
+
+def test_at_the_end_of_its_road_an_entity_has_no_track() -> None:
+    evaluator = Evaluator(TEXT, MAP, 0.05)
+    body = next(iter(evaluator.bodies.values()))
+    body.v = 50.0
+    while not body.is_at_end:
+        body.move(MAP, 50.0, None, 1.0)
+    body.note_motion(body.here, 1.0)
+    body.note_motion(body.here, 1.0)
+    assert (body.v, body.beyond) == (0.0, 2.0)
+    evaluator.play(1.0)
+    assert evaluator.track[body.name] == []

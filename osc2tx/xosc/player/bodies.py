@@ -50,6 +50,8 @@ class Body:
         actions: At work, by domain.
         driven: Metres since the start.
         stood: Seconds for which it has been standing.
+        is_at_end: Its road has ended.
+        beyond: Seconds since then.
         behind: Which body tows it, with the metres from that one's reference point back to the
             hitch, and from the coupler to its own reference point.
     """
@@ -72,6 +74,8 @@ class Body:
     actions: dict[str, Running] = field(default_factory=dict)
     driven: float = 0.0
     stood: float = 0.0
+    is_at_end: bool = False
+    beyond: float = 0.0
     behind: tuple[Body, float, float] | None = None
 
     @property
@@ -112,7 +116,7 @@ class Body:
             place: On a lane, or anywhere: then it is on a lane where that one lies below it.
             turned: Its heading (rad) in the world; `None`: that of the place.
         """
-        self.behind = None
+        self.behind, self.is_at_end = None, False
         if isinstance(place, LanePosition):
             pose = road_map.pose(place)
             self.pose, self.place = Pose(pose.x, pose.y, pose.h), place
@@ -150,7 +154,7 @@ class Body:
         if left > 1e-6:  # of the end of a road the standard says nothing: it stands behind it
             onward = math.copysign(left, way)
             x, y = pose.x + onward * math.cos(h), pose.y + onward * math.sin(h)
-            self.pose, self.v = Pose(x, y, h), 0.0
+            self.pose, self.v, self.is_at_end = Pose(x, y, h), 0.0, True
 
     def note_motion(self, before: Pose, dt: float) -> None:
         """Take down velocity and lateral acceleration over a step."""
@@ -159,6 +163,7 @@ class Body:
         ax, ay = (vx - self.velocity[0]) / dt, (vy - self.velocity[1]) / dt
         self.driven += abs(self.v) * dt
         self.stood = self.stood + dt if abs(self.v) < STANDING else 0.0
+        self.beyond = self.beyond + dt if self.is_at_end else 0.0
         self.velocity, self.swing = (vx, vy), ay * math.cos(h) - ax * math.sin(h)
 
     def trail(self) -> None:

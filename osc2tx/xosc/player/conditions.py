@@ -246,6 +246,8 @@ class Conditions:
 def _test_of_variable(node: Element, world: World) -> Test:
     """Return the test of a variable: texts are equal or not, numbers compare."""
     name, rule, value = _variable(node), node.said("rule"), node.said("value")
+    if name not in world.variables:  # documents of others ask for what is not there
+        return lambda: False
     if rule in ("equalTo", "notEqualTo"):
         return lambda: (world.variables[name] == value) is (rule == "equalTo")
     holds, bound = RULES[rule], float(value)

@@ -91,6 +91,9 @@ def _test_of(body: Body, node: Element, world: World) -> Test:
         case "StandStillCondition":
             least = number(node, "duration") - 1e-9
             return lambda: abs(body.v) < STANDING and body.stood >= least
+        case "EndOfRoadCondition":
+            longest = number(node, "duration") - 1e-9
+            return lambda: body.is_at_end and body.beyond >= longest
         case "TraveledDistanceCondition":
             way_driven = number(node, "value") - 1e-9
             return lambda: body.driven >= way_driven

@@ -44,6 +44,8 @@ def place_of(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> Pl
             where = _flat(road_map.road_pose(lane_.road, lane_.s + number(node, "ds"), t))
         case "RelativeLanePosition":
             where = _beside(node, bodies[node.said("entityRef")], road_map)
+        case "RoutePosition":
+            where = _on_route(node, bodies, road_map)
         case "GeoPosition":
             latitude, longitude = (_degrees(node, name) for name in ("latitude", "longitude"))
             where = Pose(*road_map.geo_reference.project(latitude, longitude), 0.0)
@@ -107,6 +109,50 @@ def _beside(node: Element, body: Body, road_map: RoadMap) -> LanePosition:
         * direction
         * road_map.travel_direction(ahead.road, ahead.lane)
     )
+
+
+IN_ROUTES = ("FromLaneCoordinates", "PositionInLaneCoordinates")
+"""A place in a lane of a route, in 1.0 and since 1.1."""
+
+
+def waypoints(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> list[LanePosition]:
+    """Return the places that a route leads along, in lanes.
+
+    Raises:
+        Unplayable: A place is in none.
+    """
+    found = []
+    for waypoint in node.below(xml.Waypoint):
+        where, _ = place_of(waypoint.one(xml.Position).inner, bodies, road_map)
+        if isinstance(where, Pose):
+            lane = road_map.locate(where.x, where.y)
+            if lane is None:
+                raise Unplayable("the route leads to no lane", waypoint.place)
+            where = lane
+        found.append(where)
+    return found
+
+
+def _on_route(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> LanePosition | Pose:
+    """Return a place by the metres along a route."""
+    route, position = node.children[0], node.children[-1].inner
+    if position.get("entityRef") is not None:
+        return bodies[position.said("entityRef")].here
+    stops = waypoints(route, bodies, road_map)
+    at, left = stops[0], number(position, "pathS")
+    for goal in stops[1:]:
+        length = road_map.route_distance(at, goal)
+        if length is None:
+            raise Unplayable("there is no way between points of a route", node.place)
+        if left <= length or goal is stops[-1]:
+            at = road_map.advance(at, left, road_map.route_to(goal)).position
+            break
+        at, left = goal, left - length
+    if position.tag in IN_ROUTES:
+        lane = int(number(position, "laneId", at.lane))
+        offset = number(position, "laneOffset") * road_map.travel_direction(at.road, lane)
+        return LanePosition(at.road, lane, at.s, offset)
+    return _flat(road_map.road_pose(at.road, at.s, number(position, "t")))
 
 
 def beside(road_map: RoadMap, from_: LanePosition, along: int, count: int) -> LanePosition:

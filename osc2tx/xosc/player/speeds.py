@@ -40,6 +40,8 @@ class Speeds:
                 return self._profile(body, node)
             case "LongitudinalDistanceAction":
                 side = self._scene.side(body, node, "longitudinal")
+                if node.find(xml.DynamicConstraints) is None and node.get("continuous") != "true":
+                    return self._at_once(body, node, side)
                 return Running(body, (LONGITUDINAL,), self._scene.time, None, gap=node, side=side)
         raise Unplayable(f"<{node.tag}> is not played", node.place)
 
@@ -51,14 +53,15 @@ class Speeds:
         shape, dimension = dynamics.said("dynamicsShape"), dynamics.said("dynamicsDimension")
         value, change = number(dynamics, "value"), abs(end - body.v)
         peak = {"linear": 1.0, "cubic": 1.5, "sinusoidal": math.pi / 2, "step": 0.0}[shape]
+        time = math.inf if change else 0.0  # at a rate of 0 it never gets there
         match dimension:
             case "time":
                 time = value
-            case "rate":
+            case "rate" if value:
                 time = peak * change / value
             case "distance":  # the mean of all these shapes lies in the middle
                 time = 2.0 * value / (body.v + end)
-        if shape == "step":
+        if shape == "step" or (dimension != "rate" and value == 0.0):
             time = 0.0
         else:  # a tool may hold it to what the vehicle can do
             limit = body.limits["maxAcceleration" if end > body.v else "maxDeceleration"]
@@ -144,8 +147,7 @@ class Speeds:
         if limits is None and node.get("continuous") == "true":
             time = number(node, "timeGap")
             return self._possible(body, self._rigid(body, leader, gap, time, is_behind=is_behind))
-        if node.get("freespace") == "true":
-            wanted += body.front + leader.rear if is_behind else body.rear + leader.front
+        wanted += self._between_ends(body, leader, node, is_behind=is_behind)
         error = gap - run.side * wanted
         low, high = (
             math.inf if limits is None else number(limits, name, math.inf)
@@ -158,6 +160,24 @@ class Speeds:
         fastest = math.inf if limits is None else number(limits, "maxSpeed", math.inf)
         wanted = body.v + min(max(rate, -low), high) * self._scene.dt
         return self._possible(body, _within(wanted, fastest))
+
+    def _at_once(self, body: Body, node: Element, side: int) -> Running:
+        """Put an entity where it has its distance: nothing limits how it gets there."""
+        scene = self._scene
+        leader, is_behind = scene.bodies[node.said("entityRef")], side > 0
+        wanted = number(node, "distance")
+        if node.get("timeGap") is not None:
+            wanted = number(node, "timeGap") * (body.v if is_behind else leader.v)
+        wanted += self._between_ends(body, leader, node, is_behind=is_behind)
+        body.move(scene.map, scene.gap(body, node, "longitudinal") - side * wanted, None, scene.dt)
+        return Running(body, (LONGITUDINAL,), scene.time, 0.0)
+
+    @staticmethod
+    def _between_ends(body: Body, leader: Body, node: Element, *, is_behind: bool) -> float:
+        """Return the metres between reference points that boxes take, if the space counts."""
+        if node.get("freespace") != "true":
+            return 0.0
+        return body.front + leader.rear if is_behind else body.rear + leader.front
 
     def _possible(self, body: Body, speed: float) -> float:
         """Return the speed nearest to one that the performance of a body lets it reach."""

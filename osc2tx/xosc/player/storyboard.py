@@ -75,6 +75,12 @@ class Evaluator:
         self.counts: dict[int, int] = {}
         self.started_at: dict[int, int] = {}
         self.work: dict[int, list[Running]] = {}
+        self._event_of = {
+            id(action): event
+            for event in self.root.below(xml.Event)
+            for action in event.all(xml.Action)
+        }
+        self._runs: dict[int, list[Running]] = {}
         self.starts: dict[str, float] = {}
         self.track: dict[str, list[Row]] = {name: [] for name in self.bodies}
         self.conditions = Conditions(self, dt, reading)
@@ -133,7 +139,8 @@ class Evaluator:
         """Play to the end; return when that is (s), infinite if it is not over in time."""
         while self.time < most:
             for name, body in self.bodies.items():
-                if body.pose is not None:
+                # of the end of a road the standard says nothing
+                if body.pose is not None and not body.is_at_end:
                     self.track[name].append((self.time, *body.here[:2], body.v))
             self.transitions.clear()
             self._run_cycles()
@@ -155,13 +162,22 @@ class Evaluator:
     def is_in(self, element: Element, state: str) -> bool:
         """Whether an element is in a state, or just in a transition."""
         if state.endswith("Transition"):
-            return (id(element), state) in self.transitions
+            event = self._event_of.get(id(element), element)  # an action ends with its event
+            return (id(event), state) in self.transitions
         if isinstance(element, xml.Event | xml.Act):
             return self._state(element) == state
+        if isinstance(element, xml.Action):
+            return self._state_of_action(element) == state
         inner = {self._state(event) for event in element.below(xml.Event)}
         if inner == {"completeState"}:
             return state == "completeState"
         return state == ("standbyState" if inner == {"standbyState"} else "runningState")
+
+    def _state_of_action(self, action: xml.Action) -> str:
+        runs = self._runs.get(id(action))
+        if runs is None:
+            return "standbyState"
+        return "completeState" if all(run.done for run in runs) else "runningState"
 
     def _state(self, element: Element) -> str:
         return self.states.get(id(element), "standbyState")
@@ -263,9 +279,10 @@ class Evaluator:
                 self._break_off(each)
         self._enter(event, "runningState", "startTransition")
         self.starts.setdefault(event.name, self.time)
-        self.work[id(event)] = [
-            run for action in event.all(xml.Action) for run in self._begin(action, group)
-        ]
+        self.work[id(event)] = []
+        for action in event.all(xml.Action):
+            runs = self._runs[id(action)] = list(self._begin(action, group))
+            self.work[id(event)] += runs
         return True
 
     def _begin(self, action: xml.Action, group: xml.ManeuverGroup) -> Iterator[Running]:

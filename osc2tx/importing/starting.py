@@ -1,0 +1,63 @@
+"""Where the entities of a document begin, and what lies ahead of them."""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx.xosc.element import Element
+from osc2tx.xosc.player.bodies import Body
+from osc2tx_runtime.opendrive import MapError, RoadMap
+
+STRAIGHT = 1e-4  # rad
+LOOK, MOST_LOOKS = 10.0, 300  # m: how a lane is looked along
+
+
+def privates(root: Element) -> list[Element]:
+    """Return the actions of `Init`, by entity."""
+    board = next((each for each in root.children if each.tag == "Storyboard"), None)
+    init = (
+        None
+        if board is None
+        else next((each for each in board.children if each.tag == "Init"), None)
+    )
+    return [] if init is None else [node for node in init.walk() if node.tag == "Private"]
+
+
+def teleports(private: Element) -> list[Element]:
+    """Return the place at which an entity is put, if it is."""
+    return [
+        position
+        for action in private.walk()
+        if action.tag == "TeleportAction"
+        for position in action.children
+        if position.tag == "Position"
+    ][-1:]
+
+
+def is_ahead(body: Body, other: Body) -> bool:
+    """Whether an entity begins ahead of another one."""
+    (x, y, h), there = other.here, body.here
+    return (there.x - x) * math.cos(h) + (there.y - y) * math.sin(h) > 0.0
+
+
+def is_straight_ahead(road_map: RoadMap | None, body: Body | None) -> bool:
+    """Whether the lane of an entity leads straight on from its place at the start."""
+    if road_map is None or body is None or body.place is None:
+        return False
+    try:
+        place, heading = body.place, road_map.pose(body.place).h
+        for _ in range(MOST_LOOKS):
+            ahead = road_map.advance(place, LOOK * body.along)
+            place = ahead.position
+            if abs(wrapped(road_map.pose(place).h - heading)) > STRAIGHT:
+                return False
+            if abs(ahead.travelled) < LOOK:
+                return True
+    except (MapError, LookupError):
+        return False
+    return True
+
+
+def wrapped(angle: float) -> float:
+    """Return an angle (rad) between -pi and pi."""
+    return math.atan2(math.sin(angle), math.cos(angle))
