@@ -19,7 +19,13 @@ from osc2tx.compilation.file_reports import LossEntry, apply_suppressions
 from osc2tx.compilation.imports import ImportLoader, Lookup, leads_outside, look_up
 from osc2tx.compilation.inputs import is_unicode
 from osc2tx.compilation.map_files import report_missing_maps
-from osc2tx.compilation.products import Output, files_of_module, files_of_xml, loss_of
+from osc2tx.compilation.products import (
+    Output,
+    entries_of,
+    files_of_module,
+    files_of_xml,
+    loss_of,
+)
 from osc2tx.compilation.roots import Roots
 from osc2tx.compilation.siblings import find_siblings
 from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
@@ -32,7 +38,7 @@ from osc2tx.syntax import parse, read_source
 if TYPE_CHECKING:
     from osc2tx.analysis import Analysis, ScenarioLevel
     from osc2tx.backends.py_trees.emitter import GeneratedModule
-    from osc2tx.backends.py_trees.sharing import Sharing
+    from osc2tx.backends.py_trees.sharing import Declarations, Sharing
     from osc2tx.backends.xosc.emitter import XmlScenario
     from osc2tx.ir import Module
     from osc2tx.semantics import SemanticModel
@@ -198,7 +204,16 @@ class Compilation:
 
         assert self.ir is not None, "there is a module"
         with room_for_trees():
-            return share(self.ir, *find_siblings(self.ir, self, self.alone, self._is_source))
+            siblings = find_siblings(self.ir, self, self.alone, self._is_source)
+            return share(self.declared, *siblings)
+
+    @cached_property
+    def declared(self) -> Declarations:
+        """What the program declares, for the modules that may share it."""
+        from osc2tx.backends.py_trees.sharing import Declarations
+
+        assert self.ir is not None, "there is a module"
+        return Declarations(self.ir)
 
     @cached_property
     def module(self) -> GeneratedModule | None:
@@ -355,23 +370,7 @@ class Compilation:
         """The levels as plain data, for reports."""
         if not self.levels or self.model is None or self.analysis is None:
             return ()
-        from osc2tx.analysis.fixed_values import fixed_values
-
-        runnable = self._runnable()
-        return tuple(
-            ScenarioEntry(
-                source=found.scenario.span.source,
-                name=found.scenario.qualified_name,
-                level=found.level.value,
-                open=tuple(opening.text for opening in found.open),
-                summary=str(found),
-                is_runnable=(
-                    found.scenario.actor is None and found.scenario.qualified_name in runnable
-                ),
-                values=fixed_values(self.model, found.scenario, self.analysis.constraints),
-            )
-            for found in self.levels
-        )
+        return entries_of(self.levels, self.model, self.analysis, self._runnable())
 
     def _runnable(self) -> frozenset[str]:
         """Return the scenarios that can run by themselves, as far as they were lowered."""

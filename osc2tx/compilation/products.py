@@ -1,17 +1,20 @@
-"""The files that a compilation makes, and what keeps scenarios from being XML."""
+"""What a compilation makes: files, and facts for reports as plain data."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
 from osc2tx.compilation.file_reports import LossEntry
+from osc2tx.diagnostics.report import ScenarioEntry
 from osc2tx.support.paths import COVERAGE_MODEL, LOSS_REPORT, MODULE, PARAMETERS, SOURCE_MAP, XML
 from osc2tx_shared.classes import dataclass
 
 if TYPE_CHECKING:
+    from osc2tx.analysis import Analysis, ScenarioLevel
     from osc2tx.backends.py_trees.emitter import GeneratedModule
     from osc2tx.backends.xosc.emitter import XmlScenario
+    from osc2tx.semantics import SemanticModel
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,4 +55,34 @@ def loss_of(scenario: XmlScenario) -> LossEntry:
     reasons = dict.fromkeys(f"{each.construct}: {each.reason}" for each in report.losses)
     return LossEntry(
         scenario.name, scenario.xml is not None, report.summary(), tuple(sorted(reasons))
+    )
+
+
+def entries_of(
+    levels: Sequence[ScenarioLevel],
+    model: SemanticModel,
+    analysis: Analysis,
+    runnable: Collection[str],
+) -> tuple[ScenarioEntry, ...]:
+    """Return the levels of scenarios as plain data, for reports.
+
+    Args:
+        levels: Of each scenario.
+        model: The program.
+        analysis: What its constraints allow.
+        runnable: Names of the scenarios that can run by themselves.
+    """
+    from osc2tx.analysis.fixed_values import fixed_values
+
+    return tuple(
+        ScenarioEntry(
+            source=found.scenario.span.source,
+            name=found.scenario.qualified_name,
+            level=found.level.value,
+            open=tuple(opening.text for opening in found.open),
+            summary=str(found),
+            is_runnable=found.scenario.actor is None and found.scenario.qualified_name in runnable,
+            values=fixed_values(model, found.scenario, analysis.constraints),
+        )
+        for found in levels
     )

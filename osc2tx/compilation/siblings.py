@@ -18,7 +18,7 @@ from osc2tx.support.paths import real_path
 from osc2tx.support.python_modules import is_taken
 
 if TYPE_CHECKING:
-    from osc2tx.backends.py_trees.sharing import Sharing, Sibling
+    from osc2tx.backends.py_trees.sharing import Declarations, Sharing, Sibling
     from osc2tx.ir import Module
 
 
@@ -37,8 +37,8 @@ class Alone(Protocol):
         """Whether it makes a module."""
 
     @property
-    def ir(self) -> Module | None:
-        """Its IR."""
+    def declared(self) -> Declarations:
+        """What its program declares."""
 
     @property
     def sharing(self) -> Sharing:
@@ -73,8 +73,8 @@ def find_siblings(
             apart[source.name] = "it has other settings"
         elif real_path(own.path) in other.files:
             apart[source.name] = "it imports this file as well"
-        elif other.has_module and other.ir is not None:
-            siblings[source.name] = Sibling(name, other.ir, other.sharing)
+        elif other.has_module:
+            siblings[source.name] = Sibling(name, other.declared, other.sharing)
         else:
             apart[source.name] = "that file makes no module by itself"
     return siblings, apart

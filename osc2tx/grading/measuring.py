@@ -12,7 +12,6 @@ from pathlib import Path
 
 from osc2tx.backends.xosc import XmlScenario
 from osc2tx.backends.xosc.facts.start_places import read_signal, read_spawn
-from osc2tx.backends.xosc.profiles import PROFILES
 from osc2tx.backends.xosc.report import Grade, Measured, Metres
 from osc2tx.grading.comparison import EXACT, Deviation, compare
 from osc2tx.grading.runs import (
@@ -29,6 +28,7 @@ from osc2tx.grading.values import Values, corners
 from osc2tx.options import XmlOptions
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc import read
+from osc2tx.xosc.profiles import PROFILES
 from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_runtime.opendrive import RoadMap
 from osc2tx_shared.classes import dataclass, replace

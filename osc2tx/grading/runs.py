@@ -9,11 +9,11 @@ from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 
-from osc2tx.backends.xosc.profiles import ToolProfile
 from osc2tx.grading.comparison import Recording, Row
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element, Unresolved
 from osc2tx.xosc.player import Evaluator, Reading, Unplayable
+from osc2tx.xosc.profiles import ToolProfile
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_shared.classes import dataclass, replace

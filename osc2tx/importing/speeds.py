@@ -39,7 +39,7 @@ class Speeds(Reader):
             case "SpeedProfileAction":
                 statement = self._profile(node, said, actor)
             case "LongitudinalDistanceAction":
-                statement = self._gap(node, actor)
+                statement = self._gap(node, actor, at_start)
             case _:
                 node.leave_out("the language has no such action")
                 return
@@ -169,7 +169,7 @@ class Speeds(Reader):
         del mode
         return composed("serial", changes) if changes else None
 
-    def _gap(self, node: Node, actor: Actor) -> Statement | None:
+    def _gap(self, node: Node, actor: Actor, at_start: bool) -> Statement | None:
         said = self._values.text(node, "entityRef")
         reference = self._actors.get(said)
         if reference is None or actor.kind != "vehicle":
@@ -177,7 +177,7 @@ class Speeds(Reader):
             return None
         continuous = (node.text("continuous") or "false").lower() in ("true", "1")
         if node.find("DynamicConstraints") is None and not continuous:
-            at_once = self._at_once(node, said, actor, reference)
+            at_once = self._at_once(node, said, actor, at_start)
             if at_once is not None:
                 return at_once
         node.approximate("how a gap is closed is a matter of the world")
@@ -203,12 +203,13 @@ class Speeds(Reader):
         )
         return composed("serial", [change, keep])
 
-    def _at_once(self, node: Node, said: str, actor: Actor, reference: Actor) -> Statement | None:
+    def _at_once(self, node: Node, said: str, actor: Actor, at_start: bool) -> Statement | None:
         """Return a place at a gap, which nothing keeps the actor from having at once.
 
         `None`: both are in different lanes, or somewhere else by now.
         """
-        own = self._places.bodies.get(next(k for k, v in self._actors.items() if v is actor))
+        own_said = next(key for key, each in self._actors.items() if each is actor)
+        own = self._places.bodies.get(own_said)
         other = self._places.bodies.get(said)
         if own is None or other is None or own.place is None or other.place is None:
             return None
@@ -218,21 +219,23 @@ class Speeds(Reader):
         side = node.text("displacement")
         if side is not None:
             ahead = side.startswith("leading")
-        space = 0.0
+        reference, space = self._actors[said].name, 0.0
         if (node.text("freespace") or "false").lower() in ("true", "1"):
             space = own.rear + other.front if ahead else own.front + other.rear
         node.text("coordinateSystem")
         if node.has("timeGap"):
             time = self._values.quantity(node, "timeGap", TIME)
-            moving = reference if ahead else actor
-            gap = f"{time.within(PRODUCT)} * {moving.name}.speed"
+            moving = said if ahead else own_said
+            known = self._speeds.get(moving) if at_start else None
+            speed = known.within(PRODUCT) if known else f"{self._actors[moving].name}.speed"
+            gap = f"{time.within(PRODUCT)} * {speed}"
         else:
             gap = self._values.quantity(node, "distance", LENGTH).within(SUM)
         where = f"{gap} + {literal(round(space, 6), LENGTH)}" if space else gap
         side = "ahead_of" if ahead else "behind"
         modifiers = [
-            f"lane(same_as: {reference.name})",
-            f"position({where}, {side}: {reference.name})",
+            f"lane(same_as: {reference})",
+            f"position({where}, {side}: {reference})",
         ]
         return Statement(f"{actor.name}.assign_position()", modifiers=modifiers, length=0.0)
 

@@ -169,14 +169,16 @@ class Starts:
                 return [Statement(f"{actor.verb}()", modifiers=modifiers, length=math.inf)]
             return [*self.statements(said), *self.going(said)]
         found: list[Statement] = []
-        if said in self._spots:
+        at_once = [each for each in others if each.length == 0.0]
+        is_moved = any(".assign_position(" in each.text for each in at_once)
+        if said in self._spots and not is_moved:
             spot, node = self._spots[said]
             if spot.yaw:
                 node.approximate("it looks along its lane at the start")
             found += [each.statement for each in Routes.moved(spot, actor)]
         if said in self._speeds:
             found.append(self._speeds[said])
-        return [*found, *(each for each in others if each.length == 0.0)]
+        return [*found, *at_once]
 
     def ways(self) -> list[Statement]:
         """Return what takes entities along routes from the start on."""

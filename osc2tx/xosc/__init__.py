@@ -4,6 +4,8 @@
 - `elements`: a class for each element, made from the table; `element` is their base
 - `writer`: elements to text; `reader`: text to elements with their places
 - `checking`: what in a document a version does not allow
+- `comparison`: whether two documents say the same
+- `profiles`: what the tools support that read documents
 - `expressions`: numbers that remember how open parameters give them
 """
 

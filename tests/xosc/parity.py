@@ -15,7 +15,6 @@ from types import MappingProxyType
 
 from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
 from osc2tx.backends.xosc import XmlScenario
-from osc2tx.backends.xosc.profiles import PROFILES
 from osc2tx.backends.xosc.report import Grade, Metres
 from osc2tx.grading import comparison
 from osc2tx.grading.comparison import Deviation, Recording
@@ -32,6 +31,7 @@ from osc2tx.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions, XmlOptions
 from osc2tx.xosc import read
 from osc2tx.xosc.player import BY_THE_STANDARD, Reading, map_of
+from osc2tx.xosc.profiles import PROFILES
 from osc2tx_runtime import RunSettings
 from osc2tx_shared.map_files import SHIPPED
 from tests.unit.backends.xosc.documents import PLAIN, compiled, documents, module_of

@@ -56,37 +56,35 @@ class Sibling:
 
     Attributes:
         name: What to import it as.
-        module: Its IR.
+        declared: What its program declares.
         sharing: Where it has its own classes from.
     """
 
     name: str
-    module: ir.Module
+    declared: Declarations
     sharing: Sharing
 
 
-def share(module: ir.Module, siblings: Mapping[str, Sibling], apart: Mapping[str, str]) -> Sharing:
+def share(ours: Declarations, siblings: Mapping[str, Sibling], apart: Mapping[str, str]) -> Sharing:
     """Return the imports of a module.
 
     Args:
-        module: The module.
+        ours: What its program declares.
         siblings: The modules that it may import, by the names of their sources.
         apart: Why it may import none of the other sources.
     """
-    ours = _Declarations(module)
-    theirs = {source: _Declarations(each.module) for source, each in siblings.items()}
-    foreign = [key for key, part in ours.parts.items() if not is_own(part, module)]
+    foreign = [key for key, part in ours.parts.items() if not is_own(part, ours.module)]
     shared = {
         key: source
         for key in foreign
         if (source := _source(ours.parts[key])) in siblings
-        and ours.is_same(key, theirs[source])
+        and ours.is_same(key, siblings[source].declared)
         and not ours.references(key) & siblings[source].sharing.copies.keys()
     }
     while wrong := [key for key in shared if not ours.references(key) <= shared.keys()]:
         for key in wrong:
             del shared[key]
-    names = {source: own_names(siblings[source].module) for source in set(shared.values())}
+    names = {source: own_names(siblings[source].declared.module) for source in set(shared.values())}
     return Sharing(
         homes={k: Home(s, siblings[s].name, names[s][k].text) for k, s in shared.items()},
         copies={k: _reason(ours.parts[k], apart) for k in foreign if k not in shared},
@@ -132,25 +130,34 @@ def _source(part: Declared) -> str:
     return part.span.source.name
 
 
-class _Declarations:
-    """The declarations of a module, its own and those of imported files, by key."""
+class Declarations:
+    """The declarations of a program, its own and those of imported files.
+
+    Attributes:
+        module: Its IR.
+        parts: The declarations by key.
+    """
 
     def __init__(self, module: ir.Module) -> None:
+        self.module = module
         unwritten = never_called(module)
         parts = {key_of(each): each for each in declarations(module)}
         self.parts = {key: part for key, part in parts.items() if key not in unwritten}
         self._methods = TypeMethods(module.types, (*module.bases, *module.scenarios))
+        self._references: dict[str, set[str]] = {}
 
-    def is_same(self, key: str, other: _Declarations) -> bool:
+    def is_same(self, key: str, other: Declarations) -> bool:
         """Whether another module has the same class, or the same function."""
         there = other.parts.get(key)
         return there is not None and ir.same(self._own(self.parts[key]), other._own(there))
 
     def references(self, key: str) -> set[str]:
         """Return the keys of the references of a class or function, itself left out."""
-        words = set(ir.words(self._own(self.parts[key])))
-        found = {other for other, part in self.parts.items() if _mention(part) <= words}
-        return found - {key}
+        if key not in self._references:
+            words = set(ir.words(self._own(self.parts[key])))
+            found = {other for other, part in self.parts.items() if _mention(part) <= words}
+            self._references[key] = found - {key}
+        return self._references[key]
 
     def _own(self, part: Declared) -> Declared:
         """Return a declaration as far as its own class holds it, however it is used."""

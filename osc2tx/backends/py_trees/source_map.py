@@ -32,6 +32,7 @@ class ScenarioMap:
         constraints: Place of each constraint, in order.
         placements: Place of each placement, in order.
         nodes: Place of each node of the tree, in pre-order.
+        modifiers: Places of the modifiers of an action, by its index among the nodes.
     """
 
     source: str
@@ -39,6 +40,7 @@ class ScenarioMap:
     constraints: list[Place | None] = field(default_factory=list)
     placements: list[Place | None] = field(default_factory=list)
     nodes: list[Place | None] = field(default_factory=list)
+    modifiers: dict[int, list[Place | None]] = field(default_factory=dict)
 
     def place_of(self, span: Span) -> Place | None:
         """Return where a piece of the source begins; `None` for a piece of another one."""
@@ -56,6 +58,9 @@ class ScenarioMap:
             )
             spans = (*(each.span for each in until[:1]), node.span)
             self.nodes += map(self.place_of, spans)
+            if isinstance(node, ir.Invoke) and node.modifiers:
+                index = len(self.nodes) - 1
+                self.modifiers[index] = [*map(self._place_of_modifier, node.modifiers)]
             match node:
                 case ir.Serial() | ir.Parallel() | ir.OneOf():
                     pending += reversed(node.members)
@@ -63,6 +68,11 @@ class ScenarioMap:
                     pending += reversed(node.reactions)
                 case _:
                     pass
+
+    def _place_of_modifier(self, call: ir.ModifierCall) -> Place | None:
+        """Return its place, or that where a modifier of another file that states it is applied."""
+        spans = (call.span, *(each.span for each in reversed(call.applied)))
+        return next(filter(None, map(self.place_of, spans)), None)
 
     def content(self) -> dict[str, object]:
         """Return the map as text."""

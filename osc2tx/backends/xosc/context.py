@@ -13,7 +13,6 @@ from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import Pose, Roads, roads_of
 from osc2tx.backends.xosc.logical.parameter_choices import NOTHING_OPEN, Choosing
 from osc2tx.backends.xosc.names import Names
-from osc2tx.backends.xosc.profiles import PROFILES, ToolProfile
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, LossReport, Remedy
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
 from osc2tx.backends.xosc.state import ActorState, Demand
@@ -23,6 +22,7 @@ from osc2tx.options import XmlOptions, XmlVersion
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Unwritable
 from osc2tx.xosc.literals import ParameterType, Rule
+from osc2tx.xosc.profiles import PROFILES, ToolProfile
 from osc2tx_shared.classes import dataclass
 from osc2tx_shared.map_files import places_in_project
 

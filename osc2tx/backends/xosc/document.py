@@ -7,7 +7,7 @@ from pathlib import PurePosixPath
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.environment import initial_environment
 from osc2tx.backends.xosc.adapting import adapted
-from osc2tx.backends.xosc.conditions.early_triggers import triggers_of
+from osc2tx.backends.xosc.conditions.event_conditions import triggers_of
 from osc2tx.backends.xosc.conditions.flow import Flow, at_time, single
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.entities import scenario_objects

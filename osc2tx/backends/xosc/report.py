@@ -10,10 +10,10 @@ from collections import Counter
 from enum import Enum
 from math import ceil, floor, inf, log10
 
-from osc2tx.backends.xosc.profiles import PROFILES, ToolProfile
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions
 from osc2tx.xosc.element import Unwritable
+from osc2tx.xosc.profiles import PROFILES, ToolProfile
 from osc2tx_shared.classes import dataclass, replace
 
 

@@ -53,10 +53,11 @@ class Speeds:
         shape, dimension = dynamics.said("dynamicsShape"), dynamics.said("dynamicsDimension")
         value, change = number(dynamics, "value"), abs(end - body.v)
         peak = {"linear": 1.0, "cubic": 1.5, "sinusoidal": math.pi / 2, "step": 0.0}[shape]
+        time = math.inf if change else 0.0  # at a rate of 0 it never gets there
         match dimension:
             case "time":
                 time = value
-            case "rate":
+            case "rate" if value:
                 time = peak * change / value
             case "distance":  # the mean of all these shapes lies in the middle
                 time = 2.0 * value / (body.v + end)

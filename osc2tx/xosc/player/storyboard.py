@@ -75,6 +75,11 @@ class Evaluator:
         self.counts: dict[int, int] = {}
         self.started_at: dict[int, int] = {}
         self.work: dict[int, list[Running]] = {}
+        self._event_of = {
+            id(action): event
+            for event in self.root.below(xml.Event)
+            for action in event.all(xml.Action)
+        }
         self._runs: dict[int, list[Running]] = {}
         self.starts: dict[str, float] = {}
         self.track: dict[str, list[Row]] = {name: [] for name in self.bodies}
@@ -157,7 +162,8 @@ class Evaluator:
     def is_in(self, element: Element, state: str) -> bool:
         """Whether an element is in a state, or just in a transition."""
         if state.endswith("Transition"):
-            return (id(element), state) in self.transitions
+            event = self._event_of.get(id(element), element)  # an action ends with its event
+            return (id(event), state) in self.transitions
         if isinstance(element, xml.Event | xml.Act):
             return self._state(element) == state
         if isinstance(element, xml.Action):

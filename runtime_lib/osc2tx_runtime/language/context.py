@@ -55,6 +55,15 @@ class AssignedVariable(Protocol):
     value: Any
 
 
+class NotHeld(Protocol):
+    """A condition that does not hold; its text is the reason."""
+
+    @property
+    def source(self) -> str:
+        """Its position in the scenario."""
+        ...
+
+
 class Monitors(Protocol):
     """The interface of a checker of the phases of actions."""
 
@@ -62,8 +71,8 @@ class Monitors(Protocol):
         """Note the start of an action."""
         ...
 
-    def ends(self, action: Any) -> str | None:
-        """Note its end; return why it fails."""
+    def ends(self, action: Any) -> Sequence[NotHeld]:
+        """Note its end; return the conditions that let it fail."""
         ...
 
     def leaves(self, action: Any) -> None:

@@ -32,6 +32,7 @@ class SourceMap:
         constraints: Positions of the `keep` calls, in order.
         placements: Positions of the `place` calls, in order.
         nodes: Positions of the nodes, in pre-order.
+        modifiers: Positions of the modifiers of an action, by its index among the nodes.
     """
 
     file: str
@@ -39,6 +40,7 @@ class SourceMap:
     constraints: tuple[Entry | None, ...] = ()
     placements: tuple[Entry | None, ...] = ()
     nodes: tuple[Entry | None, ...] = ()
+    modifiers: Mapping[int, tuple[Entry | None, ...]] = field(default_factory=dict)
 
     def place(self, entry: Entry | None) -> str:
         """Return `file:line`, which knows its column, or the file alone."""
@@ -102,6 +104,11 @@ def parse_source_map(entry: Mapping[str, Any], file: str) -> SourceMap:
         constraints=_places(entry.get("constraints")),
         placements=_places(entry.get("placements")),
         nodes=_places(entry.get("nodes")),
+        modifiers={
+            int(index): _places(places)
+            for index, places in _table(entry.get("modifiers")).items()
+            if index.isdecimal()
+        },
     )
 
 

@@ -89,7 +89,7 @@ def test_a_failure_has_exit_code_5(tmp_path: Path, shell: Shell) -> None:
     assert "error[OSC810]: top: failure after 2.00 s" in ended.out
     verified = shell("verify", trace)  # its scenario is beside it
     assert verified.code == 5
-    assert "never.osc:14:9: error[OSC810]: ego drive: `speed` does not hold" in verified.out
+    assert "never.osc:15:13: error[OSC810]: ego drive: `speed` does not hold" in verified.out
     assert verified.out.endswith("top: failure: 2 phases, 1 failure, 0 warnings\n")
 
 

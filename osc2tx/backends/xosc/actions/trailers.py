@@ -67,16 +67,6 @@ def towing(ctx: Context) -> dict[str, str]:
     return found
 
 
-def _hitch(ctx: Context, vehicle: CastMember) -> xml.TrailerHitch:
-    """Return where a vehicle tows: at its rear end, if the scenario says nothing else."""
-    return _half(ctx, xml.TrailerHitch, vehicle, "trailer_receiver", -vehicle.shape.rear)
-
-
-def _coupler(ctx: Context, trailer: CastMember) -> xml.TrailerCoupler:
-    """Return where a trailer is towed: before its box, likewise."""
-    return _half(ctx, xml.TrailerCoupler, trailer, "coupler", trailer.shape.front + DRAWBAR)
-
-
 Half = TypeVar("Half", xml.TrailerCoupler, xml.TrailerHitch)
 
 
@@ -89,12 +79,18 @@ def _half(ctx: Context, kind: type[Half], member: CastMember, field: str, usual:
 
 
 def couplings(ctx: Context, member: CastMember) -> tuple[xml.VehiclePart, ...]:
-    """Return what a vehicle has for being coupled, and the trailer that it tows at the start."""
+    """Return what a vehicle has for being coupled, and the trailer that it tows at the start.
+
+    If the scenario says nothing else, it tows at its rear end, and is towed before its box.
+    """
     if ctx.version < "1.3" or not any("trailer" in m.actor.lineage for m in ctx.cast.values()):
         return ()
     if "trailer" in member.actor.lineage:
-        return (_coupler(ctx, member),)
-    parts: list[xml.VehiclePart] = [_hitch(ctx, member)] if _tows(ctx, member) else []
+        return (_half(ctx, xml.TrailerCoupler, member, "coupler", member.shape.front + DRAWBAR),)
+    parts: list[xml.VehiclePart] = []
+    if _tows(ctx, member):
+        rear = -member.shape.rear
+        parts.append(_half(ctx, xml.TrailerHitch, member, "trailer_receiver", rear))
     for trailer, tow in towing(ctx).items():
         if tow == member.name:
             parts.append(xml.Trailer(xml.TrailerRef(entityRef=trailer)))

@@ -7,10 +7,10 @@ from collections.abc import Mapping
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.signals.traffic_lights import lamps_condition, shows
 from osc2tx.backends.xosc.conditions.comparisons import Comparison, Groups, relative_speed
+from osc2tx.backends.xosc.conditions.event_conditions import parameter_condition
 from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Test
 from osc2tx.backends.xosc.conditions.measures import FINITE, MEASURES
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.flattening.events.event_parameters import parameter_condition
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Constant, Named
 from osc2tx.xosc.literals import Rule

@@ -65,8 +65,8 @@ _CATEGORIES: Mapping[str, _Category] = {
     "work_machine": _Category("workMachine", "car", "there is no literal for a work machine"),
 }
 
-# `trailer_category` (§8.7.17).
-_TRAILERS: Mapping[str, VehicleCategory] = {
+# `trailer_category` (§8.7.17) -> literal.
+TRAILERS: Mapping[str, VehicleCategory] = {
     "semi_trailer": "semitrailer",
     "full_trailer": "trailer",
     "central_axle_trailer": "trailer",
@@ -115,11 +115,6 @@ def vehicle_literal(ctx: Context, member: CastMember) -> VehicleCategory:
         bound = f"it is called a {category.older}; size and limits are kept"
         ctx.report.approximate("vehicle_category", span, category.loss, bound, better)
     return category.older
-
-
-def trailer_literal(category: str) -> VehicleCategory:
-    """Return what kind of trailer a `trailer_category` is."""
-    return _TRAILERS[category]
 
 
 def role_literal(ctx: Context, role: str) -> Role:

@@ -11,13 +11,13 @@ from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import MISC, PEDESTRIAN, VEHICLE, CastMember
 from osc2tx.backends.xosc.entities.categories import (
     NO_ROLE,
+    TRAILERS,
     role_literal,
-    trailer_literal,
     vehicle_literal,
 )
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.report import GENERIC, Metres
-from osc2tx.backends.xosc.values.constants import Constant, Member, Named
+from osc2tx.backends.xosc.values.constants import Member, Named
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import Role, VehicleCategory
 from osc2tx.xosc.schema import has_attribute
@@ -51,7 +51,10 @@ def axles(ctx: Context, member: CastMember) -> list[xml.AxlesPart]:
     if isinstance(listed, tuple) and listed:
         front, rear = usual
         default = [front, *[rear] * (len(listed) - 1)] if len(listed) > 1 else [rear]
-        made = [_axle_of(ctx, each, like) for each, like in zip(listed, default, strict=True)]
+        made = [
+            _as_said(ctx, each.name if isinstance(each, Named) else "", (), like)
+            for each, like in zip(listed, default, strict=True)
+        ]
         found = sorted(made, key=lambda axle: -axle.position_x)
     if len(found) == 1 and ctx.version < "1.3":  # a front axle cannot be left out yet
         found = [found[0], *found]
@@ -65,13 +68,8 @@ def axles(ctx: Context, member: CastMember) -> list[xml.AxlesPart]:
     ]
 
 
-def _axle_of(ctx: Context, given: Constant, like: Axle) -> Axle:
-    """Return an axle of the scenario; what it leaves open is as usual."""
-    return _as_said(ctx, given.name if isinstance(given, Named) else "", (), like)
-
-
 def _as_said(ctx: Context, name: str, path: tuple[str, ...], usual: Axle) -> Axle:
-    """Return an axle with the constraints on it below a path of an object."""
+    """Return an axle with the constraints on it below a path of an object, else as usual."""
     said = {part: ctx.values.field(name, *path, part) for part in Axle._fields}
     numbers = {part: float(v) for part, v in said.items() if isinstance(v, (int, float))}
     return usual._replace(**numbers)
@@ -173,7 +171,7 @@ def _note_origin(ctx: Context, member: CastMember) -> None:
 def _category(ctx: Context, member: CastMember) -> VehicleCategory:
     trailer = ctx.values.field(member.actor.name, "trailer_category")
     if isinstance(trailer, Member):
-        return trailer_literal(trailer.name)
+        return TRAILERS[trailer.name]
     return vehicle_literal(ctx, member)
 
 

@@ -19,6 +19,7 @@ from osc2tx_runtime.world.commands import FollowCourse
 from osc2tx_runtime.world.geometry.curve import Curve
 from osc2tx_runtime.world.lateral.curve_following import Course, course_of
 from osc2tx_runtime.world.state import ActorState
+from osc2tx_shared.classes import dataclass
 
 
 class Waypoint(NamedTuple):
@@ -39,6 +40,27 @@ class Waypoint(NamedTuple):
     h: float | None = None
 
 
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A path or a trajectory.
+
+    Attributes:
+        points: Its points, in the world or relative to a reference.
+        is_smooth: It has no corners.
+        is_timed: It is a trajectory.
+        frame: `None`: the world; else how its points are relative.
+        reference: Relative to whom.
+        offsets: Metres that are left out at its start and its end.
+    """
+
+    points: tuple[Waypoint, ...]
+    is_smooth: bool = False
+    is_timed: bool = False
+    frame: str | None = None
+    reference: str | None = None
+    offsets: tuple[float, float] = (0.0, 0.0)
+
+
 SAMPLES = 12
 """Pieces into which a stretch of a smooth way is cut."""
 
@@ -46,48 +68,36 @@ TOLERANCE = 0.02
 """Metres by which the straight lines of a polyline may leave a curve."""
 
 
-def sample_curve(
-    points: Sequence[Waypoint],
-    *,
-    is_timed: bool,
-    is_smooth: bool,
-    offsets: tuple[float, float],
-) -> tuple[Waypoint, ...]:
-    """Return the corners of a line that is as good as a way through points.
-
-    Args:
-        points: The points.
-        is_timed: They have times.
-        is_smooth: The way has no corners.
-        offsets: Metres that are left out at its start and its end.
+def sample_curve(line: Line) -> tuple[Waypoint, ...]:
+    """Return the corners of straight stretches that are as good as a way through points.
 
     Raises:
         Inexpressible: There is no such way.
     """
     try:
-        curve = curve_through(points, is_timed=is_timed, is_smooth=is_smooth)
-        low, high = interval_between_offsets(curve, *offsets)
+        curve = curve_through(line.points, is_timed=line.is_timed, is_smooth=line.is_smooth)
+        low, high = interval_between_offsets(curve, *line.offsets)
     except PathError as error:
         raise Inexpressible(error.message) from None
     begin, end = curve.begin, curve.end
-    if any(offsets):
+    if any(line.offsets):
         begin, end = curve.at_length(low), curve.at_length(high)
     places = [begin, *(knot for knot in curve.knots if begin < knot < end), end]
-    if is_smooth and len(points) > 2:
+    if line.is_smooth and len(line.points) > 2:
         places = [
             left + (right - left) * part / SAMPLES
             for left, right in pairwise(places)
             for part in range(SAMPLES)
         ] + [end]
     turns = {round(curve.heading(place) or 0.0, 6) for place in places}
-    is_even = is_smooth or len(turns) == 1
+    is_even = line.is_smooth or len(turns) == 1
     found = []
     for place in places:
         x, y, z = curve.point(place)
         h = curve.yaw(place)
         h = curve.heading(place) if h is None and is_even else h
         found.append(Waypoint(place - begin, x, y, z, h))
-    return thinned(found, is_timed=is_timed) if is_smooth else tuple(found)
+    return thinned(found, is_timed=line.is_timed) if line.is_smooth else tuple(found)
 
 
 def curve_through(points: Sequence[Waypoint], *, is_timed: bool, is_smooth: bool) -> Curve:
@@ -147,42 +157,38 @@ SETTLED, LEAST_SETTLED = 10.0, 100.0
 
 @lru_cache(64)  # documents for other values of parameters have the same lines
 def off_the_line(
-    points: tuple[Waypoint, ...],
-    line: tuple[Waypoint, ...],
+    line: Line,
+    corners: tuple[Waypoint, ...],
     start: Pose,
     speed: float,
     actor: tuple[Shape, Limits],
-    *,
-    is_smooth: bool,
-    offsets: tuple[float, float],
 ) -> float:
     """Return how far (m) an actor is at most from where the corners of a line would have it.
 
     Args:
-        points: Points of its way.
-        line: Corners of the line, from where it is on.
+        line: Its way.
+        corners: Of the line, from where it is on.
         start: Where it is, and how it looks.
         speed: m/s, which it keeps.
         actor: What it is.
-        is_smooth: Its way has no corners.
-        offsets: Metres that are left out at the start and the end of its way.
 
     Raises:
         Inexpressible: The way has no length, as that to where the actor is already.
     """
+    points, is_smooth, offsets = line.points, line.is_smooth, line.offsets
     is_straight = (not is_smooth or len(points) == 2) and max(offsets) < LEAST_SETTLED
     pieces = _near_corners(points, speed) if is_straight else [points]
     worst = 0.0
     for i, piece in enumerate(pieces):
         ends = offsets[0] if i == 0 else 0.0, offsets[1] if i == len(pieces) - 1 else 0.0
         if i > 0:
-            line, start = piece, _along_first(piece)
+            corners, start = piece, _along_first(piece)
         try:
             curve = curve_through(piece, is_timed=False, is_smooth=is_smooth)
             command = FollowCourse(curve, *interval_between_offsets(curve, *ends))
         except PathError as error:
             raise Inexpressible(error.message) from None
-        worst = max(worst, _worst(command, line, start, speed, actor))
+        worst = max(worst, _worst(command, corners, start, speed, actor))
     return worst
 
 

@@ -15,11 +15,11 @@ from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, all_of, any_of, are_few, chosen
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.compositions.durations import Role, end_within_duration
-from osc2tx.backends.xosc.flattening.compositions.overridden_members import unless_active
 from osc2tx.backends.xosc.flattening.compositions.parallel_overlaps import (
     is_open,
     report_conflicts,
     starts_of,
+    unless_active,
 )
 from osc2tx.backends.xosc.flattening.events.directives import call, emit, finish, react
 from osc2tx.backends.xosc.flattening.invocations.action_endings import end_open_actions

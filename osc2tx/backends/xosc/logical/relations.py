@@ -7,9 +7,9 @@ from typing import TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.logical.parameters import OpenParameter
-from osc2tx.backends.xosc.logical.solving import All, Among, Any, Linear, Relation
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope, key_of
+from osc2tx.support.solving import All, Among, Any, Linear, Relation
 
 Sum: TypeAlias = tuple[dict[str, float], float]
 """Weights by the key of a parameter, and what is added."""

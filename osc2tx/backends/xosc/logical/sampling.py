@@ -13,16 +13,16 @@ from collections.abc import Iterator, Sequence
 from functools import cached_property
 from itertools import count, islice, product
 from math import inf, prod
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 from osc2tx import ir
 from osc2tx.backends.xosc.logical.parameters import OpenParameter, Point
 from osc2tx.backends.xosc.logical.relations import relations_of
-from osc2tx.backends.xosc.logical.solving import Interval, Solver
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
 from osc2tx.backends.xosc.values.constants import Constant
 from osc2tx.backends.xosc.values.folding import Values
+from osc2tx.support.solving import Interval, Solver
 from osc2tx.xosc.arithmetic import Range
 
 RUNS_EACH = 10
@@ -173,7 +173,7 @@ class Domain:
         for shares in _hypercube(len(self.parameters), wanted):
             inside = [(share * (wanted - 1) + 0.5) / wanted for share in shares]  # no ends: `<`
             places = {p.key: share for p, share in zip(self.parameters, inside, strict=True)}
-            chosen = solver.choose(places)
+            chosen = cast("Point | None", solver.choose(places))
             if chosen is not None and self.allows(point := {**self._folded, **chosen}):
                 rows.append(Row(self._shares(point), point))
         return rows

@@ -24,7 +24,9 @@ class Condition:
         measure: Reads it at the present step; None while it cannot be measured.
         text: Describes a reading in messages, where numbers alone are not clear.
         is_steady: It reads nothing but speed, acceleration, lane and offset of the actor itself.
-        is_target: It is the target of an action (DSL 8.8.2.2), and no modifier.
+        is_target: It is the target of an action (DSL 8.8.2.2) or of the course of a shape.
+        source: Position of the modifier in the scenario; empty for what the action implies.
+        is_late: It is about the start, but only later states tell it.
     """
 
     modifier: str
@@ -35,3 +37,5 @@ class Condition:
     text: Callable[[Reading], str] | None = None
     is_steady: bool = False
     is_target: bool = False
+    is_late: bool = False
+    source: str = ""

@@ -9,6 +9,12 @@ from osc2tx_runtime.domain.modifiers import ChangeLane, Lane, Lateral
 from osc2tx_runtime.domain.modifiers.base import Late, now
 from osc2tx_runtime.domain.monitoring.conditions import Condition, Reading
 from osc2tx_runtime.domain.monitoring.registry import monitors
+from osc2tx_runtime.domain.monitoring.shaped_values import (
+    follows_course,
+    is_course,
+    moment,
+    present,
+)
 from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 from osc2tx_runtime.world.geometry.lane_neighbours import (
@@ -38,7 +44,16 @@ def lane(modifier: Lane, phase: Phase) -> Iterator[Condition]:
         if modifier.side_of is not None:
             where = f"lane {modifier.number} {_side(modifier.side)} of {modifier.reference.id}"
     text, steady = lanes_text(phase, where), modifier.reference is None
-    yield Condition("lane", "its lane", "lane", modifier.at, measure, text, is_steady=steady)
+    yield Condition(
+        "lane",
+        "its lane",
+        "lane",
+        moment(modifier),
+        measure,
+        text,
+        is_steady=steady,
+        is_target=is_course(modifier),
+    )
 
 
 def _side(side: Late[SideLeftRight] | None) -> SideLeftRight | None:
@@ -175,9 +190,7 @@ def change_lane(modifier: ChangeLane, phase: Phase) -> Iterator[Condition]:
 @monitors("lateral")
 def lateral(modifier: Lateral, phase: Phase) -> Iterator[Condition]:
     """The position across the lane, or beside a reference."""
-    if modifier.shape is not None and modifier.at == "all":
-        return
-    road_map, me = phase.world.map, phase.me
+    road_map, me, stated = phase.world.map, phase.me, present(modifier, phase)
     if modifier.side_of is None:
 
         leaves = any(isinstance(each, Lane | ChangeLane) for each in phase.modifiers)
@@ -185,7 +198,7 @@ def lateral(modifier: Lateral, phase: Phase) -> Iterator[Condition]:
 
         def measure() -> Reading | None:
             lane = lane_of_it()
-            return None if lane is None else _in_lane(road_map, me(), lane, modifier)
+            return None if lane is None else _in_lane(road_map, me(), lane, stated())
 
         what = "its distance left of its lane's centre"
     else:
@@ -196,11 +209,19 @@ def lateral(modifier: Lateral, phase: Phase) -> Iterator[Condition]:
             to_left = lateral_on_road(road_map, here, there)
             if to_left is None:
                 return None
-            return (0.0 - to_left, *modifier.offsets(here.width, there.width))
+            return (0.0 - to_left, *stated().offsets(here.width, there.width))
 
         what = f"its distance left of {modifier.side_of.id}"
     steady = modifier.side_of is None and now(modifier.measure_by) == "center_to_center"
-    yield Condition("lateral", what, "lateral position", modifier.at, measure, is_steady=steady)
+    yield Condition(
+        "lateral",
+        what,
+        "lateral position",
+        moment(modifier),
+        measure,
+        is_steady=steady and not follows_course(modifier),
+        is_target=is_course(modifier),
+    )
 
 
 def _lane_of_offset(phase: Phase, leaves: bool) -> Callable[[], LanePosition | None]:

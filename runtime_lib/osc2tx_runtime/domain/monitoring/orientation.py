@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.domain.modifiers import Orient, Yaw
 from osc2tx_runtime.domain.monitoring.conditions import Condition, Reading
 from osc2tx_runtime.domain.monitoring.registry import monitors
+from osc2tx_runtime.domain.monitoring.shaped_values import is_course, limits, moment
 from osc2tx_runtime.domain.placing.pose_resolution import heading_base, tilt_of
 from osc2tx_runtime.world.geometry.curve import turn_between
 
@@ -19,34 +20,44 @@ if TYPE_CHECKING:
 @monitors("yaw")
 def yaw(modifier: Yaw, phase: Phase) -> Iterator[Condition]:
     """The heading against the road, north, or a reference."""
-    if modifier.shape is not None and modifier.at == "all":
-        return
-    yield _heading(modifier, phase, modifier.angles())
+    yield _heading(modifier, phase, limits(modifier, phase, Yaw.angles))
 
 
 @monitors("orientation")
 def orientation(modifier: Orient, phase: Phase) -> Iterator[Condition]:
     """The angles that are given."""
-    angles = modifier.angles()
-    if angles is not None and not (modifier.shape is not None and modifier.at == "all"):
-        yield _heading(modifier, phase, angles)
+    if modifier.yaw is not None:
+        yield _heading(modifier, phase, limits(modifier, phase, _turns))
     for index, name in enumerate(("pitch", "roll")):
         if getattr(modifier, name) is not None:
             measure = _tilt(modifier, phase, index, name)
             yield Condition("orientation", f"its {name}", "angle", modifier.at, measure)
 
 
-def _heading(modifier: Yaw | Orient, phase: Phase, angles: tuple[float, float]) -> Condition:
-    low, high = angles
+def _turns(modifier: Orient) -> tuple[float, float]:
+    angles = modifier.angles()
+    assert angles is not None
+    return angles
+
+
+def _heading(
+    modifier: Yaw | Orient, phase: Phase, angles: Callable[[], tuple[float, float]]
+) -> Condition:
     world, me = phase.world, phase.me
-    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    reference = modifier.relative_to
+    other = None if reference is None else phase.track(reference.id, modifier.projected)
 
     def measure() -> Reading:
-        here = me()
-        turned = turn_between(heading_base(world, modifier, here) + middle, here.h)
+        here, (low, high) = me(), angles()
+        middle, half = 0.5 * (low + high), 0.5 * (high - low)
+        base = heading_base(world, modifier, here, None if other is None else other())
+        turned = turn_between(base + middle, here.h)
         return middle + turned, middle - half, middle + half
 
-    return Condition(modifier.name, "its heading", "angle", modifier.at, measure, _degrees)
+    when, course = moment(modifier), is_course(modifier)
+    return Condition(
+        modifier.name, "its heading", "angle", when, measure, _degrees, is_target=course
+    )
 
 
 def _tilt(modifier: Orient, phase: Phase, index: int, name: str) -> Callable[[], Reading | None]:

@@ -36,7 +36,7 @@ class Violation:
         action: Name of the action in the trace.
         modifier: Name of its origin.
         at: When it has to hold.
-        source: Line of the action.
+        source: Position of the modifier in the scenario, or of the action that implies it.
         first: Time of the first state at which it does not hold (s).
         last: Time of the last one (s).
         worst: Time of the greatest deviation (s).
@@ -157,7 +157,7 @@ class Phase:
         for condition in conditions:
             entry = condition, self._tolerance(condition)
             match condition.at:
-                case "start":
+                case "start" if not condition.is_late:
                     self._check(*entry, now)
                 case "end":
                     self._last.append(entry)
@@ -270,7 +270,7 @@ class Phase:
             self.action.action_name,
             condition.modifier,
             condition.at,
-            self.action.source,
+            condition.source or self.action.source,
             found.first,
             found.last,
             found.worst,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.domain.modifiers import Distance, Position
 from osc2tx_runtime.domain.monitoring.conditions import Condition, Reading
 from osc2tx_runtime.domain.monitoring.registry import monitors
+from osc2tx_runtime.domain.monitoring.shaped_values import is_course, limits, moment
 from osc2tx_runtime.domain.placing.pose_resolution import pose_of
 from osc2tx_runtime.domain.routes.lane_coordinates import along_lane
 from osc2tx_runtime.opendrive import LanePosition
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
 @monitors("position")
 def position(modifier: Position, phase: Phase) -> Iterator[Condition]:
     """The position along the road: against a reference, a point, or the start of the lane."""
-    if modifier.shape is not None and modifier.at == "all":
-        return
     if modifier.reference is not None:
         side = "ahead of" if modifier.ahead else "behind"
         what = f"its distance {side} {modifier.reference.id}"
@@ -34,14 +33,15 @@ def position(modifier: Position, phase: Phase) -> Iterator[Condition]:
         measure = _from_point(modifier, phase)
     else:
         what, measure = "its position along its lane", _on_lane(modifier, phase)
-    yield Condition("position", what, "position", modifier.at, measure)
+    course = is_course(modifier)
+    yield Condition("position", what, "position", moment(modifier), measure, is_target=course)
 
 
 def _beside(modifier: Position, phase: Phase) -> Callable[[], Reading | None]:
     assert modifier.reference is not None
     road_map, me = phase.world.map, phase.me
     other = phase.track(modifier.reference.id, modifier.projected)
-    low, high = modifier.size()
+    size = limits(modifier, phase, Position.size)
     sign = 1.0 if modifier.ahead else -1.0
 
     def measure() -> Reading | None:
@@ -49,6 +49,7 @@ def _beside(modifier: Position, phase: Phase) -> Callable[[], Reading | None]:
         along = along_lanes(road_map, there, here)
         if along is None:
             return None
+        low, high = size()
         if not modifier.timed:
             return sign * along, low, high
         trailing = max(there.v if along > 0.0 else here.v, 0.0)
@@ -59,11 +60,11 @@ def _beside(modifier: Position, phase: Phase) -> Callable[[], Reading | None]:
 
 def _on_lane(modifier: Position, phase: Phase) -> Callable[[], Reading | None]:
     road_map, me = phase.world.map, phase.me
-    low, high = modifier.size()
+    size = limits(modifier, phase, Position.size)
 
     def measure() -> Reading | None:
         place = me().lane_position
-        return None if place is None else (along_lane(road_map, place), low, high)
+        return None if place is None else (along_lane(road_map, place), *size())
 
     return measure
 
@@ -71,13 +72,13 @@ def _on_lane(modifier: Position, phase: Phase) -> Callable[[], Reading | None]:
 def _from_point(modifier: Position, phase: Phase) -> Callable[[], Reading | None]:
     point = modifier.reference_point
     assert point is not None
-    low, high = modifier.size()
+    size = limits(modifier, phase, Position.size)
     along = _along_from(phase, point.x, point.y, point.z)
     sign = 1.0 if modifier.ahead else -1.0
 
     def measure() -> Reading | None:
         found = along()
-        return None if found is None else (sign * found, low, high)
+        return None if found is None else (sign * found, *size())
 
     return measure
 

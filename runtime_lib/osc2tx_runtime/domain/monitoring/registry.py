@@ -59,8 +59,9 @@ def conditions_of(phase: Phase) -> Iterator[Condition]:
         for each in clarified(phase.action, phase):
             for condition in (each,) if isinstance(each, Condition) else _stated(each, phase):
                 yield replace(condition, is_target=True)
-    for modifier in phase.action.modifiers:
-        yield from _stated(modifier, phase)
+    for modifier, source in phase.action.with_sources():
+        for condition in _stated(modifier, phase):
+            yield replace(condition, source=source)
 
 
 def _stated(modifier: Modifier, phase: Phase) -> Iterable[Condition]:

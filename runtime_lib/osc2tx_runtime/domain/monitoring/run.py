@@ -71,18 +71,17 @@ class Monitors:
         """Drop a phase that is interrupted: its conditions no longer count."""
         self._close(action)
 
-    def ends(self, action: BaseAction) -> str | None:
-        """Check the last state of a phase; return why it fails, if it does."""
+    def ends(self, action: BaseAction) -> list[Violation]:
+        """Check the last state of a phase; return what lets it fail."""
         phase = self._close(action)
         if phase is None:
-            return None
+            return []
         phase.end(self._context.time)
         found = phase.violations()
         self.violations += found
         for violation in found:
             self._context.trace.violation(violation.words(), violation.source)
-        failures = [str(each) for each in found if each.severity == "failure"]
-        return "; ".join(failures) or None
+        return [each for each in found if each.severity == "failure"]
 
     def _close(self, action: BaseAction) -> Phase | None:
         if not isinstance(action, Action):

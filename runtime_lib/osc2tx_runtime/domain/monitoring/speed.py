@@ -6,47 +6,61 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.modifiers import Acceleration, ChangeSpeed, Speed
-from osc2tx_runtime.domain.modifiers.base import wanted
 from osc2tx_runtime.domain.monitoring.conditions import Condition, Reading
 from osc2tx_runtime.domain.monitoring.registry import monitors
+from osc2tx_runtime.domain.monitoring.shaped_values import (
+    follows_course,
+    is_course,
+    limits,
+    moment,
+)
+from osc2tx_runtime.enums import At
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.monitoring.phase import Phase
+
+Bounds = Callable[[], tuple[float, float]]
+"""Gives the least and the greatest value that is allowed now."""
 
 
 @monitors("speed")
 def speed(modifier: Speed, phase: Phase) -> Iterator[Condition]:
     """The speed, along or across the lane, absolute or against that of a reference."""
-    if modifier.shaped and modifier.at == "all":
-        return  # a course from one speed to another: it has a value at its end alone
     across = modifier.direction == "lateral"
-    low, high = modifier.difference()
     what = "its lateral speed" if across else "its speed"
-    measure = _absolute(phase, low, high, across)
     if modifier.reference is not None:
-        measure = _relative(modifier, phase, low, high, across)
+        measure = _relative(modifier, phase, across)
         what += f", with {modifier.reference.id} as the reference,"
-    steady = modifier.reference is None
-    yield Condition("speed", what, "speed", modifier.at, measure, is_steady=steady)
+    else:
+        bounds = limits(modifier, phase, Speed.difference)
+        measure = _absolute(phase, bounds, across)
+    yield Condition(
+        "speed",
+        what,
+        "speed",
+        moment(modifier),
+        measure,
+        is_steady=modifier.reference is None and not follows_course(modifier),
+        is_target=is_course(modifier),
+    )
 
 
-def _absolute(phase: Phase, low: float, high: float, across: bool) -> Callable[[], Reading]:
+def _absolute(phase: Phase, bounds: Bounds, across: bool = False) -> Callable[[], Reading]:
     state, me = phase.world.state, phase.actor
     if across:
-        return lambda: (state(me).lateral_speed, low, high)
-    return lambda: (state(me).v, low, high)
+        return lambda: (state(me).lateral_speed, *bounds())
+    return lambda: (state(me).v, *bounds())
 
 
-def _relative(
-    modifier: Speed, phase: Phase, low: float, high: float, across: bool
-) -> Callable[[], Reading]:
+def _relative(modifier: Speed, phase: Phase, across: bool) -> Callable[[], Reading]:
     """The speed within its range relative to a reference, which is followed one step later."""
     assert modifier.reference is not None
+    bounds = limits(modifier, phase, Speed.difference)
     other, me = phase.track(modifier.reference.id, modifier.projected), phase.me
     field = "lateral_speed" if across else "v"
 
     def measure() -> Reading:
-        there = other()
+        there, (low, high) = other(), bounds()
         base, late = modifier.times * getattr(there, field), abs(there.a) * phase.dt
         return getattr(me(), field), base + low - late, base + high + late
 
@@ -56,17 +70,21 @@ def _relative(
 @monitors("change_speed")
 def change_speed(modifier: ChangeSpeed, phase: Phase) -> Iterator[Condition]:
     """The speed at the end, against that at the start: it cannot have changed before."""
-    low, high = modifier.difference()
-    start = phase.first.v
-    measure = _absolute(phase, start + low, start + high, across=False)
-    yield Condition("change_speed", "its speed", "speed", "end", measure)
+    difference, start = limits(modifier, phase, ChangeSpeed.difference), phase.first.v
+
+    def bounds() -> tuple[float, float]:
+        low, high = difference()
+        return start + low, start + high
+
+    at: At = "all" if follows_course(modifier) else "end"
+    yield Condition("change_speed", "its speed", "speed", at, _absolute(phase, bounds))
 
 
 @monitors("keep_speed")
 def keep_speed(modifier: object, phase: Phase) -> Iterator[Condition]:
     """The speed at the start, all the time."""
     start = phase.first.v
-    measure = _absolute(phase, start, start, across=False)
+    measure = _absolute(phase, lambda: (start, start))
     yield Condition("keep_speed", "its speed", "speed", "all", measure, is_steady=True)
 
 
@@ -77,10 +95,11 @@ def acceleration(modifier: Acceleration, phase: Phase) -> Iterator[Condition]:
     It ends where a speed is reached that is asked for as well; one that the phase begins with is
     none to reach.
     """
-    if modifier.shape is not None and modifier.at == "all":
+    bounds = limits(modifier, phase, Acceleration.bounds)
+    if modifier.at == "start":
+        yield _first_acceleration(phase, bounds)
         return
-    low, high = wanted(modifier.acceleration, modifier.acceleration_range, modifier.shape)
-    me, before = phase.me, phase.state_before() if modifier.at == "end" else phase.me
+    me, before = phase.me, phase.state_before() if moment(modifier) == "end" else phase.me
     goals = [m for m in phase.modifiers if isinstance(m, Speed) and m.at != "start"]
     speeds = [condition.measure for goal in goals for condition in speed(goal, phase)]
     reached = [] if any(_holds(present()) for present in speeds) else speeds
@@ -90,11 +109,32 @@ def acceleration(modifier: Acceleration, phase: Phase) -> Iterator[Condition]:
             return None  # it belongs to the step before the phase
         if any(_holds(goal()) for goal in reached):
             return None
+        low, high = bounds()
         now, change = me().a, abs(me().a - before().a)  # it is the mean over the last step
         return now, low - change, high + change
 
-    if modifier.at != "start":
-        yield Condition("acceleration", "its acceleration", "acceleration", modifier.at, measure)
+    yield Condition(
+        "acceleration",
+        "its acceleration",
+        "acceleration",
+        moment(modifier),
+        measure,
+        is_target=is_course(modifier),
+    )
+
+
+def _first_acceleration(phase: Phase, bounds: Bounds) -> Condition:
+    """The acceleration at the start: the means over the first two steps, continued to there."""
+    me, before = phase.me, phase.state_before()
+
+    def measure() -> Reading | None:
+        if round(phase.elapsed / phase.dt) != 2:
+            return None
+        first, second = before().a, me().a
+        return (first + 0.5 * (first - second), *bounds())
+
+    what = "its acceleration at the start"
+    return Condition("acceleration", what, "acceleration", "start", measure, is_late=True)
 
 
 def _holds(reading: Reading | None) -> bool:

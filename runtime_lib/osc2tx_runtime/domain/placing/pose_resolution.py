@@ -75,8 +75,20 @@ def headings_of(
     return base + low, base + high
 
 
-def heading_base(world: World, turned: Yaw | Orient, at: opendrive.Pose | ActorState) -> float:
-    """The heading (rad) from which an angle counts; arguments as above."""
+def heading_base(
+    world: World,
+    turned: Yaw | Orient,
+    at: opendrive.Pose | ActorState,
+    other: ActorState | None = None,
+) -> float:
+    """The heading (rad) from which an angle counts.
+
+    Args:
+        world: As above.
+        turned: The modifier.
+        at: As above.
+        other: State of its reference; None: the present one.
+    """
     if isinstance(turned, Orient):
         base = 0.0 if turned.measure_by == "absolute" else road_heading(world.map, at)
     else:
@@ -84,7 +96,8 @@ def heading_base(world: World, turned: Yaw | Orient, at: opendrive.Pose | ActorS
         base = 0.5 * math.pi if north else road_heading(world.map, at)
         base += _AXES.get(turned.measure_by, 0.0)
     if turned.relative_to is not None and turned.measure_by != "absolute":
-        base = world.state(turned.relative_to.id).h + _AXES.get(turned.measure_by or "", 0.0)
+        other = other or world.state(turned.relative_to.id)
+        base = other.h + _AXES.get(turned.measure_by or "", 0.0)
     return base
 
 

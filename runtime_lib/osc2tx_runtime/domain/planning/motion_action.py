@@ -238,9 +238,9 @@ class ModifiedMotion(MotionAction):
         self._given = self.modifiers
         self.planned: float | None = None
 
-    def state_at_start(self, modifiers: Sequence[Modifier]) -> None:
+    def state_at_start(self, modifiers: Sequence[Modifier], source: str) -> None:
         """Let the action also have modifiers that hold at its start; before setup."""
-        super().state_at_start(modifiers)
+        super().state_at_start(modifiers, source)
         self._given = self.modifiers
 
     def initialise(self) -> None:

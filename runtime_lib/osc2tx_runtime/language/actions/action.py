@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
+from itertools import repeat
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, TypedDict
 
@@ -44,6 +45,7 @@ class Action(BaseAction):
         physical: It moves the actor, and cannot let it jump (`prefer_non_physical`).
         actor: The actor.
         modifiers: As given.
+        modifier_sources: Their positions in the scenario; none where the map does not tell them.
         slots: The slots that it claims while it runs; `__init__` of a subclass may narrow them.
     """
 
@@ -60,6 +62,7 @@ class Action(BaseAction):
     ) -> None:
         self.actor = actor
         self.modifiers = modifiers
+        self.modifier_sources: tuple[str, ...] = ()
         self.slots = registered_as(type(self)).slots
         super().__init__(duration=duration, label=label)
 
@@ -79,9 +82,20 @@ class Action(BaseAction):
         """Whether it can begin although its actor is elsewhere: the actor jumps to its start."""
         return False
 
-    def state_at_start(self, modifiers: Sequence[Modifier]) -> None:
-        """Let the action also have modifiers that hold at its start; before setup."""
+    def state_at_start(self, modifiers: Sequence[Modifier], source: str) -> None:
+        """Let the action also have modifiers that hold at its start; before setup.
+
+        Args:
+            modifiers: The modifiers.
+            source: Their position in the scenario.
+        """
+        own = [place for _, place in self.with_sources()]
         self.modifiers = (*modifiers, *self.modifiers)
+        self.modifier_sources = (*(source for _ in modifiers), *own)
+
+    def with_sources(self) -> Iterator[tuple[Modifier, str]]:
+        """Yield the modifiers with their positions; that of the action where none is known."""
+        return zip(self.modifiers, self.modifier_sources or repeat(self.source), strict=False)
 
     def states_itself(self) -> tuple[Modifier, ...]:
         """Return what the action states of its start besides its modifiers."""

@@ -38,6 +38,7 @@ class BaseAction(Leaf):
         rules: Which arguments go together (`with`: the modifiers); the compiler knows them as well.
         duration: As given: seconds, or (least, most) seconds.
         action_name: `hero change_lane`: the name in the trace, whatever the node is called.
+        failure_source: Position of the condition that does not hold, if one lets it fail.
     """
 
     method: ClassVar[Method]
@@ -49,6 +50,7 @@ class BaseAction(Leaf):
         self.label = label
         self._limits = None if duration is None else DurationLimits(self, duration)
         self._start_step = 0
+        self.failure_source = ""
         self._is_ours = not is_own(type(self))
         self.registered = registered_as(type(self))
         self.become(self.registered)
@@ -168,8 +170,11 @@ class BaseAction(Leaf):
         if status is not SUCCESS:
             monitors.leaves(self)
             return status
-        reason = monitors.ends(self)
-        return status if reason is None else self.fail(reason)
+        failures = monitors.ends(self)
+        if not failures:
+            return status
+        self.failure_source = failures[0].source
+        return self.fail("; ".join(map(str, failures)))
 
     def terminate(self, new_status: Status) -> None:
         """Clean up, release the slots and write the trace."""

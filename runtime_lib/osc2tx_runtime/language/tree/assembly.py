@@ -66,7 +66,7 @@ def assemble(scenario: ScenarioParts, tree: Behaviour) -> Behaviour:
 
 
 def apply_lines(root: Behaviour, source_map: SourceMap) -> None:
-    """Give the nodes of a scenario's tree their places.
+    """Give the nodes of a scenario's tree and the modifiers of its actions their places.
 
     The trees of invoked scenarios have their own maps and are left alone. If the map does not fit
     the tree, the nodes get the file without a line.
@@ -75,8 +75,13 @@ def apply_lines(root: Behaviour, source_map: SourceMap) -> None:
     fits = len(nodes) == len(source_map.nodes)
     for node in own_nodes(root):
         node.source = source_map.file
-    for node, entry in zip(nodes, source_map.nodes if fits else (), strict=False):
+    for index, entry in enumerate(source_map.nodes if fits else ()):
+        node = nodes[index]
         node.source = source_map.place(entry)
+        places = source_map.modifiers.get(index, ())
+        if isinstance(node, Action) and len(places) == len(node.modifiers):
+            known = (None if each is None else source_map.place(each) for each in places)
+            node.modifier_sources = tuple(each or node.source for each in known)
 
 
 def name_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:
@@ -206,7 +211,7 @@ def _state_at_start(invocation: Invocation, placement: Placement, race: bool) ->
         stated = [m for m in placement.modifiers if m not in own]
         starts = [m.at_start() for m in stated if m.facts.rules.starts]
         if len(starts) == len(stated) and all(map(action.takes, starts)):
-            action.state_at_start(starts)
+            action.state_at_start(starts, placement.source)
             return
     raise UnsupportedError(
         f"{invocation.name} places {placement.actor.id}, but does not start with the scenario; let"

@@ -29,7 +29,7 @@ def failure_place(root: Behaviour) -> str:
     """Return the place of what failed first; empty where it has none."""
     first = culprits(root)[0]
     says_so = first.failed_by if isinstance(first, Ending) else None
-    return source_of(says_so or first)
+    return getattr(first, "failure_source", "") or source_of(says_so or first)
 
 
 def culprits(root: Behaviour) -> list[Behaviour]:

@@ -5,7 +5,7 @@ import pytest
 from osc2tx.backends.xosc.actions.position.position_modifiers import Arrival
 from osc2tx.backends.xosc.actions.speed.acceleration import Ramp
 from osc2tx.backends.xosc.facts.actors import Linear, Quintic
-from osc2tx.backends.xosc.facts.curves import Waypoint, sample_curve
+from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve
 from osc2tx.backends.xosc.report import Inexpressible
 
 
@@ -46,18 +46,18 @@ POINTS = (
 
 
 def test_offsets_cut_a_path() -> None:
-    line = sample_curve(POINTS, is_timed=False, is_smooth=False, offsets=(10.0, 15.0))
+    line = sample_curve(Line(POINTS, offsets=(10.0, 15.0)))
     assert [(p.x, p.y) for p in line] == [(10.0, 0.0), (30.0, 0.0), (30.0, 25.0)]
     assert {p.h for p in line} == {None}  # at a corner the way has two headings
 
 
 def test_times_of_a_trajectory_stay() -> None:
-    line = sample_curve(POINTS, is_timed=True, is_smooth=False, offsets=(0.0, 0.0))
+    line = sample_curve(Line(POINTS, is_timed=True))
     assert [p.time for p in line] == [0.0, 2.0, 5.0]
 
 
 def test_a_smooth_path_goes_through_its_points() -> None:
-    line = sample_curve(POINTS, is_timed=False, is_smooth=True, offsets=(0.0, 0.0))
+    line = sample_curve(Line(POINTS, is_smooth=True))
     assert len(line) > 20
     assert min((p.x - 30.0) ** 2 + p.y**2 for p in line) < 1e-12
     assert all(p.h is not None for p in line)
@@ -65,4 +65,4 @@ def test_a_smooth_path_goes_through_its_points() -> None:
 
 def test_offsets_that_leave_nothing_are_refused() -> None:
     with pytest.raises(Inexpressible, match="leave nothing"):
-        sample_curve(POINTS, is_timed=False, is_smooth=False, offsets=(40.0, 40.0))
+        sample_curve(Line(POINTS, offsets=(40.0, 40.0)))

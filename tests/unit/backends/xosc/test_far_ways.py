@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from osc2tx.backends.xosc.facts.curves import Waypoint, off_the_line
+from osc2tx.backends.xosc.facts.curves import Line, Waypoint, off_the_line
 from osc2tx_runtime.opendrive import Pose
 from osc2tx_runtime.world.actor_dimensions import limits_of, shape_of
 from tests.work import calls
@@ -18,8 +18,8 @@ def off(*corners: tuple[float, float], aside: float = 0.0, smooth: bool = False)
     points = tuple(Waypoint(0.0, x, y, 0.0) for x, y in corners)
     (x, y), (there, on) = corners[:2]
     start = Pose(x, y + aside, 0.0, math.atan2(on - y, there - x))
-    line = points if not aside else (Waypoint(0.0, x, y + aside, 0.0), *points)
-    return off_the_line(points, line, start, 20.0, CAR, is_smooth=smooth, offsets=(0.0, 0.0))
+    from_here = points if not aside else (Waypoint(0.0, x, y + aside, 0.0), *points)
+    return off_the_line(Line(points, is_smooth=smooth), from_here, start, 20.0, CAR)
 
 
 @pytest.mark.slow

@@ -1,7 +1,7 @@
 """Profiles of tools: one for each name that `--xml-profile` takes."""
 
-from osc2tx.backends.xosc.profiles import PROFILES
 from osc2tx.options import DEFAULT_XML_VERSION, ONLY_VERSIONS, XML_PROFILES
+from osc2tx.xosc.profiles import PROFILES
 
 
 def test_every_name_has_a_profile() -> None:

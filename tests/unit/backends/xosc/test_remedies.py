@@ -2,9 +2,9 @@
 
 import pytest
 
-from osc2tx.backends.xosc.profiles import PROFILES, ToolProfile
 from osc2tx.backends.xosc.report import Remedy
 from osc2tx.options import XmlOptions, XmlProfile
+from osc2tx.xosc.profiles import PROFILES, ToolProfile
 from tests.unit.backends.xosc.documents import compiled, documents
 from tests.xosc.test_parity import SCENARIOS
 

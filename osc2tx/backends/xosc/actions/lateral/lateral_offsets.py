@@ -191,32 +191,24 @@ def _to(
 def _lateral(leaf: Leaf, call: Call) -> Changes:
     reference = call.entity("side_of")
     if reference is not None:
-        return _beside_another(leaf, call, reference)
+        return _beside(leaf, call, reference)
     offset = offset_in_lane(leaf.ctx, call, leaf.member, leaf.state.lane)
     pace = leaf.in_time(call, call.shape()[0])
     return () if leaf.state.offset == known(offset) else (offset_change(leaf, offset, pace),)
 
 
-def _beside_another(leaf: Leaf, call: Call, reference: CastMember) -> Changes:
-    distance = call.size("distance")
-    if distance is None:
+def _beside(leaf: Leaf, call: Call, reference: CastMember) -> Changes:
+    """Return the control of the distance across the road from another actor."""
+    size = call.size("distance")
+    if size is None:
         raise Inexpressible("no distance is stated")
     side = "left" if call.member("side", "left") == "left" else "right"
-    gap = Gap(reference, side, distance, is_time=False, is_headway=False)
-    return _beside(leaf, call, gap)
-
-
-def _beside(leaf: Leaf, call: Call, gap: Gap) -> Changes:
-    """Return the control of the distance across the road from another actor."""
     measured = call.member("measure_by", "center_to_center")
-    facing = ("left_to_right", "closest") if gap.side == "right" else ("right_to_left", "closest")
-    half = 0.5 * (leaf.member.shape.width + gap.reference.shape.width)
-    size = gap.size
+    facing = ("left_to_right", "closest") if side == "right" else ("right_to_left", "closest")
     if measured == "center_to_center":
-        size -= half
+        size -= 0.5 * (leaf.member.shape.width + reference.shape.width)
     elif measured not in facing:
         raise Inexpressible(f"a distance from `{measured}` across the road")
     if size < 0.0:
         raise Inexpressible("they would overlap, and the XML counts between their sides")
-    gap = Gap(gap.reference, gap.side, size, is_time=False, is_headway=False)
-    return (reach(leaf, gap, keeps=call.at != "end"),)
+    return (reach(leaf, Gap(reference, side, size), keeps=call.at != "end"),)

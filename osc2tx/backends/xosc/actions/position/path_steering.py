@@ -12,9 +12,8 @@ from itertools import pairwise
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.leaf import Leaf
-from osc2tx.backends.xosc.actions.position.points_and_lines import Line
 from osc2tx.backends.xosc.facts.actors import CRUISE, Linear, Pace, apart, course_of_shift
-from osc2tx.backends.xosc.facts.curves import Waypoint, off_the_line
+from osc2tx.backends.xosc.facts.curves import Line, Waypoint, off_the_line
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 from osc2tx.backends.xosc.report import Metres, Remedy
 
@@ -35,7 +34,6 @@ def note_steering(
     leaf: Leaf,
     line: Line,
     corners: Sequence[Waypoint],
-    offsets: tuple[float, float],
     speed: float | None = None,
 ) -> None:
     """Report how far an actor that steers along a way is from the line of the XML.
@@ -44,22 +42,14 @@ def note_steering(
         leaf: The invocation.
         line: Its way.
         corners: Of the line.
-        offsets: Metres that are left out at start and end.
         speed: m/s; by default what is known of the actor.
     """
     start = _start(leaf, line, corners)
     here = Waypoint(0.0, start.x, start.y, start.z)
     is_there = math.hypot(corners[0].x - start.x, corners[0].y - start.y) < 1e-6
     speed = _speed(leaf) if speed is None else speed
-    off = off_the_line(
-        tuple(line.points),
-        tuple(corners) if is_there else (here, *corners),
-        start,
-        speed,
-        (leaf.member.shape, leaf.limits),
-        is_smooth=line.is_smooth,
-        offsets=offsets,
-    )
+    from_here = tuple(corners) if is_there else (here, *corners)
+    off = off_the_line(line, from_here, start, speed, (leaf.member.shape, leaf.limits))
     if off > NEAR:
         leaf.approximate(
             "it steers along the way as physics allows, the line of the XML has corners",

@@ -16,7 +16,6 @@ from osc2tx.backends.xosc.actions.position.path_steering import (
     note_steering,
 )
 from osc2tx.backends.xosc.actions.position.points_and_lines import (
-    Line,
     line_of,
     line_of_route,
     relative_line,
@@ -26,7 +25,7 @@ from osc2tx.backends.xosc.actions.registry import action, modifier, to_goal
 from osc2tx.backends.xosc.actions.speed.speed_changes import may_jump
 from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment_of
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
-from osc2tx.backends.xosc.facts.curves import Waypoint, sample_curve
+from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve
 from osc2tx.backends.xosc.facts.map_search import (
     MapSegment,
     begin_of,
@@ -54,7 +53,7 @@ def _on_line(leaf: Leaf) -> Performance:
         line = line_of(leaf.ctx, arguments.get("absolute"))
     if leaf.duration is not None:
         raise Inexpressible("a duration beside that of the way")
-    changes = along_line(leaf, line, offsets, is_exact=may_jump(leaf))
+    changes = along_line(leaf, replace(line, offsets=offsets))
     return to_goal(leaf, *changes)
 
 
@@ -66,7 +65,7 @@ ACROSS = frozenset({"change_lane", "keep_lane", "lane", "lateral"})
 def _along_trajectory(leaf: Leaf, call: Call) -> Changes:
     offsets = call.offsets()
     line = line_of(leaf.ctx, call.get("trajectory"))
-    return along_line(leaf, line, offsets, is_exact=may_jump(leaf))
+    return along_line(leaf, replace(line, offsets=offsets))
 
 
 @modifier("along")
@@ -79,7 +78,7 @@ def _along(leaf: Leaf, call: Call) -> Changes:
         if beside:
             raise Inexpressible(f"`{beside[0].name}` on a route of the map", beside[0].span)
         return _along_segment(leaf, segment, offsets)
-    return along_line(leaf, line_of_route(leaf.ctx, route), offsets, is_exact=may_jump(leaf))
+    return along_line(leaf, replace(line_of_route(leaf.ctx, route), offsets=offsets))
 
 
 def _along_segment(leaf: Leaf, segment: MapSegment, offsets: tuple[float, float]) -> Changes:
@@ -94,19 +93,18 @@ def _along_segment(leaf: Leaf, segment: MapSegment, offsets: tuple[float, float]
     return (Change(LATERAL, (action,), None, after, after),)
 
 
-def along_line(leaf: Leaf, line: Line, offsets: tuple[float, float], *, is_exact: bool) -> Changes:
+def along_line(leaf: Leaf, line: Line) -> Changes:
     """Return the changes that a path or a trajectory makes."""
+    is_exact = may_jump(leaf)
     if leaf.enters and line.frame is None:
         reason = "a run plans how the actor gets to the path by then"
         raise Inexpressible(reason, leaf.node.span)
     points = line.points
     if line.is_timed and points and points[0].time > 0.0:
-        if line.frame is not None or any(offsets):
+        if line.frame is not None or any(line.offsets):
             raise Inexpressible("a trajectory that begins later, from wherever the actor is then")
         points = (_here(leaf), *points)
-    corners = sample_curve(
-        points, is_timed=line.is_timed, is_smooth=line.is_smooth, offsets=offsets
-    )
+    corners = sample_curve(replace(line, points=points))
     vertices = [_vertex(leaf, line, each) for each in corners]
     if not (line.is_timed or is_exact or _is_there(leaf, corners[0])) and line.frame is None:
         vertices = [(0.0, _own_place(leaf)), *vertices]  # it goes to the path, it does not jump
@@ -115,7 +113,7 @@ def along_line(leaf: Leaf, line: Line, offsets: tuple[float, float], *, is_exact
         if line.frame is None:
             note_jump(leaf, corners[0])
     elif not is_exact:
-        note_steering(leaf, line, corners, offsets)
+        note_steering(leaf, line, corners)
     action = follow(leaf, vertices, line.is_timed, is_exact)
     end = corners[-1]
     if line.is_timed:

@@ -17,7 +17,7 @@ from osc2tx.backends.xosc.actions.position.xml_positions import (
 )
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment_of
-from osc2tx.backends.xosc.facts.curves import Waypoint, sample_curve
+from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve
 from osc2tx.backends.xosc.facts.map_search import (
     MapSegment,
     beginnings_of,
@@ -27,29 +27,10 @@ from osc2tx.backends.xosc.facts.map_search import (
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Member, MethodResult, Named
-from osc2tx_shared.classes import dataclass
+from osc2tx_shared.classes import replace
 
 STRAIGHT = 0.01
 """Metres beside the straight line through its neighbours within which a point is left out."""
-
-
-@dataclass(frozen=True, slots=True)
-class Line:
-    """A path or a trajectory.
-
-    Attributes:
-        points: Its points, in the world or relative to a reference.
-        is_smooth: It has no corners.
-        is_timed: It is a trajectory.
-        frame: `None`: the world; else how its points are relative.
-        reference: Relative to whom.
-    """
-
-    points: tuple[Waypoint, ...]
-    is_smooth: bool
-    is_timed: bool
-    frame: str | None = None
-    reference: str | None = None
 
 
 def xml_position(ctx: Context, point: Constant | None) -> XmlPosition:
@@ -74,7 +55,7 @@ def xml_position(ctx: Context, point: Constant | None) -> XmlPosition:
 
 def _on_route(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
     """Return a place along a route and beside it."""
-    place = point_along(ctx, parts.get("route"), number_of(parts.get("s")))
+    place = next(points_along(ctx, parts.get("route"), number_of(parts.get("s"))))
     left = number_of(parts.get("t"))
     if not isinstance(place, LanePosition):
         x, y = place.x - left * math.sin(place.h), place.y + left * math.cos(place.h)
@@ -84,11 +65,6 @@ def _on_route(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
     offset = left * ctx.roads.map.travel_direction(place.road, place.lane)
     where: dict[str, Constant] = {"road_id": place.road, "lane_id": str(place.lane)}
     return on_road(ctx, {**where, "s": place.s, "t": offset})
-
-
-def point_along(ctx: Context, route: Constant | None, offset: float) -> LanePosition | Pose:
-    """Return the place so far (m) along a route or a path; see `points_along`."""
-    return next(points_along(ctx, route, offset))
 
 
 def points_along(
@@ -109,7 +85,7 @@ def points_along(
             yield place
         return
     line = line_of_route(ctx, route)
-    first = sample_curve(line.points, is_timed=False, is_smooth=False, offsets=(offset, 0.0))[0]
+    first = sample_curve(Line(line.points, offsets=(offset, 0.0)))[0]
     on = roads.locate(first.x, first.y, first.z)
     heading = 0.0 if first.h is None else round(first.h, 9)
     yield on or Pose(round(first.x, 6), round(first.y, 6), round(first.z, 6), heading)
@@ -120,7 +96,7 @@ def line_of_route(ctx: Context, route: Constant | None) -> Line:
     segment = segment_of(ctx, route)
     ends = None if segment is None else crossing_of(segment)
     if ends is not None:
-        return Line(ends, False, False)
+        return Line(ends)
     if not isinstance(route, MethodResult) or route.method != "create_route":
         return line_of(ctx, route)
     given, connect = route.get("routes"), route.get("connect_points_by")
@@ -129,7 +105,7 @@ def line_of_route(ctx: Context, route: Constant | None) -> Line:
     elements = [_element(ctx, each) for each in given]
     kind = connect.name if isinstance(connect, Member) else "waypoint"
     points = points_of_route(required_roads(ctx), elements, kind)
-    return Line(tuple(_thinned(points)), False, False)
+    return Line(tuple(_thinned(points)))
 
 
 def _element(
@@ -194,7 +170,7 @@ def relative_line(
     if not isinstance(reference, Named) or reference.name not in ctx.cast:
         raise Inexpressible("the way is relative to something that is no entity of the XML")
     name = ctx.cast[reference.name].name
-    return Line(line.points, line.is_smooth, line.is_timed, frame, name)
+    return replace(line, frame=frame, reference=name)
 
 
 def _made_line(ctx: Context, made: MethodResult) -> Line:
@@ -209,7 +185,7 @@ def _made_line(ctx: Context, made: MethodResult) -> Line:
         places = [position.lane for position in positions if position.lane is not None]
         if ctx.roads is None or len(places) != len(positions) or times is not None:
             raise Inexpressible("a way along lanes needs the map, and points on lanes")
-        return Line(ctx.roads.along(places), True, False)
+        return Line(ctx.roads.along(places), is_smooth=True)
     poses = [position.pose for position in positions if position.pose is not None]
     if len(poses) != len(positions):
         raise Inexpressible("a point of the way needs the map, which is not at hand")

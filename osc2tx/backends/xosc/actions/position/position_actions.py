@@ -9,7 +9,7 @@ from osc2tx.backends.xosc.actions.lateral.lanes import lane_of
 from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance
 from osc2tx.backends.xosc.actions.position.path_steering import note_steering
 from osc2tx.backends.xosc.actions.position.paths import follow
-from osc2tx.backends.xosc.actions.position.points_and_lines import Line, xml_position
+from osc2tx.backends.xosc.actions.position.points_and_lines import xml_position
 from osc2tx.backends.xosc.actions.position.xml_positions import (
     XmlPosition,
     at_place,
@@ -20,7 +20,7 @@ from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_go
 from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
 from osc2tx.backends.xosc.entities.cast import VEHICLE, CastMember
 from osc2tx.backends.xosc.facts.actors import CRUISE
-from osc2tx.backends.xosc.facts.curves import Waypoint
+from osc2tx.backends.xosc.facts.curves import Line, Waypoint
 from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
@@ -233,4 +233,4 @@ def _note_turn(leaf: Leaf, here: Pose | None, there: Pose, speed: float | None) 
         )
         return
     ends = [Waypoint(0.0, each.x, each.y, each.z) for each in (here, there)]
-    note_steering(leaf, Line(tuple(ends), False, False), ends, (0.0, 0.0), speed)
+    note_steering(leaf, Line(tuple(ends)), ends, speed)

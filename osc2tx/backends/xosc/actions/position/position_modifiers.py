@@ -7,7 +7,7 @@ from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf
 from osc2tx.backends.xosc.actions.position.points_and_lines import xml_position
 from osc2tx.backends.xosc.actions.position.xml_positions import at_place, lane_place
 from osc2tx.backends.xosc.actions.registry import modifier
-from osc2tx.backends.xosc.actions.speed.gap_elements import Gap, hold, missing_at_start
+from osc2tx.backends.xosc.actions.speed.gap_elements import Gap, reach
 from osc2tx.backends.xosc.actions.speed.speed_changes import through_points
 from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
 from osc2tx.backends.xosc.actions.speed.speed_notes import (
@@ -44,7 +44,7 @@ def _position(leaf: Leaf, call: Call) -> Changes:
     side = "ahead" if ahead is not None else "behind"
     if size < 0.0:
         size, side = -size, "behind" if side == "ahead" else "ahead"
-    gap = Gap(reference, side, size, is_time=distance is None, is_headway=False)
+    gap = Gap(reference, side, size, distance is None, "points")
     if call.at == "end":
         return (_in_time(leaf, call, gap),)
     if not leaf.is_start:
@@ -54,13 +54,7 @@ def _position(leaf: Leaf, call: Call) -> Changes:
                 instead="`at: end`, or `keep_space_gap` from the distance that is there then"
             ),
         )
-    return (_held(leaf, gap, keeps=True),)
-
-
-def _held(leaf: Leaf, gap: Gap, *, keeps: bool) -> Change:
-    distance, time = (None, gap.size) if gap.is_time else (gap.size, None)
-    missing = None if distance is None else missing_at_start(leaf, gap, distance, freespace=False)
-    return hold(leaf, gap, distance, time, freespace=False, keeps=keeps, missing=missing)
+    return (reach(leaf, gap, keeps=True),)
 
 
 def _at_point(leaf: Leaf, call: Call) -> Changes:
@@ -123,7 +117,7 @@ def _in_time(leaf: Leaf, call: Call, gap: Gap) -> Change:
             "where both are by then is only known during the run",
             "the place is reached, but when is up to the tool",
         )
-        return _held(leaf, gap, keeps=False)
+        return reach(leaf, gap, keeps=False)
     way = apart + (gap.size if gap.side == "ahead" else -gap.size)
     arrival = Arrival(speed, way + (theirs - speed) * time, time)
     can_draw = ctx.can(PROFILE_ACTION, "1.2")

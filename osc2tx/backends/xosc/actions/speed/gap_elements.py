@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import inf
+from typing import Literal, TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.lateral.lanes import lateral
@@ -38,6 +39,9 @@ ACROSS: Mapping[str, LateralDisplacement] = {
 }
 
 
+Between: TypeAlias = Literal["ends", "fronts", "points"]
+
+
 @dataclass(frozen=True, slots=True)
 class Gap:
     """A distance to another actor.
@@ -47,14 +51,14 @@ class Gap:
         side: On which side of it the actor is: `ahead`, `behind`, `left` or `right`.
         size: Metres, or seconds.
         is_time: It is in seconds.
-        is_headway: It counts from front to front.
+        between: What it counts between: facing `ends`, `fronts`, or reference `points`.
     """
 
     reference: CastMember
     side: str
     size: float
-    is_time: bool
-    is_headway: bool
+    is_time: bool = False
+    between: Between = "ends"
 
     @property
     def is_lateral(self) -> bool:
@@ -72,6 +76,8 @@ ARRIVING = Remedy(
 def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) -> Change:
     """Return the control that reaches a gap, or keeps one.
 
+    Without limits a tool keeps it rigid: so it is said where it is there already.
+
     Args:
         leaf: The invocation.
         gap: The gap.
@@ -80,39 +86,11 @@ def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) ->
     """
     if gap.is_lateral:
         return _reach_sideways(leaf, gap, keeps=keeps, missing=missing)
-    distance, time, freespace = _measured(leaf, gap)
-    if missing is None and distance is not None:
-        missing = missing_at_start(leaf, gap, distance, freespace=freespace)
-    return hold(leaf, gap, distance, time, freespace=freespace, keeps=keeps, missing=missing)
-
-
-def missing_at_start(leaf: Leaf, gap: Gap, distance: float, *, freespace: bool) -> float | None:
-    """Return by how much (m) a distance is another one at the start of the run, if that is now."""
-    apart = leaf.ctx.init_gaps.get((leaf.member.name, gap.reference.name))
-    if apart is None or not leaf.is_start:
-        return None
-    me, other = leaf.member.shape, gap.reference.shape
-    if gap.side == "ahead":
-        apart, me, other = -apart, other, me
-    return abs(apart - distance - (me.front - other.rear if freespace else 0.0))
-
-
-def hold(
-    leaf: Leaf,
-    gap: Gap,
-    distance: float | None,
-    time: float | None,
-    *,
-    freespace: bool,
-    keeps: bool,
-    missing: float | None,
-) -> Change:
-    """Return the control of a distance (m) or time (s) along the road, as the XML counts it.
-
-    Without limits a tool keeps it rigid: so it is said where it is there already.
-    """
+    size, freespace = _measured(leaf, gap)
+    if missing is None and not gap.is_time:
+        missing = _missing_at_start(leaf, gap, size, freespace=freespace)
     controls_gaps = "LongitudinalDistanceAction" not in leaf.ctx.profile.unsupported
-    if not controls_gaps and time is None and _is_there(missing, keeps=keeps):
+    if not controls_gaps and not gap.is_time and _is_there(missing, keeps=keeps):
         return _keep_speed_of(leaf, gap.reference.name)
     newer = leaf.ctx.version >= "1.1"
     _require_side(leaf, gap)
@@ -124,26 +102,36 @@ def hold(
         maxDeceleration=limits.deceleration,
         maxSpeed=None if newer else TOP_SPEED,
     )
-    action = longitudinal(
-        xml.LongitudinalDistanceAction(
-            None if is_rigid else constraints,
-            entityRef=gap.reference.name,
-            distance=distance,
-            timeGap=time,
-            freespace=freespace,
-            continuous=keeps,
-            displacement=ALONG[gap.side] if newer else None,
-            coordinateSystem="lane" if newer else None,
-        )
+    action = xml.LongitudinalDistanceAction(
+        None if is_rigid else constraints,
+        entityRef=gap.reference.name,
+        distance=None if gap.is_time else size,
+        timeGap=size if gap.is_time else None,
+        freespace=freespace,
+        continuous=keeps,
+        displacement=ALONG[gap.side] if newer else None,
+        coordinateSystem="lane" if newer else None,
     )
-    if is_rigid and time is not None and steady_speed(leaf, gap.reference) is None:
+    if is_rigid and gap.is_time and steady_speed(leaf, gap.reference) is None:
         leaf.approximate(
             "a time gap without limits follows each change of a speed at once",
             "while the other one changes its speed, by what it covers in the lag of a driver",
         )
     # Tools reach a gap at some speed; what follows has to say which one it wants.
     during = replace(leaf.state, speed=None).finished(LONGITUDINAL)
-    return Change(LONGITUDINAL, (action,), inf if keeps else None, during, during)
+    length = inf if keeps else None
+    return Change(LONGITUDINAL, (longitudinal(action),), length, during, during)
+
+
+def _missing_at_start(leaf: Leaf, gap: Gap, distance: float, *, freespace: bool) -> float | None:
+    """Return by how much (m) a distance is another one at the start of the run, if that is now."""
+    apart = leaf.ctx.init_gaps.get((leaf.member.name, gap.reference.name))
+    if apart is None or not leaf.is_start:
+        return None
+    me, other = leaf.member.shape, gap.reference.shape
+    if gap.side == "ahead":
+        apart, me, other = -apart, other, me
+    return abs(apart - distance - (me.front - other.rear if freespace else 0.0))
 
 
 def _is_there(missing: float | None, *, keeps: bool) -> bool:
@@ -181,46 +169,38 @@ def _is_rigid(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> bo
     return False
 
 
-def _measured(leaf: Leaf, gap: Gap) -> tuple[float | None, float | None, bool]:
-    """Return distance, time and whether they count between the facing ends."""
-    if not gap.is_headway:
-        size = round(gap.size, 6)
-        return (None, size, True) if gap.is_time else (size, None, True)
+def _measured(leaf: Leaf, gap: Gap) -> tuple[float, bool]:
+    """Return the size as the XML counts it, and whether it counts between the facing ends."""
+    if gap.between == "points":
+        return gap.size, False
+    if gap.between == "ends":
+        return round(gap.size, 6), True
     behind, ahead = leaf.member.shape, gap.reference.shape
     if gap.side == "ahead":
         behind, ahead = ahead, behind
     overhang = behind.front - ahead.front  # from fronts to reference points
     if not gap.is_time:
-        return round(gap.size + overhang, 6), None, False
+        return round(gap.size + overhang, 6), False
     if abs(overhang) > 1e-6:
         leaf.approximate(
             "a time in the XML counts between reference points, not between fronts",
             f"off by the time for {abs(overhang):.2g} m",
         )
-    return None, round(gap.size, 6), False
+    return round(gap.size, 6), False
 
 
 def _require_side(leaf: Leaf, gap: Gap) -> None:
     """See to it that 1.0, which cannot say on which side a gap is, does not have to."""
-    ctx = leaf.ctx
-    if ctx.version >= "1.1":
+    if leaf.ctx.version >= "1.1":
         return
-    known_side = _side_at_start(leaf, gap)
+    known_side, newer = _side_at_start(leaf, gap), Remedy(version="1.1")
+    reason = "OpenSCENARIO XML 1.0 does not say on which side a distance is kept"
     if known_side == gap.side:
         return
     if known_side is not None:
-        raise Inexpressible(
-            "OpenSCENARIO XML 1.0 does not say on which side a distance is kept",
-            leaf.node.span,
-            Remedy(version="1.1"),
-        )
-    ctx.report.approximate(
-        leaf.construct,
-        leaf.node.span,
-        "OpenSCENARIO XML 1.0 does not say on which side a distance is kept",
-        f"differs only if it is not on the side `{gap.side}` when it begins",
-        Remedy(version="1.1"),
-    )
+        raise Inexpressible(reason, leaf.node.span, newer)
+    bound = f"differs only if it is not on the side `{gap.side}` when it begins"
+    leaf.approximate(reason, bound, newer)
 
 
 def _side_at_start(leaf: Leaf, gap: Gap) -> str | None:

@@ -11,7 +11,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
-from osc2tx.backends.xosc.actions.speed.gap_elements import ACROSS, ALONG, Gap, reach
+from osc2tx.backends.xosc.actions.speed.gap_elements import ACROSS, ALONG, Between, Gap, reach
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_shared.classes import replace
@@ -39,11 +39,10 @@ def _keep_gap(leaf: Leaf) -> Performance:
     direction = leaf.arguments.member("direction", "longitudinal")
     if reference is None:
         raise Inexpressible("it names no actor")
-    is_time, is_headway = "_time_" in leaf.node.action, leaf.node.action.endswith("headway")
-    found = _reached_before(leaf, reference, direction, is_time, is_headway)
+    found = _reached_before(leaf, reference, direction)
     missing: float | None = 0.0
     if found is None and direction == "longitudinal" and leaf.is_start:
-        found = _at_start(leaf, reference, is_time, is_headway)
+        found = _at_start(leaf, reference)
         same = leaf.state.speed == leaf.ctx.at_start[reference.name].speed
         missing = 0.0 if same else None
     if found is None:
@@ -66,14 +65,17 @@ def _asked_for(leaf: Leaf, node: ir.Invoke, arguments: Arguments) -> Gap:
         raise Inexpressible("it needs a target, a direction and a reference")
     if target < 0.0:
         target, side = -target, OPPOSITE[side]
-    is_time, is_headway = "_time_" in node.action, node.action.endswith("headway")
-    return Gap(reference, side, target, is_time, is_headway)
+    return Gap(reference, side, target, *_counted(node))
 
 
-def _reached_before(
-    leaf: Leaf, reference: CastMember, direction: str, is_time: bool, is_headway: bool
-) -> Gap | None:
+def _counted(node: ir.Invoke) -> tuple[bool, Between]:
+    """Return whether an action is about a time, and between what the gap of it counts."""
+    return "_time_" in node.action, "fronts" if node.action.endswith("headway") else "ends"
+
+
+def _reached_before(leaf: Leaf, reference: CastMember, direction: str) -> Gap | None:
     """Return the gap that the invocation before has made."""
+    is_time, between = _counted(leaf.node)
     before = ir.predecessor(leaf.ctx.scenario.body, leaf.node)
     if before is None or not before.action.startswith(("change_space_", "change_time_")):
         return None
@@ -85,28 +87,29 @@ def _reached_before(
     same = (gap.reference.name, gap.is_time, gap.is_lateral)
     if same != (reference.name, is_time, direction == "lateral"):
         return None
-    if gap.is_headway is is_headway:
+    if gap.between == between:
         return gap
     if is_time:
         return None
     leading = (reference if gap.side == "behind" else leaf.member).shape.length
-    size = gap.size + leading if is_headway else gap.size - leading
-    return replace(gap, size=size, is_headway=is_headway)
+    size = gap.size + leading if between == "fronts" else gap.size - leading
+    return replace(gap, size=size, between=between)
 
 
-def _at_start(leaf: Leaf, reference: CastMember, is_time: bool, is_headway: bool) -> Gap | None:
+def _at_start(leaf: Leaf, reference: CastMember) -> Gap | None:
     """Return the gap of the initial placement."""
+    is_time, between = _counted(leaf.node)
     apart = leaf.ctx.init_gaps.get((leaf.member.name, reference.name))
     if apart is None:
         return None
     me, other = leaf.member.shape, reference.shape
     side = "behind" if apart > 0.0 else "ahead"
     behind, ahead = (me, other) if side == "behind" else (other, me)
-    size = abs(apart) - behind.front + (ahead.front if is_headway else -ahead.rear)
+    size = abs(apart) - behind.front + (ahead.front if between == "fronts" else -ahead.rear)
     if is_time:
         trailing = leaf.state if side == "behind" else leaf.ctx.at_start[reference.name]
         speed = trailing.known_speed
         if speed is None or speed <= 0.0:
             return None
         size /= speed
-    return Gap(reference, side, max(size, 0.0), is_time, is_headway)
+    return Gap(reference, side, max(size, 0.0), is_time, between)

@@ -1,7 +1,8 @@
-"""Members of a `parallel`: when they start (§7.3.13.2), and whether they get in each other's way.
+"""Members that get in each other's way: starts in a `parallel` (§7.3.13.2), conflicts, overrides.
 
 The run ends with an error where two members control the same of one actor; in the XML one of them
-would just take over from the other.
+would just take over from the other. Overrides (§7.3.12.1.1) keep members from starting while
+another one is active.
 """
 
 from __future__ import annotations
@@ -10,8 +11,10 @@ from collections.abc import Iterator
 from itertools import product
 
 from osc2tx import ir
+from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.start_places import plan_starts
+from osc2tx.backends.xosc.flattening.storyboard.builder import StoryboardBuilder
 from osc2tx.backends.xosc.flattening.tree_queries import claims, entry_of, is_instant
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Bounds
@@ -31,15 +34,13 @@ def starts_of(ctx: Context, node: ir.Parallel) -> list[float | None]:
     timed = [member for member in node.members if not is_instant(member)]
     parts = [(member.name, length_of(ctx, member), is_open(member)) for member in timed]
     overlap = node.overlap or ("any" if node.start_to_start else "start")
-    planned = plan_starts(
-        parts, overlap, _bounds(ctx, node.start_to_start), _bounds(ctx, node.end_to_end), node.span
+    starts, ends = (
+        None if each is None else ctx.values.bounds(each)
+        for each in (node.start_to_start, node.end_to_end)
     )
+    planned = plan_starts(parts, overlap, starts, ends, node.span)
     by_member = dict(zip(map(id, timed), planned, strict=True))
     return [by_member.get(id(member), 0.0) for member in node.members]
-
-
-def _bounds(ctx: Context, expression: ir.Expression | None) -> tuple[float, float] | None:
-    return None if expression is None else ctx.values.bounds(expression)
 
 
 def is_open(node: ir.Behavior) -> bool:
@@ -167,3 +168,34 @@ def _controls(node: ir.Invoke) -> frozenset[tuple[str, str]]:
     """Return actor and domain of what an action controls while it goes on."""
     lasting = tuple(call for call in node.modifiers if call.at != "start")
     return claims(replace(node, modifiers=lasting))
+
+
+def unless_active(builder: StoryboardBuilder, node: ir.Behavior, start: Flow) -> tuple[Flow, Flow]:
+    """Return when a member starts that others may keep from starting, and when it is skipped.
+
+    Both are marks that exclude each other: what counts is who is active at the start.
+
+    Raises:
+        Inexpressible: Whether one of the others is active cannot be told.
+    """
+    scenario = builder.ctx.scope.scenario
+    blocking = [
+        override
+        for override in scenario.overrides
+        if node.label == override.overridden and override.mode == "when_active"
+    ]
+    if not blocking:
+        return start, NEVER
+    name = builder.name_of(node)
+    start = builder.latched(start, name)
+    skip, go = builder.ctx.names.new(f"skip_{name}"), builder.ctx.names.new(f"go_{name}")
+    active, idle = NEVER, Flow(((),))
+    for override in blocking:
+        if ir.may_be_cut(scenario.body, override.by):
+            reason = f"whether `{override.by}` is active when it is interrupted is not known"
+            raise Inexpressible(reason, override.span)
+        began, ended = builder.events.activity(override.by)
+        active = active | builder.is_set(began) & builder.is_unset(ended)
+        idle = idle & (builder.is_unset(began) | builder.is_set(ended))
+    skipped = builder.keep(skip, start & active & builder.is_unset(go))
+    return builder.keep(go, start & idle & builder.is_unset(skip)), skipped

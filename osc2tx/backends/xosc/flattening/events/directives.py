@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.user_actions import command_of, no_model
+from osc2tx.backends.xosc.conditions.event_conditions import set_parameters
 from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Group, Test, single
-from osc2tx.backends.xosc.flattening.events.event_parameters import set_parameters
 from osc2tx.backends.xosc.flattening.storyboard.builder import StoryboardBuilder
 from osc2tx.backends.xosc.names import plain
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible

@@ -14,7 +14,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import ceil, floor, inf, isfinite
 from typing import TypeAlias
 
-from osc2tx.backends.xosc.values.constants import Constant
 from osc2tx_shared.classes import dataclass
 
 MOST_STEPS = 20_000
@@ -45,7 +44,7 @@ class Interval:
         return self.low + share * (self.high - self.low)
 
 
-Choices: TypeAlias = tuple[Constant, ...]
+Choices: TypeAlias = tuple[object, ...]
 Domain: TypeAlias = Interval | Choices
 Key: TypeAlias = str
 
@@ -98,7 +97,7 @@ class Store:
             self.domains[key] = Interval(low, max(low, high), domain.is_whole)
             self.changed.append(key)
 
-    def keep(self, key: Key, allows: Callable[[Constant], bool]) -> None:
+    def keep(self, key: Key, allows: Callable[[object], bool]) -> None:
         """Leave the values of a set that pass a test.
 
         Raises:
@@ -124,7 +123,7 @@ class Store:
             self.domains[key] = (domain[min(int(share * len(domain)), len(domain) - 1)],)
         self.changed.append(key)
 
-    def value(self, key: Key) -> Constant:
+    def value(self, key: Key) -> object:
         """Return the value of a variable that has only one."""
         domain = self.domains[key]
         if isinstance(domain, Interval):
@@ -211,7 +210,7 @@ class Among(Relation):
         allows: The test.
     """
 
-    def __init__(self, key: Key, allows: Callable[[Constant], bool]) -> None:
+    def __init__(self, key: Key, allows: Callable[[object], bool]) -> None:
         self.keys = (key,)
         self._allows = allows
 
@@ -290,7 +289,7 @@ class Solver:
         if all(map(_is_finite, store.domains.values())):
             self._start = store.domains
 
-    def choose(self, shares: Mapping[Key, float]) -> dict[Key, Constant] | None:
+    def choose(self, shares: Mapping[Key, float]) -> dict[Key, object] | None:
         """Return values for places of the variables within what is left for them, between 0 and 1.
 
         None if what is left for one of them is nothing.

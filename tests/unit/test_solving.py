@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from osc2tx.backends.xosc.logical.solving import All, Among, Any, Interval, Linear, Relation, Solver
+from osc2tx.support.solving import All, Among, Any, Interval, Linear, Relation, Solver
 
 NAMES = ("a", "b", "c")
 DIGITS = range(5)

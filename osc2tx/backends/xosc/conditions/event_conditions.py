@@ -1,8 +1,10 @@
-"""Triggers that are evaluated before their event can occur.
+"""Events as conditions: triggers that begin before their event, and what an event hands over.
 
-They may ask whether the event has occurred; the others have to look for the edge, so that they do
-not see an occurrence from before they began. In a tool an edge is lost where both fall into one
-step, so it is not asked for without need.
+Triggers that are evaluated before their event can occur may ask whether it has occurred; the others
+have to look for the edge, so that they do not see an occurrence from before they began. In a tool
+an edge is lost where both fall into one step, so it is not asked for without need.
+
+Parameters of events are variables, set when the event is emitted.
 """
 
 from __future__ import annotations
@@ -12,7 +14,13 @@ from collections.abc import Iterator
 from typing import Literal, TypeAlias
 
 from osc2tx import ir
+from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.tree_queries import is_instant
+from osc2tx.backends.xosc.logical.parameters import value_text
+from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.values.constants import Constant
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import Rule
 
 Path: TypeAlias = tuple[tuple[ir.Behavior, int], ...]
 """Compositions from the outside to a member, with the index of the next one in it."""
@@ -96,3 +104,50 @@ def _begins_at_once(node: ir.Behavior, index: int) -> bool:
             return index == 0 or (node.start_to_start is None and node.overlap in (None, "start"))
         case _:
             return True
+
+
+ORDERLESS = frozenset({"equalTo", "notEqualTo"})
+"""Rules for what is no number."""
+
+
+def set_parameters(ctx: Context, emission: ir.Emit) -> tuple[xml.ActionPart, ...]:
+    """Return the actions that set what an emission hands over.
+
+    Raises:
+        Inexpressible: It is only known during the run.
+    """
+    found = []
+    for argument in emission.arguments:
+        value = ctx.values.of(argument.value)
+        variable = _variable(ctx, emission.event.name, argument.parameter, value)
+        found.append(ctx.set_variable(variable, value_text(value)))
+    return tuple(found)
+
+
+def parameter_condition(
+    ctx: Context, argument: ir.EventArgument, rule: Rule, value: Constant
+) -> xml.ByValueCondition:
+    """Return the condition on what an event has handed over.
+
+    Raises:
+        Inexpressible: Only numbers can be less or greater.
+    """
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if not is_number and rule not in ORDERLESS:
+        raise Inexpressible("an order of what is no number", argument.span)
+    if not isinstance(value, (int, float)):
+        ctx.require_support("ParameterCondition/text", argument.span)
+    variable = _variable(ctx, argument.event, argument.parameter, value)
+    return ctx.variable_is(variable, rule, value_text(value))
+
+
+def _variable(ctx: Context, event: str, parameter: str, value: Constant) -> str:
+    """Return the variable for a parameter of an event, declared."""
+    variable = ctx.variable_name(f"{ctx.scope.prefix}{event}.{parameter}")
+    if isinstance(value, bool):
+        ctx.declare(variable, "boolean", "false")
+    elif isinstance(value, (int, float)):
+        ctx.declare(variable, "double", "0")
+    else:
+        ctx.declare(variable, "string", "")
+    return variable

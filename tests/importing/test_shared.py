@@ -1,0 +1,34 @@
+"""Public documents: how many check, are compared with their documents, and do the same.
+
+`python -m tests.importing.shared_report` prints the table with reasons.
+"""
+
+from pathlib import Path
+
+import pytest
+
+from tests.importing.shared_report import OFF, SAME, Row, rows
+
+LEAST = {  # documents that check, are compared, and do the same
+    "alks": (30, 29, 22),
+    "ncap": (60, 23, 9),
+    "esmini": (137, 75, 41),
+    "scenario_runner": (16, 5, 5),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("family", LEAST)
+def test_documents_of_a_library(family: str, test_data: Path, tmp_path: Path) -> None:
+    found = list(rows(test_data / "xosc", tmp_path, [f"{family}/"]))
+    checked = sum(row.is_checked for row in found)
+    compared = sum(row.outcome in (SAME, OFF) for row in found)
+    same = sum(row.outcome == SAME for row in found)
+    least = LEAST[family]
+    assert (checked >= least[0], compared >= least[1], same >= least[2]) == (True,) * 3, _said(
+        found
+    )
+
+
+def _said(found: list[Row]) -> str:
+    return "\n".join(f"{row.file}: {row.detail or row.outcome}" for row in found)
