@@ -51,3 +51,36 @@ def test_derived(
             scenario_class(RunSettings())
         return
     assert vars(scenario_class(RunSettings()))["held"].serial_number == 3
+
+
+DIALECT = """import osc.standard.all
+{extension}
+actor own_kind inherits {base}:
+    serial_number: int
+
+scenario holds_one:
+    road: map with:
+        keep(it.map_file == "highway.xodr")
+    held: own_kind with:
+        keep(it.serial_number == 3)
+    do held.drive(duration: 1s)
+"""
+
+
+@pytest.mark.parametrize("base", ["Car", "Century"])
+@pytest.mark.parametrize("extension", ["", "\nextend Car:\n    wheels: int = 4\n"])
+def test_derived_from_a_type_of_a_dialect(
+    tmp_path: Path,
+    base: str,
+    extension: str,
+    load: Callable[[GeneratedModule], type[Scenario]],
+) -> None:
+    path = tmp_path / "holds_one.osc"
+    path.write_text(DIALECT.format(extension=extension, base=base), encoding="utf-8")
+    compilation = Compilation(path, path.name, CompileOptions(dialect="carla"))
+    assert compilation.check(), compilation.diagnostics
+    assert compilation.ir is not None
+    held = load(emit(compilation.ir))(RunSettings()).held  # type: ignore[attr-defined]
+    named = base if extension else "vehicle"
+    assert held.kinds[:2] == ("own_kind", named)
+    assert getattr(held, "wheels", None) == (4 if extension else None)

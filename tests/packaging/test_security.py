@@ -1,14 +1,20 @@
-"""The page about security names tests that exist."""
+"""The pages about security and about robustness name tests that exist."""
 
 import re
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[2]
 
 
-def test_each_promise_names_its_test() -> None:
-    text = (ROOT / "SECURITY.md").read_text(encoding="utf-8")
-    table = text.partition("## Promises")[2].partition("\n## ")[0]
+@pytest.mark.parametrize(
+    ("page", "heading"),
+    [("SECURITY.md", "## Promises"), ("docs/robustness.md", "## What was once wrong")],
+)
+def test_each_row_names_its_test(page: str, heading: str) -> None:
+    text = (ROOT / page).read_text(encoding="utf-8")
+    table = text.partition(heading)[2].partition("\n## ")[0]
     rows = [line for line in table.splitlines() if line.startswith("| ")][1:]
     assert len(rows) > 10
     for row in rows:

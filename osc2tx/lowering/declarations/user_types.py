@@ -214,7 +214,7 @@ def _lower_type(
         name=symbol.name,
         span=symbol.span,
         comments=(*comments, *_told_by(ctx, symbol)),
-        bases=() if symbol.base is None else (symbol.base.name,),
+        bases=_bases(symbol),
         is_actor=isinstance(symbol, sym.ActorSymbol),
         fields=tuple(_lower_field(ctx, field) for field in user_fields(ctx, symbol)),
         unused=tuple(_lower_field(ctx, field) for field in unused_fields(ctx, symbol)),
@@ -224,6 +224,14 @@ def _lower_type(
             *map(str, below),
         ),
     )
+
+
+def _bases(symbol: TypeSymbol) -> tuple[str, ...]:
+    """Name the base of a type; types of a dialect have a class only if they are extended."""
+    base, with_class = symbol.base, set(user_bases(symbol))
+    while base is not None and base.origin == "prelude" and base not in with_class:
+        base = base.base
+    return () if base is None else (base.name,)
 
 
 def _told_by(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[str]:
@@ -236,18 +244,20 @@ def _told_by(ctx: LoweringContext, symbol: TypeSymbol) -> Iterator[str]:
 def _lower_extended(ctx: LoweringContext, symbol: TypeSymbol) -> ir.UserType:
     """Lower a type of the library that has fields of the user's, by itself or by a base.
 
-    Its place is that of the last extension, which is of the root file if that has one.
+    Its place is that of the last extension, which is of the root file if that has one. One of a
+    dialect becomes a type of its own.
     """
+    is_of_library = symbol.origin == "library"
     above = user_bases(symbol)
     found = [[n for s, n in _extensions(ctx) if s is each] for each in above]
     own, nodes = found[0], next(each for each in found if each)
-    bases = (symbol.base,) if symbol.base is not None and len(found) > 1 else ()
+    bases = _bases(symbol) if len(found) > 1 or not is_of_library else ()
     defaults = _class_defaults(ctx, symbol)
     return ir.UserType(
         name=symbol.name,
         span=nodes[-1].span,
         comments=tuple(line for node in own for line in statement_comments(node)),
-        bases=tuple(base.name for base in bases),
+        bases=bases,
         is_actor=isinstance(symbol, sym.ActorSymbol),
         fields=tuple(_lower_field(ctx, field) for field in user_fields(ctx, symbol)),
         unused=tuple(_lower_field(ctx, field) for field in unused_fields(ctx, symbol)),
@@ -255,7 +265,7 @@ def _lower_extended(ctx: LoweringContext, symbol: TypeSymbol) -> ir.UserType:
         keeps=tuple(
             stated_keeps(each for node in own for each in node.members if each not in defaults)
         ),
-        is_of_library=True,
+        is_of_library=is_of_library,
     )
 
 
