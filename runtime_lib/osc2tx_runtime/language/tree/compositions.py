@@ -192,7 +192,8 @@ class Serial(Composition, SequenceComposite):
         lengths = [None if is_open(c) else length_of(c) for c in self.children if c is not member]
         known = [length for length in lengths if length is not None]
         low = frame.low - sum(known) if len(known) == len(lengths) else 0
-        return Span(max(low, 0), frame.high - sum(known))
+        least = sum(max(length - 1, 0) for length in known)  # a length is rounded up to steps
+        return Span(max(low, 0), frame.high - least)
 
     def _advance(self) -> Status:
         members, context, resting = self._members, self.context, self.context.resting.nodes
