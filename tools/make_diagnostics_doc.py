@@ -37,11 +37,12 @@ the entry of a code.
 | `json` | scripts; [`diagnostics.schema.json`](diagnostics.schema.json) describes it | stdout |
 | `sarif` | code scanning: SARIF 2.1.0 | stdout |
 | `github` | remarks beside the lines of a pull request, from within a GitHub workflow | stdout |
+| `rdjson` | [suggested changes](how-to/ci.md#fixes-as-suggested-changes), by reviewdog | stdout |
 
-In the last three, summary and verdict go to stderr. Columns count characters, in SARIF UTF-16
-units. Paths are relative to the folder in which osc2tx was started. If osc2tx cannot begin (wrong
-usage, no such file), the document says so: `failure` in JSON, a notification in SARIF, an error
-without place on GitHub.
+In the last four, summary and verdict go to stderr. Columns count characters, in SARIF UTF-16
+units, in `rdjson` bytes of UTF-8. Paths are relative to the folder in which osc2tx was started. If
+osc2tx cannot begin (wrong usage, no such file), the document says so: `failure` in JSON, a
+notification in SARIF, an error without place on GitHub and in `rdjson`.
 
 `--strict` turns exit code 0 into 1 if there are warnings, and `run` then does not start.
 `--max-diagnostics N` shows at most N of one file and counts the rest; 0 shows all.

@@ -48,7 +48,7 @@ def columns() -> int | None:
     return get_terminal_size().columns
 
 
-OutputFormat: TypeAlias = Literal["text", "json", "sarif", "github"]
+OutputFormat: TypeAlias = Literal["text", "json", "sarif", "github", "rdjson"]
 OUTPUT_FORMATS: tuple[OutputFormat, ...] = get_args(OutputFormat)
 FORMATS_FOR_READERS: tuple[OutputFormat, ...] = ("text", "github")
 MOST_SHOWN = 50  # diagnostics of one file, where people read them
@@ -242,13 +242,13 @@ def report_options(command: Callable[..., Any]) -> Callable[..., Any]:
             "--max-diagnostics",
             type=click.IntRange(min=0),
             metavar="N",
-            help=f"Show at most N of one file, 0 for all.  [default: {MOST_SHOWN}; json, sarif: 0]",
+            help=f"Show at most N of one file, 0 for all.  [default: {MOST_SHOWN}; documents: 0]",
         ),
         click.option(
             "--docs-url",
             metavar="URL",
             callback=_address,
-            help="Where your copy of this documentation is published: SARIF links to its pages.",
+            help="Where your copy of this documentation is published: SARIF, rdjson link to it.",
         ),
     )
     for option in reversed(options):
@@ -294,6 +294,8 @@ def _document(
             )
         case "github":
             return render.render_github(report)
+        case "rdjson":
+            return render.render_rdjson(report, docs_url=docs_url)
         case "text":
             raise ValueError("a text for people is no document")
 

@@ -49,6 +49,8 @@ def _is_idle(node: Element) -> bool:
         return True
     if node.tag in ("Action", "PrivateAction", "GlobalAction"):
         return bool(node.children) and all(_is_idle(child) for child in node.children)
+    if node.tag == "StartTrigger" and not node.children:
+        return True  # tools start at once what waits for nothing
     if node.tag == "TrailerRef":
         return not node.get("entityRef")
     return node.tag == "Trailer" and all(_is_idle(child) for child in node.children)

@@ -75,6 +75,11 @@ class Whole:
             if branch.members and branch.members[0].text.startswith("wait "):
                 lasting = [each for said in branch_said for each in inits.lasting(said)]
                 content = [*before, *lasting, *branch.members]
+            elif branch.members and branch.members[0].members is not None:
+                # what is waited for in several ways goes on beside what is done up to then
+                beside = [each for said in branch_said for each in inits.lasting(said)]
+                later = composed("serial", branch.members)
+                content = [*before, composed("parallel", [*beside, later])]
             last = [
                 each
                 for said, actor in actors

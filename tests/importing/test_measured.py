@@ -102,3 +102,9 @@ def test_tools_parts_move_nothing() -> None:
 
 def test_pi_is_a_number() -> None:
     assert evaluated("${$a * pi / 180}", {"a": 180.0}) == pytest.approx(3.14159265)
+
+
+def test_a_trigger_that_waits_for_nothing_starts_at_once() -> None:
+    """As tools take it: the event starts with its act."""
+    found = plain(read('<Act name="a"><StartTrigger/><StopTrigger/></Act>'))
+    assert [node.tag for node in found.children] == ["StopTrigger"]

@@ -135,7 +135,9 @@ def waypoints(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> l
 
 def _on_route(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> LanePosition | Pose:
     """Return a place by the metres along a route."""
-    route, position = node.children[0], node.children[-1].inner
+    route = node.children[0]
+    (where,) = [each for each in node.children if each.tag in ("InRoutePosition", "Position")]
+    position = where.inner
     if position.get("entityRef") is not None:
         return bodies[position.said("entityRef")].here
     stops = waypoints(route, bodies, road_map)

@@ -58,7 +58,7 @@ class Speeds:
             case "time":
                 time = value
             case "rate" if value:
-                time = peak * change / value
+                time = peak * change / abs(value)
             case "distance":  # the mean of all these shapes lies in the middle
                 time = 2.0 * value / (body.v + end)
         if shape == "step" or (dimension != "rate" and value == 0.0):

@@ -62,7 +62,7 @@ def process(
     return made
 
 
-@pytest.mark.parametrize("form", ["text", "json", "sarif", "github"])
+@pytest.mark.parametrize("form", ["text", "json", "sarif", "github", "rdjson"])
 def test_an_answer_reads_as_at_the_first_time(process: Process, form: str) -> None:
     command = (*COMMAND, "--output-format", form)
     assert process.recall(*command) is None

@@ -100,3 +100,18 @@ def test_fixes_in_json_and_sarif(shell: Shell) -> None:
     (replacement,) = change["replacements"]
     assert replacement["insertedContent"] == {"text": "vehicle"}
     assert replacement["deletedRegion"]["startColumn"] == 8
+
+
+def test_each_fix_is_a_suggested_change(shell: Shell) -> None:
+    """What reviewers commit from the comments of reviewdog is what `--fix` writes."""
+    path = shell.write("a.osc", SLIP)
+    document = json.loads(shell("check", path, "--output-format", "rdjson").out)
+    lines = SLIP.splitlines(keepends=True)
+    for found in reversed(document["diagnostics"]):
+        (change,) = found["suggestions"]
+        start, end = change["range"]["start"], change["range"]["end"]
+        assert start["line"] == end["line"]
+        line = lines[start["line"] - 1]
+        before, after = line[: start["column"] - 1], line[end["column"] - 1 :]
+        lines[start["line"] - 1] = f"{before}{change['text']}{after}"
+    assert "".join(lines) == MENDED

@@ -36,12 +36,15 @@ def faults_of(shell: Shell, form: str, *arguments: str) -> list[tuple[str, str]]
         places = (each["locations"][0]["physicalLocation"] for each in run["results"])
         uris = [place["artifactLocation"]["uri"] for place in places]
         return list(zip(uris, [each["ruleId"] for each in run["results"]], strict=True))
+    if form == "rdjson":
+        found = json.loads(ended.out)["diagnostics"]
+        return [(each["location"]["path"], each["code"]["value"]) for each in found]
     lines = [line.removeprefix("::error file=") for line in ended.out.splitlines()]
     found = [line.split("::")[0].split(",title=osc2tx ") for line in lines]
     return [(file, rule) for file, rule in found]
 
 
-@pytest.mark.parametrize("form", ["json", "sarif", "github"])
+@pytest.mark.parametrize("form", ["json", "sarif", "github", "rdjson"])
 def test_stale_outputs_and_formatting_are_in_every_form(shell: Shell, form: str) -> None:
     shell.drive("in/a.osc")
     stale = faults_of(shell, form, "build", "in", "-o", "out", "--check", "--target", "py")

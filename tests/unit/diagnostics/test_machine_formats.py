@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from osc2tx.diagnostics import CODES, Diagnostic, Label, SourceFile, Span
-from osc2tx.diagnostics.render import render_github, render_json, render_sarif
+from osc2tx.diagnostics.fixes import Edit, Fix
+from osc2tx.diagnostics.render import render_github, render_json, render_rdjson, render_sarif
 from osc2tx.diagnostics.render.github import MOST_COMMANDS
 from osc2tx.diagnostics.report import Report, make_report
 
@@ -95,6 +96,7 @@ def test_json_counts_characters(tmp_path: Path) -> None:
 def test_json_can_be_written_in_any_encoding(tmp_path: Path) -> None:
     assert render_json(with_all(tmp_path), version="1.0").isascii()
     assert render_sarif(with_all(tmp_path), version="1.0").isascii()
+    assert render_rdjson(with_all(tmp_path)).isascii()
 
 
 # --- SARIF ---
@@ -163,6 +165,111 @@ def test_sarif_says_whether_osc2tx_failed() -> None:
     assert sarif(Report())["invocations"] == [{"executionSuccessful": True}]
 
 
+# --- rdjson ---
+
+RANGE = {
+    "type": "object",
+    "required": ["start", "end"],
+    "additionalProperties": False,
+    "properties": {
+        place: {
+            "type": "object",
+            "required": ["line", "column"],
+            "additionalProperties": False,
+            "properties": {key: {"type": "integer", "minimum": 1} for key in ("line", "column")},
+        }
+        for place in ("start", "end")
+    },
+}
+# What reviewdog reads of its Diagnostic Format; it drops other members.
+RDJSON = {
+    "type": "object",
+    "required": ["source", "diagnostics"],
+    "additionalProperties": False,
+    "properties": {
+        "source": {"type": "object", "properties": {"name": {"type": "string"}}},
+        "diagnostics": {
+            "type": "array",
+            "items": {
+                "type": "object",
+                "required": ["message", "severity"],
+                "additionalProperties": False,
+                "properties": {
+                    "message": {"type": "string", "minLength": 1},
+                    "severity": {"enum": ["ERROR", "WARNING", "INFO"]},
+                    "code": {
+                        "type": "object",
+                        "required": ["value"],
+                        "additionalProperties": False,
+                        "properties": {key: {"type": "string"} for key in ("value", "url")},
+                    },
+                    "location": {
+                        "type": "object",
+                        "required": ["path"],
+                        "additionalProperties": False,
+                        "properties": {"path": {"type": "string"}, "range": RANGE},
+                    },
+                    "suggestions": {
+                        "type": "array",
+                        "items": {
+                            "type": "object",
+                            "required": ["range", "text"],
+                            "additionalProperties": False,
+                            "properties": {"range": RANGE, "text": {"type": "string"}},
+                        },
+                    },
+                },
+            },
+        },
+    },
+}
+
+
+def rdjson(report: Report) -> list[dict[str, Any]]:
+    document = json.loads(render_rdjson(report))
+    jsonschema.validate(document, RDJSON)
+    found: list[dict[str, Any]] = document["diagnostics"]
+    return found
+
+
+def fix_of(source: SourceFile, *edits: tuple[str, str]) -> Fix:
+    spans = [(source.text.index(old), old, new) for old, new in edits]
+    return Fix("x", tuple(Edit(Span(source, at, at + len(old)), new) for at, old, new in spans))
+
+
+def test_rdjson_counts_bytes_and_names_the_file_as_it_is(tmp_path: Path) -> None:
+    (found,) = rdjson(with_all(tmp_path))
+    assert found["location"] == {
+        "path": "sub dir/x,y:ü.osc",
+        "range": {"start": {"line": 2, "column": 12}, "end": {"line": 2, "column": 19}},
+    }
+    assert found["message"].endswith("help: did you mean `vehicle`?")
+    assert (found["code"], found["severity"]) == ({"value": "OSC202"}, "ERROR")
+
+
+def test_rdjson_joins_the_edits_of_a_fix_to_one_suggestion() -> None:
+    source, other = SourceFile("a.osc", "one two\nthree\n"), SourceFile("b.osc", "four\n")
+    fixes = (fix_of(source, ("one", "1"), ("three", "3")), fix_of(other, ("four", "4")))
+    entry = CODES["OSC202"]
+    item = Diagnostic("OSC202", entry.severity, "m", Span(source, 4, 7), fixes=fixes)
+    (found,) = rdjson(make_report([item], files=1))
+    assert found["suggestions"] == [
+        {
+            "range": {"start": {"line": 1, "column": 1}, "end": {"line": 2, "column": 6}},
+            "text": "1 two\n3",
+        }
+    ]
+
+
+def test_rdjson_of_what_has_no_place() -> None:
+    (found,) = rdjson(no_place())
+    assert "location" not in found
+    (failure,) = rdjson(Report(failure="wrong usage"))
+    assert failure == {"message": "wrong usage", "severity": "ERROR"}
+    link = json.loads(render_rdjson(no_place(), docs_url="https://docs.example.org"))
+    assert link["diagnostics"][0]["code"]["url"].endswith("org/diagnostics/osc101.html")
+
+
 # --- GitHub ---
 
 
@@ -211,6 +318,7 @@ def test_every_code_can_be_rendered() -> None:
     jsonschema.validate(json.loads(render_json(report, version="1.0")), SCHEMA)
     assert len(sarif(report)["tool"]["driver"]["rules"]) == len(CODES)
     assert render_github(report).count("\n") == len(CODES)
+    assert len(rdjson(report)) == len(CODES)
 
 
 @given(st.text(), st.text())

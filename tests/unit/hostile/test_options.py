@@ -196,7 +196,7 @@ def test_a_name_that_is_not_utf_8_does_not_stop_the_others(tmp_path: Path) -> No
     found = ended(tmp_path, "build", "in", "-o", "out")
     assert (found.code, (tmp_path / "out/a.py").exists()) == (4, True)
     assert "\\udcff.osc`: the name of the file or a folder is not UTF-8" in found.err
-    for form in ("json", "sarif", "github"):
+    for form in ("json", "sarif", "github", "rdjson"):
         assert ended(tmp_path, "check", "in", "--output-format", form).code == 4
 
 
