@@ -132,10 +132,10 @@ vscode: $(STAMP)
 	  --no-git-tag-version --no-update-package-json --no-dependencies --allow-missing-repository --skip-license \
 	  -o ../../dist/osc2tx.vsix
 
-# The page that checks and runs scenarios in a browser, beside the site, whose folder `make docs` empties.
+# The site with the page that checks and runs scenarios in a browser; `make docs` keeps it from then on.
 playground: $(STAMP)
 	npm install --prefix out/npm --no-save --no-package-lock --no-audit --no-fund --silent pyodide@314.0.7
-	$(BIN)/python tools/make_playground.py out/npm/node_modules/pyodide out/site/playground
+	$(MAKE) docs
 
 $(STAMP): pyproject.toml runtime_lib/pyproject.toml
 	$(PYTHON) -m venv $(VENV)

@@ -8,6 +8,7 @@ without the transport, which takes about a millisecond. A ratio below 1 is withi
 the CPU time of a process that reports the first diagnostics, and the highest memory of all.
 """
 
+import json
 import resource
 import subprocess
 import sys
@@ -20,12 +21,14 @@ from osc2tx.language_server import decorations, descriptions, navigation, proble
 from osc2tx.language_server.completion import completions
 from osc2tx.language_server.positions import position_of, whole
 from osc2tx.language_server.project import Project
+from osc2tx.support.recursion import collect_earlier_trees
 
 SIZES = (100, 1000)
 EDITS = 20
 # Question -> lines of the file -> milliseconds, of the median and of the worst.
 BUDGET: dict[str, dict[int, tuple[float, float]]] = {
     "diagnostics": {100: (50, 150), 1000: (150, 400)},
+    "of a slip": {100: (50, 150), 1000: (150, 400)},  # diagnostics of a text with an error
     "completion": {100: (50, 100), 1000: (50, 100)},
     "hover": {100: (20, 50), 1000: (20, 50)},
     "definition": {100: (20, 50), 1000: (20, 50)},
@@ -71,9 +74,10 @@ def measure(lines: int, file: Path) -> dict[str, list[float]]:
     for number in range(EDITS):
         place = starts[number * len(starts) // EDITS]
         edited = text[: place + 4] + text[place + 5 :]  # `ego.rive`
-        found.setdefault("diagnostics", []).append(
+        found.setdefault("of a slip", []).append(
             milliseconds(lambda edited=edited: problems.problems(project.change(file, edited)))
         )
+        collect_earlier_trees()  # as the server does after its answer
         offset = place + 4
         found.setdefault("completion", []).append(
             milliseconds(
@@ -82,9 +86,10 @@ def measure(lines: int, file: Path) -> dict[str, list[float]]:
                 )
             )
         )
-        found["diagnostics"].append(
+        found.setdefault("diagnostics", []).append(
             milliseconds(lambda: problems.problems(project.change(file, text)))
         )
+        collect_earlier_trees()
         document = project.document(file)
         position = position_of(document.source, place + 5)
         for name, ask in (("hover", descriptions.hover), ("definition", navigation.definition)):
@@ -100,21 +105,29 @@ def measure(lines: int, file: Path) -> dict[str, list[float]]:
 
 def start_of_a_process(file: Path) -> float:
     """Return the milliseconds from nothing to the diagnostics of a first file."""
-    file.write_text(text_of(100))
-    code = (
-        "import sys; from pathlib import Path;"
-        " from osc2tx.language_server.server import make_server;"
-        " from osc2tx.language_server.problems import problems;"
-        " file = Path(sys.argv[1]);"
-        " problems(make_server().project.change(file, file.read_text()))"
+    item = {"uri": file.as_uri(), "languageId": "osc2", "version": 1, "text": text_of(100)}
+    sent = (
+        message("initialize", {"capabilities": {}}, 1),
+        message("initialized", {}),
+        message("textDocument/didOpen", {"textDocument": item}),
+        message("shutdown", None, 2),
+        message("exit", None),
     )
-    command = [sys.executable, "-c", code, str(file)]
+    command = [sys.executable, "-m", "osc2tx", "lsp"]
     least = float("inf")
     for _ in range(3):
         before = _time_of_children()
-        subprocess.run(command, check=True)
+        subprocess.run(command, check=True, input=b"".join(sent), stdout=subprocess.DEVNULL)
         least = min(least, (_time_of_children() - before) * 1000)
     return least
+
+
+def message(method: str, params: object, number: int | None = None) -> bytes:
+    """Return a message as it is sent to the server; a question has a number."""
+    identity = {} if number is None else {"id": number}
+    content = {"jsonrpc": "2.0", "method": method, "params": params, **identity}
+    text = json.dumps(content).encode()
+    return b"Content-Length: %d\r\n\r\n%s" % (len(text), text)
 
 
 def _time_of_children() -> float:

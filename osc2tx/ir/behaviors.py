@@ -228,6 +228,7 @@ class InvokeScenario(BehaviorBase):
         arguments: Its parameters and cast, in source order, without `duration`.
         duration: Time or range of time.
         until: Any of these ends it.
+        times: Values of times that it would draw, and those that it invokes, by path.
     """
 
     scenario: str
@@ -236,6 +237,7 @@ class InvokeScenario(BehaviorBase):
     arguments: tuple[Argument, ...]
     duration: Expression | None = None
     until: tuple[Trigger, ...] = ()
+    times: tuple[Argument, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

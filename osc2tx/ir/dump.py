@@ -227,6 +227,8 @@ def _behavior(node: Behavior) -> Iterator[str]:
         case InvokeScenario(scenario=scenario, actor=actor, arguments=arguments):
             who = f"{show(actor)}." if actor is not None else ""
             yield f"InvokeScenario {who}{scenario}({show_arguments(arguments)}){place}"
+            if node.times:
+                yield from _indented(iter((f"times {show_arguments(node.times)}",)))
             yield from _indented(_limits(node.duration, node.until))
         case Wait(trigger=trigger):
             yield f"Wait {_trigger(trigger)}{place}"

@@ -181,7 +181,7 @@ class _ScenarioVerifier:
                     self.check_modifier(modifier)
                 self.check_limits(node.duration, node.until)
             case InvokeScenario():
-                for argument in node.arguments:
+                for argument in (*node.arguments, *node.times):
                     self.check_expression(argument.value)
                 if node.actor is not None:
                     self.check_expression(node.actor)

@@ -71,10 +71,14 @@ def semantic_tokens(document: Document) -> lsp.SemanticTokens:
 
 
 def inlay_hints(document: Document, asked: lsp.Range) -> list[lsp.InlayHint]:
-    """Return the values of quantities in SI units and the names of positional arguments."""
+    """Return values of quantities in SI units, names of arguments, and levels of scenarios."""
     start = offset_of(document.source, asked.start)
     end = offset_of(document.source, asked.end)
-    hints = [*_quantities(document, start, end), *_parameters(document, start, end)]
+    hints = [
+        *_quantities(document, start, end),
+        *_parameters(document, start, end),
+        *_levels(document, start, end),
+    ]
     return sorted(hints, key=lambda hint: (hint.position.line, hint.position.character))
 
 
@@ -113,6 +117,22 @@ def _parameters(document: Document, start: int, end: int) -> Iterator[lsp.InlayH
                     kind=lsp.InlayHintKind.Parameter,
                     padding_right=True,
                 )
+
+
+def _levels(document: Document, start: int, end: int) -> Iterator[lsp.InlayHint]:
+    """Yield how far each scenario is worked out (§6.3), behind the name that it declares."""
+    model = document.model
+    levels = {each.name: each for each in document.compilation.scenarios}
+    for scenario in () if model is None else model.scenarios:
+        entry, span = levels.get(scenario.qualified_name), scenario.span
+        if entry is None or span.source is not document.source or not start <= span.end <= end:
+            continue
+        yield lsp.InlayHint(
+            position_of(document.source, span.end),
+            entry.level,
+            tooltip=entry.summary,
+            padding_left=True,
+        )
 
 
 def lenses(document: Document, uri: str) -> list[lsp.CodeLens]:

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote, urlparse
-from urllib.request import url2pathname
 
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcInvalidParams
 from pygls.lsp.server import LanguageServer
+from pygls.uris import to_fs_path
 
 from osc2tx.config import ConfigError
 from osc2tx.language_server import decorations, descriptions, navigation, problems
@@ -19,6 +19,7 @@ from osc2tx.language_server.completion import completions, signature
 from osc2tx.language_server.documents import Document
 from osc2tx.language_server.positions import offset_of, range_of, whole
 from osc2tx.language_server.project import Project
+from osc2tx.support.recursion import collect_earlier_trees
 from osc2tx.version import __version__
 
 
@@ -38,6 +39,7 @@ class OscServer(LanguageServer):
         """Send the diagnostics of a document; wrong settings are one of them."""
         found = problems.problems(document)
         self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, found))
+        collect_earlier_trees()  # now that the editor has its answer
 
     def changed(self, uri: str) -> None:
         """Take the text that the editor has now, and check it."""
@@ -54,10 +56,8 @@ class OscServer(LanguageServer):
 
 def path_of(uri: str) -> Path:
     """Return the path of a document; one that is not a file gets a name in the working folder."""
-    parts = urlparse(uri)
-    return Path(
-        url2pathname(parts.path) if parts.scheme == "file" else unquote(parts.path) or "a.osc"
-    )
+    # Not by `urllib.request`, which loads a twentieth of all that the server loads.
+    return Path(to_fs_path(uri) or unquote(urlparse(uri).path) or "a.osc")
 
 
 def make_server() -> OscServer:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from osc2tx import ir
@@ -16,9 +16,11 @@ from osc2tx.lowering.behavior.composed_behaviors import (
     has_behavior,
     is_composed,
     lineage_of,
+    scenario_key,
 )
 from osc2tx.lowering.behavior.do_directives import labelled_once, lower_body, nothing_left
 from osc2tx.lowering.behavior.durations import own_duration
+from osc2tx.lowering.behavior.invoked_times import ScenarioOf
 from osc2tx.lowering.behavior.time_system import TimeSystem
 from osc2tx.lowering.behavior.user_actions import lower_actions
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
@@ -37,16 +39,13 @@ from osc2tx.lowering.declarations.user_fields import (
 )
 from osc2tx.lowering.declarations.user_types import lower_enums, lower_types, lower_units
 from osc2tx.lowering.modifiers.modifier_functions import lower_modifiers, own_modifiers
-from osc2tx.lowering.modifiers.modifiers import is_override
 from osc2tx.lowering.modifiers.override_modifiers import lower_overrides
-from osc2tx.lowering.modifiers.standing_modifiers import StandingModifiers, stands
-from osc2tx.lowering.placement.carla_paths import is_path_member
+from osc2tx.lowering.modifiers.standing_modifiers import StandingModifiers
 from osc2tx.lowering.placement.initial_placement import (
     PlacementLowering,
-    can_place,
     merged,
-    owner_of,
 )
+from osc2tx.lowering.placement.member_placements import member_placements
 from osc2tx.lowering.unsupported_members import report_unsupported_members
 from osc2tx.lowering.values.expressions import lower_expression
 from osc2tx.lowering.values.method_kinds import object_types
@@ -97,25 +96,15 @@ def lower(
         ),
         object_types=object_types(model, analysis),
     )
+    lowering = _ProgramLowering(program, options)
     while pending:
         scenario = pending.pop(0)
         if scenario in lowered:
             continue
         is_inherited_only = scenario not in model.scenarios and scenario not in invoked
-        ctx = (program.quiet() if is_inherited_only else program).of_scenario(
-            frozenset(name for each in lineage_of(scenario) for name in each.members),
-            same_actors(analysis.types[scenario]),
-        )
-        made = _lower_scenario(
-            ctx,
-            scenario,
-            is_imported=scenario not in model.scenarios,
-            first_come=options.dialect == "carla",
-        )
-        is_refused = is_inherited_only and ctx.sink.has_errors  # its own file reports it
-        lowered[scenario] = None if is_refused else made
-        invoked.update(ctx.invoked)
-        pending += [*ctx.invoked, *_user_base(scenario)]
+        lowered[scenario], used_inside = lowering.lower(scenario, is_inherited_only)
+        invoked.update(used_inside)
+        pending += [*used_inside, *_user_base(scenario)]
     report_unsupported_members(program, used, actions, tuple(lowered))
     found = _bases_first(lowered)
     module = ir.Module(
@@ -137,6 +126,59 @@ def lower(
     modifiers = dict.fromkeys((*own_modifiers(model), *applied))
     module = replace(module, modifiers=lower_modifiers(program, modifiers))
     return replace(module, enums=lower_enums(model, module))
+
+
+class _ProgramLowering:
+    """Lowers the scenarios of a program, each once.
+
+    Args:
+        program: The program.
+        options: Of the compilation.
+    """
+
+    def __init__(self, program: LoweringContext, options: CompileOptions) -> None:
+        self._program = program
+        self._first_come = options.dialect == "carla"
+        self._made: dict[Composed, tuple[ir.AbstractScenario | None, Sequence[Composed]]] = {}
+        self._by_key: dict[str, Composed] = {}
+
+    def lower(
+        self, scenario: Composed, is_inherited_only: bool = False
+    ) -> tuple[ir.AbstractScenario | None, Sequence[Composed]]:
+        """Return a scenario, None if it is refused, and what it invokes.
+
+        Args:
+            scenario: The scenario.
+            is_inherited_only: It is imported, and nothing invokes it.
+        """
+        if scenario not in self._made:
+            self._made[scenario] = None, ()  # while it is lowered: it may invoke itself
+            self._made[scenario] = self._lower(scenario, is_inherited_only)
+        return self._made[scenario]
+
+    def _lower(
+        self, scenario: Composed, is_inherited_only: bool
+    ) -> tuple[ir.AbstractScenario | None, Sequence[Composed]]:
+        model = self._program.model
+        ctx = (self._program.quiet() if is_inherited_only else self._program).of_scenario(
+            frozenset(name for each in lineage_of(scenario) for name in each.members),
+            same_actors(self._program.analysis.types[scenario]),
+        )
+
+        def scenario_of(key: str) -> ir.AbstractScenario | None:
+            self._by_key.update((scenario_key(each), each) for each in ctx.invoked)
+            return self.lower(self._by_key[key])[0]
+
+        made = _lower_scenario(
+            ctx,
+            scenario,
+            is_imported=scenario not in model.scenarios,
+            first_come=self._first_come,
+            scenario_of=scenario_of,
+        )
+        self._by_key.update((scenario_key(each), each) for each in ctx.invoked)
+        is_refused = is_inherited_only and ctx.sink.has_errors  # its own file reports it
+        return None if is_refused else made, ctx.invoked
 
 
 def _user_base(scenario: Composed) -> tuple[Composed, ...]:
@@ -192,7 +234,12 @@ def _head_comments(file: ast.File) -> tuple[str, ...]:
 
 
 def _lower_scenario(
-    ctx: LoweringContext, scenario: Composed, *, is_imported: bool, first_come: bool
+    ctx: LoweringContext,
+    scenario: Composed,
+    *,
+    is_imported: bool,
+    first_come: bool,
+    scenario_of: ScenarioOf,
 ) -> ir.AbstractScenario | None:
     node = scenario.node
     statements = _statements(scenario)
@@ -209,7 +256,7 @@ def _lower_scenario(
     tree = lower_body(ctx, scenario, statements, constraints, standing, duration)
     if tree is None and has_behavior(scenario):
         return None
-    times = TimeSystem(ctx, declarations)
+    times = TimeSystem(ctx, declarations, scenario_of)
     body: ir.Behavior | None = None
     placements: tuple[ir.Placement, ...] = ()
     if tree is not None:
@@ -238,7 +285,7 @@ def _lower_scenario(
             (*methods, *type_methods),
         ),
         methods=(*methods, *type_methods),
-        placements=merged(ctx, (*_member_placements(ctx, statements, standing), *placements)),
+        placements=merged(ctx, (*member_placements(ctx, statements, standing), *placements)),
         end_comments=(*_end_comments(node), *node.comments_below),
         overrides=lower_overrides(ctx, statements),
         coverage=coverage,
@@ -278,59 +325,3 @@ def _statements(scenario: Composed) -> tuple[ast.Statement, ...]:
     """Return the member statements, those of base scenarios first."""
     chain = list(lineage_of(scenario))
     return tuple(statement for symbol in reversed(chain) for statement in symbol.statements)
-
-
-def _is_method_call(ctx: LoweringContext, statement: ast.ModifierApplication) -> bool:
-    """Whether a member calls a method, as a dialect lets it; without effect, if it computes."""
-    callee = ctx.model.binding_of(statement).callee
-    if not isinstance(callee, sym.MethodSymbol):
-        return False
-    if callee.node is not None and isinstance(callee.node.body, ast.ExternalBody):
-        ctx.unsupported(
-            "OSC503",
-            statement.span,
-            "an external method is called at a time of the scenario",
-            help=f"write `call {statement.span.text}` in its `do`",
-        )
-    return True
-
-
-def _member_placements(
-    ctx: LoweringContext,
-    statements: tuple[ast.Statement, ...],
-    standing: StandingModifiers,
-) -> tuple[ir.Placement, ...]:
-    """Lower modifiers that stand as members: only those that place an actor."""
-    placements = []
-    for statement in statements:
-        if not isinstance(statement, ast.ModifierApplication):
-            continue
-        if is_override(ctx, statement) or is_path_member(ctx, statement):
-            continue
-        if _is_method_call(ctx, statement):
-            continue
-        for applied in standing.of_member(statement):
-            modifier, actor = applied.call, applied.actor
-            is_start = modifier.at == "start" and can_place(modifier)
-            is_placing = is_start or bool(owner_of(modifier))
-            if stands(modifier) and (actor is None or isinstance(actor, ir.FieldRef)):
-                continue  # it stands with each of them
-            if not is_placing or not isinstance(actor, ir.FieldRef):
-                whose = "" if statement.actor is None else f" of `{statement.actor.span.text}`"
-                ctx.unsupported(
-                    "OSC508",
-                    statement.span,
-                    f"modifier `{modifier.name}`{whose} is not supported in a whole scenario",
-                    help="apply it in the `with` of the actions that it is to modify",
-                )
-                continue
-            placements.append(
-                ir.Placement(
-                    actor=actor.name,
-                    modifiers=(replace(modifier, comments=()),),
-                    span=statement.span,
-                    comments=modifier.comments,
-                    of_map=owner_of(modifier) == "map",
-                )
-            )
-    return tuple(placements)

@@ -93,7 +93,7 @@ def check_fits(
         r.report(
             "OSC301",
             expression.span,
-            f"{what} must be `{target}`, not `{source}`",
+            f"{_named(what, target)} must be `{target}`, not `{source}`",
             help=(advise and advise(source)) or _mismatch_help(expression, source, target),
         )
     elif source in NUMBERS:
@@ -145,7 +145,7 @@ def _report_missing_unit(
     r.report(
         "OSC303",
         expression.span,
-        f"{what} must be `{target}`; a plain number has no unit",
+        f"{_named(what, target)} must be `{target}`; a plain number has no unit",
         help=with_unit if unit and _is_literal(expression) else None,
     )
 
@@ -185,7 +185,7 @@ def _report_dimension(
     r.report(
         "OSC302",
         expression.span,
-        f"{what} must be `{target}`, not `{source}`",
+        f"{_named(what, target)} must be `{target}`, not `{source}`",
         notes=[*notes, f"the value has dimension `{_dimension_inside(source)}`"],
         help=help,
     )
@@ -201,3 +201,8 @@ def _check_sign(r: Resolution, expression: ast.Expression, target: Type, what: s
             r.report("OSC317", expression.span, f"{what} is unsigned and cannot be {-value}")
         case _:
             return
+
+
+def _named(what: str, target: Type) -> str:
+    """Return the subject of a message; a name that a type has too is told apart from the type."""
+    return f"the value of {what}" if what == f"`{target}`" else what

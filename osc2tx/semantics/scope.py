@@ -198,12 +198,15 @@ class Scope:
 
 def supertypes(symbol: TypeSymbol) -> Iterator[TypeSymbol]:
     """Yield a type and its supertypes, the most derived first; cycles end the walk."""
-    seen: set[TypeSymbol] = set()
-    current: TypeSymbol | None = symbol
+    yield symbol  # before the set is made: mostly the walk ends here
+    # Not by `base_of`: this is asked hundreds of times a line.
+    current = symbol.base if isinstance(symbol, _DERIVED) else None
+    if current is None:
+        return
+    seen = {symbol}
     while current is not None and current not in seen:
         seen.add(current)
         yield current
-        # Not by `base_of`: this is asked hundreds of times a line.
         current = current.base if isinstance(current, _DERIVED) else None
 
 

@@ -19,15 +19,19 @@ __all__ = [
     "DOMAIN",
     "EXTENSIONS",
     "LIBRARY",
+    "NEWEST",
     "TYPES",
     "library_file",
     "library_source",
     "member_meanings",
+    "newest_enum_members",
     "parse_library_file",
 ]
 
 TYPES, DOMAIN, EXTENSIONS = "types.osc", "domain.osc", "extensions.osc"
 LIBRARY = (TYPES, DOMAIN, EXTENSIONS)  # in the order of loading
+
+NEWEST = "2.2"
 
 _FOLDER = Path(__file__).parent
 _TAGGED_LINE = re.compile(r"^(.*)#! (since|until) (\d+\.\d+)[ \t]*$", re.MULTILINE)
@@ -50,6 +54,18 @@ def library_file(name: str, standard: str) -> ast.File:
         file = parse_library_file(source)
         save_snapshot(file, standard)
     return file
+
+
+@cache
+def newest_enum_members(enum: str) -> frozenset[str]:
+    """Return the members that an enum of the library has in the newest version of the standard."""
+    return frozenset(
+        member.name.text
+        for name in LIBRARY
+        for statement in library_file(name, NEWEST).statements
+        if isinstance(statement, ast.EnumDeclaration) and statement.name.text == enum
+        for member in statement.members
+    )
 
 
 def parse_library_file(source: SourceFile) -> ast.File:

@@ -43,6 +43,11 @@ class _Collector:
 _COLLECTOR = _Collector()
 
 
+def collect_earlier_trees() -> None:
+    """Collect what earlier programs left, if it is much, while nobody waits for the next one."""
+    _COLLECTOR.collect_earlier()
+
+
 @contextmanager
 def room_for_trees() -> Iterator[None]:
     """Conditions for large and deep trees: no garbage collection, enough stack."""

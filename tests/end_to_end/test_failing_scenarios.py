@@ -111,12 +111,14 @@ ERRORS: list[tuple[Case, type[ScenarioError]]] = [
     (
         Case(
             "a race for one car",
-            "one_of:\n    ego.change_speed(target: 20mps)\n    ego.change_speed(target: 5mps)",
-            1.0,
-            3,
-            "ego.change_speed(target=20 * mps) (case.osc:19) and ego.change_speed(target=5 * mps)"
-            " (case.osc:20) control the longitudinal slot of ego at the same time; all members of"
-            " a race run: let `--one-of first` or `seeded` choose one of them (at 1.000 s)",
+            "one_of:\n    ego.drive(duration: 9s) with:\n        speed(20mps)\n"
+            "    serial:\n        wait elapsed(1s)\n        ego.change_speed(target: 5mps)",
+            2.0,
+            6,
+            "ego.drive(speed(20 * mps), duration=9 * s) (case.osc:19) and"
+            " ego.change_speed(target=5 * mps) (case.osc:23) control the longitudinal slot of ego"
+            " at the same time; all members of a race run: let `--one-of first` or `seeded` choose"
+            " one of them (at 2.000 s)",
         ),
         ScenarioError,
     ),

@@ -218,3 +218,15 @@ def test_standard_input(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
     text = HEAD + TOP + CASES["no such lane"]
     monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(text.encode())))
     assert "OSC802" in shell("check", "-").err
+
+
+def test_alternatives_that_start_apart_are_refused(shell: Shell) -> None:
+    """Which of them runs is drawn, and an actor has one place at the start."""
+    other = EGO.replace("lane(2,", "lane(3,")
+    shell.write("top.osc", HEAD + TOP + both(EGO, other, how="one_of(duration: 2s)"))
+    for command in ("check", "run"):
+        said = shell(command, "top.osc")
+        assert said.code == 3
+        assert "error[OSC508]: `ego` starts elsewhere in another alternative" in said.err
+    shell.write("top.osc", HEAD + TOP + both(EGO, EGO, how="one_of(duration: 2s)"))
+    assert shell("run", "top.osc").code == 0

@@ -11,8 +11,9 @@ from typing import Any, TypeVar
 import pytest
 
 pytest.importorskip("pygls")
+pytest.importorskip("pytest_lsp")
+import pytest_lsp
 from lsprotocol import types as lsp
-from pygls.lsp.client import LanguageClient
 
 T = TypeVar("T")
 SECONDS = 120  # until a server that does not answer is given up
@@ -21,35 +22,31 @@ SECONDS = 120  # until a server that does not answer is given up
 class Editor:
     """An editor with one server; each call waits for its answer.
 
+    The client of pytest-lsp warns of answers that the capabilities of the editor do not allow.
+
     Attributes:
         folder: The folder of the project.
-        problems: The diagnostics of each document, as last sent.
     """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.problems: dict[str, list[lsp.Diagnostic]] = {}
         self._loop = asyncio.new_event_loop()
-        self._client = LanguageClient("tests", "1")
-        self._sent = asyncio.Event()
+        self._client = pytest_lsp.make_test_lsp_client()
         self._versions: dict[str, int] = {}
 
-        @self._client.feature(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)
-        def publish(params: lsp.PublishDiagnosticsParams) -> None:
-            self.problems[params.uri] = list(params.diagnostics)
-            self._sent.set()
+    @property
+    def problems(self) -> dict[str, list[lsp.Diagnostic]]:
+        """The diagnostics of each document, as last sent."""
+        return {uri: list(found) for uri, found in self._client.diagnostics.items()}
 
     def start(self) -> None:
         self._run(self._client.start_io(sys.executable, "-m", "osc2tx", "lsp"))
-        asked = lsp.InitializeParams(
-            capabilities=lsp.ClientCapabilities(), root_uri=self.folder.as_uri()
-        )
-        self.ask(lsp.INITIALIZE, asked)
-        self._client.initialized(lsp.InitializedParams())
+        capabilities = pytest_lsp.client_capabilities("visual-studio-code")
+        asked = lsp.InitializeParams(capabilities=capabilities, root_uri=self.folder.as_uri())
+        self._run(self._client.initialize_session(asked))
 
     def stop(self) -> None:
-        self.ask(lsp.SHUTDOWN, None)
-        self._client.exit(None)
+        self._run(self._client.shutdown_session())
         self._run(self._client.stop())
         self._loop.close()
 
@@ -81,11 +78,9 @@ class Editor:
         return self._run(send())
 
     def _send(self, send: Callable[[], None]) -> None:
-        self._sent.clear()
-
         async def wait() -> None:
             send()
-            await self._sent.wait()
+            await self._client.wait_for_notification(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)
 
         self._run(wait())
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from lsprotocol import types as lsp
 
+from osc2tx.language_server import decorations
 from tests.language_server.conftest import Editor
 
 TEXT = """import osc.standard
@@ -163,14 +164,31 @@ def test_outline_folding_tokens_hints_and_lenses(editor: Editor) -> None:
     folds = editor.ask(lsp.TEXT_DOCUMENT_FOLDING_RANGE, lsp.FoldingRangeParams(document))
     assert (3, 15) in [(each.start_line, each.end_line) for each in folds]
     asked = lsp.SemanticTokensParams(document)
-    assert len(editor.ask(lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, asked).data) % 5 == 0
+    data = editor.ask(lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, asked).data
+    tokens = named_tokens(FINE, data)
+    assert ("follow", "function", 1) in tokens  # declared here
+    assert ("vehicle", "class", 2) in tokens  # of the library
+    assert {("gap", "property", 1), ("gap", "property", 0)} <= set(tokens)
+    assert ("drive", "function", 2) in tokens
     whole = lsp.Range(lsp.Position(0, 0), lsp.Position(50, 0))
     hints = editor.ask(lsp.TEXT_DOCUMENT_INLAY_HINT, lsp.InlayHintParams(document, whole))
     assert "= 13.8889 m s^-1" in [each.label for each in hints]
+    (level,) = [each for each in hints if each.position == place(FINE, ":\n    ego")]
+    assert level.label == "abstract"
     lenses = editor.ask(lsp.TEXT_DOCUMENT_CODE_LENS, lsp.CodeLensParams(document))
     assert lenses[0].command.title == "run"
     asked = lsp.ExecuteCommandParams("osc2tx.showModule", [uri, "follow"])
     assert "class Follow(Scenario):" in editor.ask(lsp.WORKSPACE_EXECUTE_COMMAND, asked)
+
+
+def named_tokens(text: str, data: list[int]) -> list[tuple[str, str, int]]:
+    """Return the semantic tokens of a text: word, kind, and bits of modifiers."""
+    lines, line, column, found = text.splitlines(), 0, 0, []
+    for down, right, length, kind, modifiers in zip(*[iter(data)] * 5, strict=True):
+        line, column = line + down, right + (0 if down else column)
+        word = lines[line][column : column + length]
+        found.append((word, decorations.TOKEN_TYPES[kind], modifiers))
+    return found
 
 
 def completed(editor: Editor, name: str, text: str) -> list[str]:

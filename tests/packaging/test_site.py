@@ -5,6 +5,7 @@ from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path, PurePosixPath
 from runpy import run_path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -103,3 +104,16 @@ def test_pictures_are_made_where_something_changes() -> None:
     assert len(list(root.iter("{*}polyline"))) == 2
     assert PICTURES["picture"](find("action environment.rain")[0]) is None
     assert svg == PICTURES["picture"](gap)
+
+
+@pytest.mark.parametrize("is_there", [True, False])
+def test_the_playground_is_in_the_navigation_where_pyodide_is(
+    tmp_path: Path, is_there: bool
+) -> None:
+    hook = run_path(str(TOOLS / "site_playground.py"))
+    config = SimpleNamespace(nav=[{"Start": "index.md"}, {"Tutorial": "tutorial.md"}])
+    place = tmp_path if is_there else tmp_path / "nothing"
+    hook["on_config"].__globals__["PYODIDE"] = place
+    hook["on_config"](config)
+    titles = [title for entry in config.nav for title in entry]
+    assert titles == ["Start", *["Playground"] * is_there, "Tutorial"]

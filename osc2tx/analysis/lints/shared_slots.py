@@ -21,7 +21,6 @@ from osc2tx_shared.classes import dataclass
 Op = ast.CompositionOperator
 
 APART = "let them run one after the other"
-CHOOSE = "all members of a race run: let `--one-of first` or `seeded` choose one of them"
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +35,7 @@ class _Claim:
 def report_shared_slots(
     model: SemanticModel, nodes: NodesByKind, sink: DiagnosticSink, one_of: OneOfPolicy = "race"
 ) -> None:
-    """Report the compositions of the root file of which no run gets beyond the start.
+    """Report the `parallel` compositions of the root file of which no run gets beyond the start.
 
     Args:
         model: The checked program.
@@ -49,8 +48,8 @@ def report_shared_slots(
     if any(_overrides(model, node) for node in nodes.of(ast.ModifierApplication)):
         return  # it ends one of them by its label, from anywhere
     for node in nodes.of(ast.Composition):
-        if starts.are_together(node):
-            _report(node, map(starts.of, node.members), sink)
+        if node.operator is Op.PARALLEL and starts.are_together(node):
+            _report(map(starts.of, node.members), sink)
 
 
 def _overrides(model: SemanticModel, node: ast.ModifierApplication) -> bool:
@@ -58,9 +57,7 @@ def _overrides(model: SemanticModel, node: ast.ModifierApplication) -> bool:
     return binding is not None and binding.callee is OVERRIDE
 
 
-def _report(
-    node: ast.Composition, starts: Iterable[Iterable[_Claim]], sink: DiagnosticSink
-) -> None:
+def _report(starts: Iterable[Iterable[_Claim]], sink: DiagnosticSink) -> None:
     """Report what two members claim, once for each slot of an actor."""
     holders: dict[tuple[sym.Symbol | None, str], tuple[int, _Claim]] = {}
     told = set()
@@ -75,10 +72,10 @@ def _report(
             sink.report(
                 "OSC442",
                 claim.node.behavior.span,
-                f"two members of `{node.operator.value}` control the {claim.slot} motion of"
+                f"two members of `parallel` control the {claim.slot} motion of"
                 f" {who} from the same instant on: every run ends there",
                 labels=[Label(former.node.behavior.span, "the other one")],
-                help=CHOOSE if node.operator is Op.ONE_OF else APART,
+                help=APART,
             )
 
 

@@ -202,9 +202,17 @@ class BehaviorTreeBuilder:
             arguments.append(code(self._calls.expressions.write(node.actor), "actor"))
         arguments += self._calls.keywords(node.arguments)
         arguments += self._calls.duration(node.duration)
+        if node.times:
+            arguments.append(self._times(node.times))
         if name.known_as is not None:
             arguments.append(code(literal(name.known_as), "known_as"))
         return CallView(self_attribute(PyName("invoke")), tuple(arguments))
+
+    def _times(self, times: tuple[ir.Argument, ...]) -> ArgumentView:
+        """Write the times of an invoked scenario by their paths."""
+        value = self._calls.expressions.value
+        entries = (f"{literal(each.parameter)}: {value(each.value)}" for each in times)
+        return code(PyExpr(f"{{{', '.join(entries)}}}", Level.ATOM), "times")
 
     def _label(self, label: str | None) -> tuple[ArgumentView, ...]:
         return () if label is None else (code(literal(label)),)

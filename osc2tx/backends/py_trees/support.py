@@ -133,7 +133,7 @@ class _SupportCheck:
             case ir.InvokeScenario():
                 self.free_names(node)
                 self.known_before(node)
-                self.expressions(argument.value for argument in node.arguments)
+                self.expressions(a.value for a in (*node.arguments, *node.times))
                 self.limits(node.duration, node.until)
             case ir.Wait(trigger=trigger):
                 self.trigger(trigger)

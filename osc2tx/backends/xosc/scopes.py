@@ -201,10 +201,12 @@ class _Opener:
         scope.values.know(actor.name, member.sizes)
 
     def _invoke(self, node: ir.InvokeScenario, scope: Scope, around: tuple[str, ...]) -> Scope:
-        given: dict[str, Constant] = {}
+        callee = self._by_key[node.key]
+        label = node.label or callee.name.rpartition(".")[2]
+        given = scope.values.given_below(f"{label}.")
         unknown: dict[str, Inexpressible] = {}
         handed_in: dict[str, CastMember] = {}
-        arguments = [(argument.parameter, argument.value) for argument in node.arguments]
+        arguments = [(each.parameter, each.value) for each in (*node.arguments, *node.times)]
         if node.actor is not None:
             arguments.append(("actor", node.actor))
         for name, expression in arguments:
@@ -217,8 +219,6 @@ class _Opener:
                 handed_in[name] = scope.cast[value.name]
             else:
                 given[name] = value
-        callee = self._by_key[node.key]
-        label = node.label or callee.name.rpartition(".")[2]
         path = self._paths.new(f"{scope.path}_{label}" if scope.path else label)
         place = _Place(f"{scope.prefix}{label}_", path, (*around, callee.key))
         inner = self.open(callee, given, handed_in, place, unknown)

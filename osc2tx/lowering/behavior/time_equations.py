@@ -62,15 +62,20 @@ class TimeEquations:
                 self._set(parameter, rest_of(whole, others))
                 return
 
-    def bound(self, terms: Terms, whole: ir.Expression) -> None:
-        """Let a sum be no longer than a time, or than a range of times allows."""
+    def bound(self, terms: Terms, whole: ir.Expression) -> bool:
+        """Let a sum be no longer than a time, or than a range of times allows.
+
+        Returns:
+            Whether it can be.
+        """
         if self.is_impossible(terms, whole, at_most=True):
-            return
+            return False
         most = whole.upper if isinstance(whole, ir.RangeValue) else whole
         zero = ir.Literal(span=most.span, type=most.type, value=0.0)
         within = ir.RangeValue(span=most.span, type=most.type, lower=zero, upper=most)
         self._narrow(terms, within)
         self._demand(terms, within)
+        return True
 
     def _demand(self, terms: Terms, whole: ir.RangeValue) -> None:
         """Have a bound checked before the run, unless it always holds."""
@@ -94,12 +99,9 @@ class TimeEquations:
 
     def is_impossible(self, terms: Terms, whole: ir.Expression, at_most: bool = False) -> bool:
         """Report a sum that is never a time, or in a range; return whether it is so."""
+        if self.fits(terms, whole, at_most):
+            return False
         found, wanted = self.bounds(terms), self.bounds((whole,))
-        if found is None or wanted is None:
-            return False
-        is_longer = found[0] > wanted[1] + SLACK
-        if not is_longer and (at_most or found[1] >= wanted[0] - SLACK):
-            return False
         labels = [Label(term.span, f"this takes {shown(self.bounds((term,)))}") for term in terms]
         what = f"{shown(wanted)} here contradict the {shown(found)} that members take"
         self.ctx.sink.report(
@@ -110,6 +112,20 @@ class TimeEquations:
             help="let them agree, or leave one of them open",
         )
         return True
+
+    def fits(self, terms: Terms, whole: ir.Expression, at_most: bool = False) -> bool:
+        """Return whether a sum may be a time, or in a range, as far as is known.
+
+        Args:
+            terms: That add up.
+            whole: The time, or the range.
+            at_most: The sum may also be less.
+        """
+        found, wanted = self.bounds(terms), self.bounds((whole,))
+        if found is None or wanted is None:
+            return True
+        is_longer = found[0] > wanted[1] + SLACK
+        return not is_longer and (at_most or found[1] >= wanted[0] - SLACK)
 
     # --- the longest of several ---
 
@@ -123,8 +139,9 @@ class TimeEquations:
             found is not None and found[1] >= wanted[0] - SLACK for found in reached
         ):
             return
-        if variable and not isinstance(whole, ir.RangeValue):
-            self.relate(variable[0], whole)
+        fitting = [each for each in variable if self.fits(each, whole)]
+        if fitting and not isinstance(whole, ir.RangeValue):
+            self.relate(fitting[0], whole)
         else:
             self.relate(longest, whole)
 

@@ -10,11 +10,19 @@ an error that shows both positions.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
+from math import prod
 from typing import TypeAlias
 
 from osc2tx import ir
 from osc2tx.diagnostics import Label
 from osc2tx.lowering.behavior.durations import is_free, is_instant, is_open_ended
+from osc2tx.lowering.behavior.invoked_times import (
+    MOST_CHOICES,
+    InvokedTimes,
+    Lasting,
+    ScenarioOf,
+)
 from osc2tx.lowering.behavior.time_equations import TimeEquations
 from osc2tx.lowering.behavior.time_expressions import (
     SLACK,
@@ -43,11 +51,35 @@ class _Filling:
     """A member that takes as long as it is given: open-ended, or an action of free length."""
 
 
-_Length: TypeAlias = _Known | _Filling | None
+@dataclass(frozen=True, slots=True)
+class _Either:
+    """A member that has one of several lengths: of the alternatives of a `one_of`."""
+
+    options: tuple[Terms, ...]
+
+
+_Length: TypeAlias = _Known | _Either | _Filling | None
 """Facts about the length of a member; `None` if only the run decides."""
 
 INSTANT = _Known(())
 OPEN, FREE = _Filling(), _Filling()
+
+
+def _choice(options: Sequence[Terms]) -> _Length:
+    """Return the length of what has one of several."""
+    if not options or len(options) > MOST_CHOICES:
+        return None
+    return _Known(options[0]) if len(options) == 1 else _Either(tuple(options))
+
+
+def _alternatives(lengths: Sequence[_Length]) -> _Length:
+    """Return the length of a `one_of`, given those of its members."""
+    found: list[Terms] = []
+    for length in lengths:
+        if not isinstance(length, _Known | _Either):
+            return None
+        found += (length.terms,) if isinstance(length, _Known) else length.options
+    return _choice(found)
 
 
 class TimeSystem:
@@ -56,11 +88,15 @@ class TimeSystem:
     Args:
         ctx: The scenario; parameters that it draws are solved for.
         declared: Its own parameters.
+        scenario_of: Gives the scenarios that it invokes.
     """
 
-    def __init__(self, ctx: LoweringContext, declared: Sequence[ir.Declaration]) -> None:
+    def __init__(
+        self, ctx: LoweringContext, declared: Sequence[ir.Declaration], scenario_of: ScenarioOf
+    ) -> None:
         self.ctx = ctx
         self._equations = TimeEquations(ctx, declared)
+        self._invoked = InvokedTimes(ctx, scenario_of, self._equations.longest)
 
     @property
     def constraints(self) -> Sequence[ir.Constraint]:
@@ -69,17 +105,26 @@ class TimeSystem:
 
     def solve(self, tree: ir.Behavior) -> ir.Behavior:
         """Return a tree whose members take the times that the durations around them ask for."""
-        return self._member(tree)[0]
+        solved = self._member(tree, is_bounded=False)[0]
+        return self._invoked.handed_in(solved, self.constraints)
 
-    def _member(self, node: ir.Behavior) -> tuple[ir.Behavior, _Length]:
+    def _member(self, node: ir.Behavior, is_bounded: bool) -> tuple[ir.Behavior, _Length]:
+        """Solve a member.
+
+        Args:
+            node: The member.
+            is_bounded: Something around it says how long it takes.
+        """
         match node:
             case ir.Wait(trigger=ir.Trigger(event=None, condition=ir.Elapsed(duration=time))):
                 return node, _Known((time,))
             case ir.Serial() | ir.Parallel() | ir.OneOf():
-                return self._composition(node)
+                return self._composition(node, is_bounded)
             case ir.Invoke() | ir.InvokeScenario() if node.until:
                 return node, None
-            case ir.Invoke() | ir.InvokeScenario() if node.duration is not None:
+            case ir.InvokeScenario() if is_bounded or node.duration is not None:
+                return node, self._invocation(node)
+            case ir.Invoke() if node.duration is not None:
                 return node, None if is_range(node.duration) else _Known((node.duration,))
             case _ if is_instant(node):
                 return node, INSTANT
@@ -88,8 +133,48 @@ class TimeSystem:
             case _:
                 return node, FREE if is_free(node) else None
 
-    def _composition(self, node: Composition) -> tuple[ir.Behavior, _Length]:
-        solved = [self._member(member) for member in node.members]
+    def _invocation(self, node: ir.InvokeScenario) -> _Length:
+        """Relate the times of an invoked scenario to the duration that it is given."""
+        duration = node.duration
+        if duration is not None and self._is_refused(duration):
+            return None
+        lengths = self._invoked.lengths(node)
+        if duration is None:
+            if any(length.goes_on for length in lengths):
+                return None
+            return _choice([length.terms for length in lengths])
+        fitting = [
+            each
+            for each in lengths
+            if self._equations.fits(each.terms, duration, at_most=each.goes_on)
+        ]
+        chosen = fitting if len(lengths) > 1 else lengths
+        if len(chosen) == 1 and chosen[0].goes_on:
+            self._equations.bound(chosen[0].terms, duration)
+        elif len(chosen) == 1:
+            self._relate(chosen[0], duration)
+            if is_range(duration):
+                return _Known(chosen[0].terms)
+        return None if is_range(duration) else _Known((duration,))
+
+    def _relate(self, length: Lasting, duration: ir.Expression) -> None:
+        """Let an invoked scenario take a duration."""
+        if not length.members:
+            self._equations.relate(length.terms, duration)
+            return
+        for each in length.members:
+            if not self._equations.bound(each, duration):
+                return
+        self._equations.relate_longest(length.members, duration)
+
+    def _is_refused(self, duration: ir.Expression) -> bool:
+        """Whether it is an error already, since the invoked scenario says how long it takes."""
+        return any(each.primary == duration.span for each in self.ctx.sink.sorted())
+
+    def _composition(self, node: Composition, is_bounded: bool) -> tuple[ir.Behavior, _Length]:
+        is_equal = isinstance(node, ir.Parallel) and node.overlap == "equal"
+        inner = not node.until and (is_bounded or node.duration is not None or is_equal)
+        solved = [self._member(member, inner) for member in node.members]
         if any(new is not old for (new, _), old in zip(solved, node.members, strict=True)):
             node = replace(node, members=tuple(member for member, _ in solved))
         if is_range(node.duration) and not isinstance(node.duration, ir.RangeValue):
@@ -103,6 +188,8 @@ class TimeSystem:
                 node, length = self._serial(node, lengths)
             case ir.Parallel():
                 node, length = self._parallel(node, lengths)
+            case ir.OneOf():
+                length = _alternatives(lengths)
         if node.duration is not None and not is_range(node.duration):
             length = _Known((node.duration,))
         return node, length
@@ -110,6 +197,8 @@ class TimeSystem:
     # --- serial ---
 
     def _serial(self, node: ir.Serial, lengths: list[_Length]) -> tuple[ir.Serial, _Length]:
+        if any(isinstance(length, _Either) for length in lengths):
+            return node, self._with_alternatives(node, lengths)
         known = [length for length in lengths if isinstance(length, _Known)]
         terms = tuple(term for length in known for term in length.terms)
         filling = [i for i, length in enumerate(lengths) if isinstance(length, _Filling)]
@@ -127,6 +216,24 @@ class TimeSystem:
             return node, None  # its own length may lie in it
         return self._filled(node, filling[0], terms), None
 
+    def _with_alternatives(self, node: ir.Serial, lengths: list[_Length]) -> _Length:
+        """Relate the times of a serial with alternatives to its duration, if one choice fits."""
+        options = [
+            (length.terms,) if isinstance(length, _Known) else length.options
+            for length in lengths
+            if isinstance(length, _Known | _Either)
+        ]
+        if len(options) < len(lengths) or prod(map(len, options)) > MOST_CHOICES:
+            return None
+        sums = [tuple(term for terms in each for term in terms) for each in product(*options)]
+        if node.duration is None:
+            return _choice(sums)
+        fitting = [each for each in sums if self._equations.fits(each, node.duration)]
+        if len(fitting) != 1:
+            return None  # who fits shows when all times are drawn
+        self._equations.relate(fitting[0], node.duration)
+        return _Known(fitting[0])
+
     def _filled(self, node: ir.Serial, index: int, others: Terms) -> ir.Serial:
         """Return a serial, one member of which takes the rest of its duration."""
         assert node.duration is not None
@@ -134,7 +241,7 @@ class TimeSystem:
         if isinstance(whole, ir.RangeValue):
             whole = self.ctx.draw(f"{node.label or node.name} duration", whole, whole.lower.type)
             node = replace(node, duration=whole)
-        if self._equations.is_impossible(others, whole, at_most=True):
+        if others and not self._equations.bound(others, whole):
             return node
         rest = rest_of(whole, others)
         return replace(node, members=with_duration(node.members, index, rest))

@@ -45,6 +45,7 @@ class PlacementLowering:
         """Take the place for complaints."""
         self._ctx = ctx
         self._found: dict[str, _Found] = {}
+        self._in_one_of: bool = False
 
     def split(self, body: ir.Behavior) -> tuple[tuple[ir.Placement, ...], ir.Behavior | None]:
         """Return the placements in source order, and the tree without them."""
@@ -66,6 +67,13 @@ class PlacementLowering:
         match node:
             case ir.Serial():
                 return self._composition(node, self._serial_members(node, is_start=is_start))
+            case ir.OneOf() if not self._in_one_of:
+                self._in_one_of = is_start
+                found = self._composition(
+                    node, (self._rewrite(member, is_start=is_start) for member in node.members)
+                )
+                self._in_one_of = False
+                return found
             case ir.Parallel() | ir.OneOf():
                 members = (self._rewrite(member, is_start=is_start) for member in node.members)
                 return self._composition(node, members)
@@ -102,6 +110,7 @@ class PlacementLowering:
         for modifier in placing:
             found.is_throughout &= modifier.at != "start"
             what = _subject(modifier)
+            self._check_alternatives(found.modifiers.get(what), modifier, actor)
             if modifier.at == "start" or what not in found.modifiers:
                 # What holds throughout stays in the tree as well, and its comments with it.
                 comments = modifier.comments if modifier.at == "start" else ()
@@ -111,6 +120,20 @@ class PlacementLowering:
             found.comments.extend(node.comments)
             return None
         return replace(node, modifiers=rest)
+
+    def _check_alternatives(
+        self, first: ir.ModifierCall | None, second: ir.ModifierCall, actor: str
+    ) -> None:
+        """Refuse a start that differs from that of another alternative: which runs is drawn."""
+        if first is None or not self._in_one_of or second.at != "start":
+            return
+        if not ir.means_same(first.arguments, second.arguments):
+            self._ctx.unsupported(
+                "OSC508",
+                second.span,
+                f"`{actor}` starts elsewhere in another alternative of `one_of`",
+                help="let an action before the `one_of` place it",
+            )
 
     def _later(self, node: ir.Invoke) -> ir.Invoke:
         """Leave an action where it stands; but for its path, which places its actor anyway."""

@@ -47,8 +47,7 @@ def check_inheritance(r: Resolution, symbol: Symbol, context: Context) -> None:
         r.report(
             "OSC308",
             symbol.span,
-            f"`{symbol.name}` derives without a condition from `{symbol.base.name}`, "
-            "which has one",
+            f"`{symbol.name}` derives without a condition from `{symbol.base.name}`, which has one",
             labels=declared_here(symbol.base),
         )
 

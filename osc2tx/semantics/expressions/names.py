@@ -25,6 +25,7 @@ from osc2tx.semantics.symbols import (
     Symbol,
 )
 from osc2tx.semantics.types import ERROR, EVENT, OBJECT, EnumType, ListType, RangeType, Type
+from osc2tx.stdlib import NEWEST, newest_enum_members
 from osc2tx.syntax import ast
 
 
@@ -179,6 +180,8 @@ def _name_meant(r: Resolution, name: ast.Name, env: Environment) -> Help:
 
 def _member_meant(name: ast.Name, enum: EnumSymbol) -> Help:
     """Say which member of an enum may be meant by a name that it does not have."""
+    if enum.origin != "user" and name.text in newest_enum_members(enum.name):
+        return f"OpenSCENARIO DSL {NEWEST} has it: check with `--std {NEWEST}`"
     if ENUM_MEMBERS.get(name.text) in enum.members:
         return plain_word(name.span, ENUM_MEMBERS)
     return name_meant(name.span, enum.members) or one_of("its members are", enum.members)

@@ -168,7 +168,8 @@ def build_ending(b: Builder, tree: Tree, place: Place) -> tuple[ast.Statement, .
     if last.__class__ is not Grammar.WithBlockContext:
         return ()
     message = "`with:` stands on the same line as what it belongs to"
-    b.report("OSC100", b.span(last.start, last.start), message)
+    help_ = "that of a composition stands below its members, as far in as the composition"
+    b.report("OSC100", b.span(last.start, last.start), message, help_)
     return build_with_block(b, last, place)
 
 

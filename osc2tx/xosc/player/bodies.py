@@ -231,8 +231,9 @@ def body_of(node: Element) -> Body:
     kind = next((child for child in node.children if child.tag in KINDS), None)
     if kind is None:
         raise Unplayable(f"{node.get('name')} has no size", node.place)
-    centre, size = kind.one(xml.BoundingBox).one(xml.Center), kind.one(xml.BoundingBox).one(
-        xml.Dimensions
+    centre, size = (
+        kind.one(xml.BoundingBox).one(xml.Center),
+        kind.one(xml.BoundingBox).one(xml.Dimensions),
     )
     half, x = 0.5 * number(size, "length"), number(centre, "x")
     performance = kind.find(xml.Performance)

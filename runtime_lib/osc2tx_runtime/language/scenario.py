@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from osc2tx_runtime.errors import NO_RESULT, ScenarioError
@@ -150,6 +150,7 @@ class BaseScenario(ScenarioParts):
         actor: BaseActor | None = None,
         duration: Duration | None = None,
         known_as: str | None = None,
+        times: Mapping[str, float] | None = None,
         **arguments: Any,
     ) -> Behaviour: ...
     @overload
@@ -162,6 +163,7 @@ class BaseScenario(ScenarioParts):
         actor: BaseActor | None = None,
         duration: Duration | None = None,
         known_as: str | None = None,
+        times: Mapping[str, float] | None = None,
         **arguments: Any,
     ) -> Behaviour: ...
     def invoke(
@@ -171,6 +173,7 @@ class BaseScenario(ScenarioParts):
         actor: BaseActor | None = None,
         duration: Duration | None = None,
         known_as: str | None = None,
+        times: Mapping[str, float] | None = None,
         **arguments: Any,
     ) -> Behaviour:
         """Invoke another scenario: `self.invoke("p1", Approach, actor=self.ego, lead=self.car1)`.
@@ -185,6 +188,7 @@ class BaseScenario(ScenarioParts):
             duration: Seconds, or (least, most) seconds, that it takes.
             known_as: Its name in settings and in the trace if it has no label; else the name of the
                 scenario, numbered in the order of the calls.
+            times: Seconds that it and what it invokes would draw, by path, `{"p1.wait time": 2.0}`.
             **arguments: Its parameters (a range is drawn from) and actors.
 
         Raises:
@@ -199,8 +203,11 @@ class BaseScenario(ScenarioParts):
         key = unique_name(key if self._caller is None else f"{self._caller.key}/{key}", self._keys)
         self._keys[key] = None
 
+        handed_in = {**self._times_below(name), **(times or {})}
+        caller = Caller(self, path, key, given, handed_in)
+
         def made() -> Invocation:
-            invoked = scenario(self.settings, caller=Caller(self, path, key, given), **given)
+            invoked = scenario(self.settings, caller=caller, **given)
             self._invoked[name] = invoked
             return Invocation(who, invoked, invoked.create_tree(), duration)
 

@@ -62,6 +62,7 @@ class ScenarioParts(ScenarioValues):
             caller=None if caller is None else caller.scenario,
             path="" if caller is None else caller.path,
             key="" if caller is None else caller.key,
+            times={} if caller is None else caller.times,
         )
         self._caller = caller
         self._root: ScenarioParts = self if caller is None else caller.scenario._root
@@ -109,12 +110,14 @@ class Caller:
         path: Path of the invocation: the labels from the scenario that runs down to it.
         key: Names its draws from the seed.
         arguments: As given.
+        times: Seconds that the invoked scenario would draw, and what it invokes, by path.
     """
 
     scenario: ScenarioParts
     path: str
     key: str
     arguments: Mapping[str, Any]
+    times: Mapping[str, float]
 
     def cast(self, name: str, declared: ActorT) -> ActorT | None:
         """Return the actor handed in for a declared one; `None` if none is.

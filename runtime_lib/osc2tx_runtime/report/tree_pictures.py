@@ -54,7 +54,7 @@ def _painted(line: str, row: OutlineNode) -> str:
     branches = _branches(row.last)
     kind = "" if row.kind == "action" else row.kind
     begins = kind and line.startswith(branches + kind)
-    return f"{branches}{BOLD}{kind}{RESET}{line[len(branches + kind):]}" if begins else line
+    return f"{branches}{BOLD}{kind}{RESET}{line[len(branches + kind) :]}" if begins else line
 
 
 def tree_svg(root: Behaviour) -> str:

@@ -75,7 +75,7 @@ CASES = {
         ast.MethodDeclaration: Case("def y() -> int is expression x * 44", reason=NEVER_READ),
         ast.CoverageDeclaration: Case("cover(x)", code="OSC501"),
         ast.ModifierApplication: Case("keep_lane()", code="OSC406"),
-        ast.DoDirective: Case("do wait elapsed(45s)", text="Wait(elapsed(45 * s))"),
+        ast.DoDirective: Case("do wait elapsed(1000ms)", text="Wait(elapsed(1000 * ms))"),
         ast.OnDirective: Case(
             "on elapsed(46s):\n        emit seen", code="OSC506", before="event seen"
         ),

@@ -287,6 +287,8 @@ def _report_lost_grip(ctx: Context, source: ir.Invoke, adhesion: float) -> None:
         )
 
 
+# --- date and time --------------------------------------------------------------------------------
+
 DAY, CLOCK = ("year", "month", "day"), ("hour", "minute", "second")
 """Parts of a local date and time."""
 

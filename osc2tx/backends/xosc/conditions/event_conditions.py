@@ -106,6 +106,8 @@ def _begins_at_once(node: ir.Behavior, index: int) -> bool:
             return True
 
 
+# --- what an event hands over ---------------------------------------------------------------------
+
 ORDERLESS = frozenset({"equalTo", "notEqualTo"})
 """Rules for what is no number."""
 

@@ -165,6 +165,9 @@ def _across(ctx: Context, c: Comparison, rule: Rule) -> xml.ByEntityCondition:
     )
 
 
+# --- points ---------------------------------------------------------------------------------------
+
+
 def distance_to_xyz(ctx: Context, c: Comparison) -> Groups:
     """Compare a distance to a point of the world, in the axes of the actor."""
     direction = c.member("direction", "euclidean")

@@ -90,6 +90,8 @@ def lane_number(start: Start) -> LaneNumber | None:
     return LaneNumber(round(lane.number("lane") or 1), lane.member("from", "right"))
 
 
+# --- how an actor is turned -----------------------------------------------------------------------
+
 AXES = {"length_to_width": 0.5 * math.pi, "width_to_length": -0.5 * math.pi}
 """Angle (rad) between the lines that `yaw_measure_by` names."""
 

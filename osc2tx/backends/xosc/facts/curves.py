@@ -147,6 +147,8 @@ def _is_straight(points: Sequence[Waypoint], is_timed: bool) -> bool:
     return True
 
 
+# --- actors that steer along a line ---------------------------------------------------------------
+
 STEP = 0.02  # s
 MOST_STEPS = 4000
 """Of a smooth line; they are longer along a longer one."""

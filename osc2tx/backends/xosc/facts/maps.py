@@ -265,6 +265,8 @@ def _read(path: Path, modified: int, size: int) -> Roads:
         raise Inexpressible(f"map {path.name} cannot be read: {error.message}") from None
 
 
+# --- lanes of oncoming traffic --------------------------------------------------------------------
+
 CLOSE = 5.0
 """Metres between places where a lane is looked at."""
 

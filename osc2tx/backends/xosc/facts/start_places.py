@@ -140,6 +140,9 @@ def _state(pose: Pose, shape: Shape) -> ActorState:
     return ActorState(x, y, z, h, 0.0, 0.0, None, 0.0, shape)
 
 
+# --- options and plans of runs --------------------------------------------------------------------
+
+
 def read_signal(text: str) -> tuple[str, float]:
     """Return name and time (s) of an event from outside, as `--signal` says it.
 

@@ -103,6 +103,11 @@ class Values:
         """Whether a field has a value from outside."""
         return name in self._given or name in self._hidden
 
+    def given_below(self, path: str) -> dict[str, Constant]:
+        """Return what is handed in for an invocation of the scenario, by path below it."""
+        given = self._given.items()
+        return {n.removeprefix(path): value for n, value in given if n.startswith(path)}
+
     def number(self, expression: ir.Expression) -> float:
         """Return a number, in SI units, with the names in the expression as a note.
 

@@ -192,7 +192,6 @@ def lateral(modifier: Lateral, phase: Phase) -> Iterator[Condition]:
     """The position across the lane, or beside a reference."""
     road_map, me, stated = phase.world.map, phase.me, present(modifier, phase)
     if modifier.side_of is None:
-
         leaves = any(isinstance(each, Lane | ChangeLane) for each in phase.modifiers)
         lane_of_it = _lane_of_offset(phase, leaves or "change_lane" in phase.action.registered.name)
 

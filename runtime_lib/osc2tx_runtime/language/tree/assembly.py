@@ -15,6 +15,7 @@ from osc2tx_runtime.language.settings import near
 from osc2tx_runtime.language.source_map import SourceMap
 from osc2tx_runtime.language.tree.base import Behaviour, Leaf, Node
 from osc2tx_runtime.language.tree.compositions import Composition, OneOf, Serial
+from osc2tx_runtime.language.tree.conflicts import find_rivals
 from osc2tx_runtime.language.tree.coverage import Recording
 from osc2tx_runtime.language.tree.directives import Until
 from osc2tx_runtime.language.tree.ending import End, Ending
@@ -51,6 +52,10 @@ def assemble(scenario: ScenarioParts, tree: Behaviour) -> Behaviour:
     ends = [node for node in own_nodes(tree) if isinstance(node, End)]
     if ends:
         tree = around(scenario, tree, Ending(tree, ends))
+    if scenario.one_of == "race":
+        for node in own_nodes(tree):
+            if isinstance(node, OneOf):
+                node.find_rivals = find_rivals  # at its setup: only then slots are known
     services: list[Leaf] = []
     if variables := list(scenario._variables.values()):
         at_start = [variable for variable in variables if variable.trigger == "start"]

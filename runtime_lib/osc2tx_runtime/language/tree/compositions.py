@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from py_trees.common import ParallelPolicy
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
 Member = tuple[Behaviour, Callable[[], Status]]
+Rivals = Mapping[Behaviour, Collection[Behaviour]]
 
 
 class Composition(Node):
@@ -192,7 +193,8 @@ class Serial(Composition, SequenceComposite):
         lengths = [None if is_open(c) else length_of(c) for c in self.children if c is not member]
         known = [length for length in lengths if length is not None]
         low = frame.low - sum(known) if len(known) == len(lengths) else 0
-        return Span(max(low, 0), frame.high - sum(known))
+        least = sum(max(length - 1, 0) for length in known)  # a length is rounded up to steps
+        return Span(max(low, 0), frame.high - least)
 
     def _advance(self) -> Status:
         members, context, resting = self._members, self.context, self.context.resting.nodes
@@ -218,31 +220,51 @@ class OneOf(Composition, ParallelComposite):
     """Alternatives: a race by default, or one member chosen before the start.
 
     In the race all members start, the first to succeed ends it (the order of the source breaks
-    ties), a failing member leaves it, and it fails when all have failed.
+    ties), a failing member leaves it, and it fails when all have failed. Of members that control
+    the same actor from the start only one takes part, drawn from the seed.
 
     Args:
         name: Label, or a description.
         *members: The alternatives.
         duration: Total duration: seconds, or (least, most) seconds.
+
+    Attributes:
+        find_rivals: Tells which of its members exclude each other in a race, after their setup.
     """
 
     def __init__(self, name: str, *members: Behaviour, duration: Duration | None = None) -> None:
         super().__init__(name, policy=ParallelPolicy.SuccessOnOne(), children=members)
         self._limit(duration)
         self._asked = False
+        self.find_rivals: Callable[[OneOf], Rivals] = lambda _: {}
 
     def setup(self, **kwargs: Any) -> None:
         """Choose a member if the scenario does not race, one that fills the duration."""
         super().setup(**kwargs)
-        if self.context.one_of == "race" or not self._members:
+        is_race = self.context.one_of == "race"
+        rivals = self.find_rivals(self) if is_race else {}
+        if not self._members or (is_race and not rivals):
             return
         members = self._fitting() or self._members
-        index = 0
-        if self.context.one_of == "seeded":
-            index = self.generator("one_of").randrange(len(members))
-        self._members = (members[index],)
-        self._content_open = is_open(self._members[0][0])
+        if is_race:
+            self._members = self._without_rivals(members, rivals)
+        else:
+            index = 0
+            if self.context.one_of == "seeded":
+                index = self.generator("one_of").randrange(len(members))
+            self._members = (members[index],)
+        self._content_open = all(is_open(child) for child, _ in self._members)
         self.open_ended = self._content_open and self._limits is None
+
+    def _without_rivals(self, members: Sequence[Member], rivals: Rivals) -> tuple[Member, ...]:
+        """Return the members of the race: in a random order, those whose rivals are not in it."""
+        drawn, kept = list(members), list[Member]()
+        self.generator("one_of").shuffle(drawn)
+        for member in drawn:
+            out = rivals.get(member[0], ())
+            if not any(other in out for other, _ in kept):
+                kept.append(member)
+        return tuple(member for member in members if member in kept)
 
     def initialise(self) -> None:
         """Start the race."""

@@ -6,13 +6,16 @@ whatever order the tree visits them; effects when they are carried out, of the w
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from itertools import combinations
 
 from osc2tx_runtime.errors import SlotConflict
+from osc2tx_runtime.language.actions.action import Action
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.slots import Owner
 from osc2tx_runtime.language.tree.base import Behaviour, place_key
 from osc2tx_runtime.language.tree.compositions import OneOf, Serial
+from osc2tx_runtime.language.tree.invocation import started_at_once
 
 
 def check_claims(context: ExecutionContext) -> None:
@@ -59,6 +62,26 @@ def remedy(one: Owner, other: Owner) -> str:
     if isinstance(nearest_above(one, other), OneOf):
         return "all members of a race run: let `--one-of first` or `seeded` choose one of them"
     return "let them run one after the other"
+
+
+def find_rivals(race: OneOf) -> dict[Behaviour, set[Behaviour]]:
+    """Return for each alternative those that control a slot of the same actor from the start.
+
+    They exclude each other: exactly one alternative is invoked (§7.3.13.3).
+    """
+    claims = [(member, {*_claims_at_once(member)}) for member in race.children]
+    rivals: dict[Behaviour, set[Behaviour]] = {}
+    for (one, first), (other, second) in combinations(claims, 2):
+        if first & second:
+            rivals.setdefault(one, set()).add(other)
+            rivals.setdefault(other, set()).add(one)
+    return rivals
+
+
+def _claims_at_once(member: Behaviour) -> Iterator[tuple[object, str]]:
+    for node, at_once in started_at_once(member, race=True):
+        if at_once and isinstance(node, Action):
+            yield from ((node.actor, slot) for slot in node.slots)
 
 
 def in_sequence(one: Owner, other: Owner) -> bool:

@@ -29,6 +29,7 @@ class ScenarioValues:
         caller: The values of the scenario that runs, for one that it invokes.
         path: Labels of the invocations down to this scenario, for names in settings.
         key: What draws depend on besides the seed: not on an order of invocations.
+        times: Seconds that the caller chose for this scenario and those it invokes, by path.
 
     Attributes:
         settings: Of the run.
@@ -48,6 +49,7 @@ class ScenarioValues:
         caller: ScenarioValues | None = None,
         path: str = "",
         key: str = "",
+        times: Mapping[str, float] | None = None,
     ) -> None:
         self.settings = settings
         self.parameters: dict[str, Any] = {}
@@ -60,6 +62,7 @@ class ScenarioValues:
         self._shared_objects: dict[str, Any] = {} if caller is None else caller._shared_objects
         self._path = path  # empty for the scenario that runs
         self._key = key
+        self._times = times or {}
         self._first: ScenarioValues = self if caller is None else caller._first
         self.has_drawn_values = False
         self._drawing = Drawing(
@@ -284,6 +287,12 @@ class ScenarioValues:
                 path = f"{self._path}.{name}" if self._path else name
                 self.parameters[name] = self._shared[path] = value
 
+    def _times_below(self, invocation: str) -> dict[str, float]:
+        """Return the times that the caller chose for an invocation of this scenario."""
+        above = f"{invocation}."
+        found = self._times.items()
+        return {path.removeprefix(above): t for path, t in found if path.startswith(above)}
+
     def _fixed(self, name: str, declared: AnyT) -> AnyT:
         """Return what a scenario that inherits an object makes of it, else as it is declared."""
         narrowed = self._narrowed.get(name)
@@ -298,7 +307,7 @@ class ScenarioValues:
             default, domain, unit = narrowed.value, narrowed.domain, narrowed.unit or unit
         path = f"{self._path}.{name}" if self._path else name
         generator = self._drawing.draws_for(f"{self._key}/{name}")
-        given = self._arguments.get(name)
+        given = self._times.get(name, self._arguments.get(name))
         if unit:
             self.parameter_units[name] = self._first.parameter_units[path] = unit_named(unit)
         value = self._choose(name, path, default, domain, generator, given)

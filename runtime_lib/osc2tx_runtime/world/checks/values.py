@@ -70,8 +70,9 @@ def _check_for(wanted: Hashable) -> Check:
     if getattr(kind, "_is_protocol", False):
         return lambda value: _unless(all(hasattr(value, n) for n in _members(kind)), value, kind)
     inner = [_check_for(each) for each in get_args(wanted) if each is not Ellipsis]
-    return lambda value: _unless(isinstance(value, kind), value, kind) or (
-        _problem_inside(value, inner) if inner else _problem_in(value)
+    return lambda value: (
+        _unless(isinstance(value, kind), value, kind)
+        or (_problem_inside(value, inner) if inner else _problem_in(value))
     )
 
 

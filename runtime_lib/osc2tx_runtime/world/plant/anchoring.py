@@ -133,8 +133,9 @@ def anchored(member: CommandedActor, commanded: ActorState, road_map: RoadMap) -
     member.slid(along)
     bound = member.bound
     if bound is None:
-        x, y = commanded.x + along * math.cos(commanded.h), commanded.y + along * math.sin(
-            commanded.h
+        x, y = (
+            commanded.x + along * math.cos(commanded.h),
+            commanded.y + along * math.sin(commanded.h),
         )
         return commanded._replace(x=x, y=y)
     left = member.left or bound

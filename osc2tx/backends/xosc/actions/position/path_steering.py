@@ -103,6 +103,8 @@ def note_schedule(leaf: Leaf, corners: Sequence[Waypoint]) -> None:
         )
 
 
+# --- where lines begin and end --------------------------------------------------------------------
+
 ALONG_ITS_LANE = ("lane_relative", "object_relative", "road_relative")
 """Frames whose x axis is the direction of the lane."""
 

@@ -263,6 +263,9 @@ def follow(
     )
 
 
+# --- routes ---------------------------------------------------------------------------------------
+
+
 def assign_route(leaf: Leaf, segment: MapSegment) -> tuple[xml.PrivateAction, LanePosition]:
     """Return the action that gives an actor a route, and the place of its end."""
     roads = required_roads(leaf.ctx)

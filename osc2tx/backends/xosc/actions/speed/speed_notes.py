@@ -120,6 +120,8 @@ def refuse_contradiction(leaf: Leaf, peak: float, own: float, duration: float) -
         )
 
 
+# --- speeds that stay -----------------------------------------------------------------------------
+
 _BESIDE_SPEED = ("keep_lane", "lane", "lateral", "change_lane")
 """Modifiers that say nothing of the speed."""
 
@@ -174,6 +176,8 @@ def _leaves_speed(leaf: Leaf, node: ir.Invoke, speed: float) -> bool:
             return False
     return True
 
+
+# --- changes across the road by who may be too slow for them --------------------------------------
 
 PACING = ("assign_speed", "change_speed", "drive", "move", "remain_stationary")
 """Actions that say a speed."""

@@ -122,6 +122,9 @@ def _failing(
     return in_time
 
 
+# --- open-ended actions ---------------------------------------------------------------------------
+
+
 def time_left(ctx: Context, node: ir.Invoke) -> float | None:
     """Return the time (s) from the start of an open-ended action to its end, if that is planned.
 

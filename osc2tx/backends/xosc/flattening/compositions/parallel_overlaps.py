@@ -82,6 +82,9 @@ def length_of(ctx: Context, node: ir.Behavior) -> float | None:
     return None
 
 
+# --- conflicts ------------------------------------------------------------------------------------
+
+
 @dataclass(frozen=True, slots=True)
 class _Claimant:
     """An action that controls something.
@@ -168,6 +171,9 @@ def _controls(node: ir.Invoke) -> frozenset[tuple[str, str]]:
     """Return actor and domain of what an action controls while it goes on."""
     lasting = tuple(call for call in node.modifiers if call.at != "start")
     return claims(replace(node, modifiers=lasting))
+
+
+# --- overrides ------------------------------------------------------------------------------------
 
 
 def unless_active(builder: StoryboardBuilder, node: ir.Behavior, start: Flow) -> tuple[Flow, Flow]:

@@ -140,8 +140,7 @@ def lanes_wanted(action: MotionAction, lane: Lane) -> int:
     target = lane_with_number(action.world.map, own, lane.number, lane.edge)
     if target is None:
         raise Refused(
-            f"road {own.road} has no lane {lane.number} from the {lane.edge}"
-            f" at s = {own.s:.1f} m"
+            f"road {own.road} has no lane {lane.number} from the {lane.edge} at s = {own.s:.1f} m"
         )
     return _lanes_between(action, own, target)
 
