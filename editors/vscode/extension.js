@@ -2,6 +2,10 @@
 
 const vscode = require("vscode");
 const { execFile } = require("node:child_process");
+const { mkdtemp, readFile, rm } = require("node:fs/promises");
+const { tmpdir } = require("node:os");
+const { join } = require("node:path");
+const { promisify } = require("node:util");
 const { LanguageClient, TransportKind } = require("vscode-languageclient/node");
 
 const LANGUAGE = "osc2";
@@ -71,6 +75,31 @@ function showTree(uri) {
   execFile(program, args, (error, out, err) => open("tree.txt", "plaintext", out || err));
 }
 
+/** Runs a scenario and shows the report of the run; its charts are scripts of the page. */
+async function showReport(uri, scenario) {
+  const path = vscode.Uri.parse(uri ?? here()[0]).fsPath;
+  const more = scenario ? ["--scenario", scenario] : [];
+  const folder = await mkdtemp(join(tmpdir(), "osc2tx-"));
+  const file = join(folder, "report.html");
+  try {
+    const [program, args] = commandLine("run", path, ...more, "--report", file);
+    // A run that fails has a report too; one that does not start has none.
+    const ended = await promisify(execFile)(program, args).catch((error) => error);
+    const html = await readFile(file, "utf8").catch(() => undefined);
+    if (html === undefined) {
+      vscode.window.showErrorMessage(ended.stderr || String(ended));
+      return;
+    }
+    const panel = vscode.window.createWebviewPanel(
+      "osc2tx.report", `Report of ${scenario ?? path.split(/[\\/]/).pop()}`,
+      vscode.ViewColumn.Beside, { enableScripts: true },
+    );
+    panel.webview.html = html;
+  } finally {
+    await rm(folder, { recursive: true });
+  }
+}
+
 /** Runs a scenario in a terminal; its arguments are passed as they are, not through a shell. */
 function run(uri, scenario) {
   const path = vscode.Uri.parse(uri ?? here()[0]).fsPath;
@@ -99,6 +128,7 @@ function activate(context) {
     }),
     vscode.commands.registerCommand("osc2tx.run", run),
     vscode.commands.registerCommand("osc2tx.showTree", showTree),
+    vscode.commands.registerCommand("osc2tx.showReport", showReport),
     vscode.commands.registerCommand("osc2tx.restart", () => client.restart()),
   );
   return startServer();

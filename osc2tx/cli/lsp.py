@@ -6,6 +6,12 @@ import click
 
 
 @click.command()
+@click.option(
+    "--stdio",
+    is_flag=True,
+    expose_value=False,
+    help="Changes nothing: accepted because many editors pass it.",
+)
 def lsp() -> None:
     """Serve editors: the Language Server Protocol on standard input and output.
 

@@ -12,11 +12,11 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
 
-from osc2tx.importing.conditions import Trigger
+from osc2tx.importing.conditions import Condition, Trigger
 from osc2tx.importing.dimensions import TIME, Quantity, literal
 from osc2tx.importing.program import Statement, composed, wait
 from osc2tx.importing.steps import ENDS, Board, Step
-from osc2tx.importing.waiting import Waiting, minus, nominal_start, start_of
+from osc2tx.importing.waiting import STARTS, Waiting, minus, nominal_start, start_of
 from osc2tx_shared.classes import dataclass
 
 
@@ -61,7 +61,27 @@ class Structure:
         self.waits = self._waiting.waits
         self._predecessor = self._waiting.predecessor
         for step in board.steps:
+            step.triggers = (step.triggers[0], self._of_others(step, step.triggers[1]))
+        for step in board.steps:
             self._order(step)
+
+    def _of_others(self, step: Step, trigger: Trigger) -> Trigger:
+        """Return a trigger without the start of what the step is in, which has come."""
+        groups = []
+        for group in trigger.groups:
+            others = [each for each in group if not self._is_own_start(each, step)]
+            late = [each for each in group if each not in others and each.delay is not None]
+            if late and not step.triggers[0].is_immediate:
+                groups.append(group)
+                continue
+            now = Quantity(literal(0.0, TIME), 0.0)
+            times = [Condition("time", each.node, quantity=now, delay=each.delay) for each in late]
+            groups.append([*others, *times])
+        return Trigger(groups, trigger.node)
+
+    def _is_own_start(self, condition: Condition, step: Step) -> bool:
+        is_start = condition.kind == "state" and condition.state in STARTS
+        return is_start and step in self._board.elements.get(condition.element, ())
 
     # --- who follows whom -------------------------------------------------------------------------
 
@@ -89,6 +109,7 @@ class Structure:
             step
             for condition in trigger.groups[0]
             if condition.kind == "state" and condition.state in ENDS
+            if self._waiting.stopped_act(condition) is None
             for step in self._waiting.steps_of(condition)
         ]
 
@@ -106,8 +127,10 @@ class Structure:
             made = [Branch(list(_below(step)), self._chain(step)) for step in group]
             self._override(made)
             found += made
-        for branch in found:
-            self._stop(branch)
+        for condition in (each for group in self._board.end.groups for each in group):
+            self._waiting.stopped_act(condition)  # the end of the scenario may wait for it
+        for number, trigger in self._board.stops.items():
+            found = self._stopped(number, trigger, found)
         return found
 
     def _groups(self, roots: Sequence[Step]) -> list[list[Step]]:
@@ -228,15 +251,34 @@ class Structure:
                             self.lines += [f"override({a.label}, {b.label})"]
                             self.lines += [f"override({b.label}, {a.label})"]
 
-    def _stop(self, branch: Branch) -> None:
-        """End the branch of an act when that is stopped."""
-        for number in dict.fromkeys(step.act for step in branch.steps):
-            trigger = self._board.stops.get(number)
-            if trigger is None:
-                continue
-            if trigger.node is not None:
-                trigger.node.leave_out("an act that is stopped goes on here")
-            del self._board.stops[number]
+    def _stopped(self, number: int, trigger: Trigger, branches: list[Branch]) -> list[Branch]:
+        """Return the branches with those of an act up to what stops it."""
+        mine = [each for each in branches if any(step.act == number for step in each.steps)]
+        waits = self.waits(trigger)
+        is_alone = all(step.act == number for each in mine for step in each.steps)
+        until = waits[0] if len(waits) == 1 and waits[0].text.startswith("wait ") else None
+        beside = [composed("serial", each.members) for each in mine if each.members]
+        label = self._waiting.stopped.get(number, "")
+        if not beside or (not label and (until is None or not is_alone)):
+            _leave_out(trigger)
+            return branches
+        whole = beside[0] if len(beside) == 1 else Statement("parallel", members=beside)
+        if whole.members is None or whole.label or whole.modifiers:
+            whole = Statement("serial", members=[whole])
+        whole.label, whole.length = label, None
+        if until is None or not is_alone:
+            _leave_out(trigger)
+        else:
+            whole.modifiers.append(f"until {until.text.removeprefix('wait ')}")
+        merged = Branch([step for each in mine for step in each.steps], [whole])
+        at = branches.index(mine[0])
+        others = [each for each in branches if each not in mine]
+        return [*others[:at], merged, *others[at:]]
+
+
+def _leave_out(trigger: Trigger) -> None:
+    if trigger.node is not None:
+        trigger.node.leave_out("an act that is stopped goes on here")
 
 
 def _below(step: Step) -> Iterator[Step]:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 from osc2tx.importing.conditions import Condition, Trigger
 from osc2tx.importing.dimensions import PRODUCT, TIME, Quantity, literal
+from osc2tx.importing.names import snake
 from osc2tx.importing.program import Statement, composed, wait
 from osc2tx.importing.steps import ENDS, Board, Step
 
@@ -18,6 +19,7 @@ class Waiting:
     Attributes:
         lines: Declarations that the order needs: events, overrides.
         predecessor: Steps by those behind them.
+        stopped: Names of the compositions of acts that are stopped, by the numbers of the acts.
     """
 
     def __init__(self, board: Board, name_event: Callable[[str], str]) -> None:
@@ -30,6 +32,7 @@ class Waiting:
         self._board, self._name_event = board, name_event
         self.lines: list[str] = []
         self.predecessor: dict[Step, Step] = {}
+        self.stopped: dict[int, str] = {}
         self._declared: dict[str, str] = {}
 
     def steps_of(self, condition: Condition) -> list[Step]:
@@ -111,6 +114,10 @@ class Waiting:
             yield f"@{condition.text}"
             return
         steps = self.steps_of(condition)
+        label = self.stopped_act(condition)
+        if label is not None:
+            yield f"@{label}.end"
+            return
         if not steps:
             kind, name = condition.element
             condition.node.approximate(
@@ -128,6 +135,19 @@ class Waiting:
                 yield f"@{step.label}"
             else:
                 yield f"@{step.label}.{'start' if condition.state in STARTS else 'end'}"
+
+    def stopped_act(self, condition: Condition) -> str | None:
+        """Return the name of the act whose end is waited for, if that act is stopped."""
+        kind, name = condition.element
+        if kind != "act" or condition.state not in ENDS:
+            return None
+        acts = {step.act for step in self._board.elements.get(condition.element, ())}
+        number = next(iter(acts)) if len(acts) == 1 else 0
+        if number not in self._board.stops:
+            return None
+        if number not in self.stopped:
+            self.stopped[number] = self._name_event(snake(name))
+        return self.stopped[number]
 
     def _event(self, text: str, condition: Condition) -> str:
         if text not in self._declared:

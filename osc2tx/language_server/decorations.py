@@ -48,6 +48,7 @@ LENSES = (
     ("show module", "osc2tx.showModule"),
     ("show XML", "osc2tx.showXml"),
     ("show tree", "osc2tx.showTree"),
+    ("show report", "osc2tx.showReport"),
 )
 
 

@@ -123,3 +123,18 @@ def test_an_unknown_order_is_an_override() -> None:
     assert not faults(found)
     assert "override(one, two)" in found.text
     assert apart(found) < 0.1
+
+
+def test_an_act_that_is_stopped_ends_its_events() -> None:
+    """Its end is that of the composition; what waits for its start in it does not wait."""
+    started = """<Condition name="c" delay="1" conditionEdge="none"><ByValueCondition>
+      <StoryboardElementStateCondition storyboardElementType="act" storyboardElementRef="Act"
+      state="runningState"/></ByValueCondition></Condition>"""
+    ended = started.replace('delay="1"', 'delay="0"').replace("running", "complete")
+    text = document(event("Faster", speed_change("30", "20"), started), end=ended)
+    stop = f"<StopTrigger><ConditionGroup>{at_time('5')}</ConditionGroup></StopTrigger></Act>"
+    found = imported(text.replace("</Act>", stop))
+    assert not faults(found)
+    assert "until elapsed(5s)" in found.text
+    assert "@act.end" in found.text
+    assert apart(found) < 0.1

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
 from lsprotocol import types as lsp
 
 from osc2tx.language_server import decorations
-from tests.language_server.conftest import Editor
+from tests.language_server.conftest import SECONDS, Editor
 
 TEXT = """import osc.standard
 
@@ -236,3 +238,10 @@ def test_wrong_settings_are_a_diagnostic(editor: Editor) -> None:
     uri = editor.open("wrong/a.osc", FINE)
     (found,) = editor.problems[uri]
     assert "nonsense" in found.message
+
+
+def test_the_option_that_many_editors_pass() -> None:
+    """The client of VS Code adds `--stdio` to the command line."""
+    command = [sys.executable, "-m", "osc2tx", "lsp", "--stdio"]
+    ended = subprocess.run(command, input=b"", capture_output=True, timeout=SECONDS)
+    assert (ended.returncode, ended.stderr) == (0, b"")

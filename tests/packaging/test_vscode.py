@@ -2,7 +2,11 @@
 
 import json
 import re
+import shutil
+import subprocess
+import sys
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -11,6 +15,7 @@ from tests.end_to_end.harness import REPOSITORY
 
 FOLDER = REPOSITORY / "editors" / "vscode"
 PACKAGE = json.loads((FOLDER / "package.json").read_text(encoding="utf-8"))
+BUNDLE = FOLDER / "out" / "extension.js"
 CONTRIBUTES = PACKAGE["contributes"]
 SCRIPT = (FOLDER / "extension.js").read_text(encoding="utf-8")
 
@@ -67,7 +72,7 @@ def test_commands_are_those_of_the_server_and_of_the_script() -> None:
     declared = {each["command"] for each in CONTRIBUTES["commands"]}
     assert {command for _, command in decorations.LENSES} <= declared
     registered = set(re.findall(r'registerCommand\("([\w.]+)"', SCRIPT))
-    of_server = {command for command in declared if command.startswith("osc2tx.show")}
+    of_server = {"osc2tx.showModule", "osc2tx.showXml"}
     assert registered | of_server == declared
 
 
@@ -82,3 +87,34 @@ def test_the_problem_matcher_reads_diagnostics() -> None:
 
 def test_bundled_packages_have_one_version_each() -> None:
     assert all(re.fullmatch(r"\d+\.\d+\.\d+", v) for v in PACKAGE["devDependencies"].values())
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
+@pytest.mark.skipif(not BUNDLE.is_file(), reason="not bundled: `make vscode`")
+def test_the_bundle_starts_the_server_and_shows_all(tmp_path: Path) -> None:
+    """In place of VS Code, whose downloads need its maker's hosts, a stand-in of its module."""
+    pytest.importorskip("pygls")
+    path = tmp_path / "cut_in.osc"
+    text = (REPOSITORY / "docs/recipes/cut_in_at_gap.osc").read_text(encoding="utf-8")
+    path.write_text(f"{text}\nscenario unfinished:\n    other: vehicel\n", encoding="utf-8")
+    wrong = played(path)
+    (found,) = wrong["diagnostics"].values()
+    assert any("vehicel" in message for message in found)
+    path.write_text(text, encoding="utf-8")
+    seen = played(path)
+    assert list(seen["diagnostics"].values()) == [[]]
+    assert "class " in seen["shown"]["cut_in.py"]
+    assert "<OpenSCENARIO>" in seen["shown"]["cut_in.xosc"]
+    assert "parallel" in seen["shown"]["tree.txt"]
+    assert seen["reports"] == [["Report of cut_in.osc", "<!DOCTYPE html>"]]
+    assert seen["tasks"][0][1][-2:] == ["run", str(path)]
+    assert seen["errors"] == []
+
+
+def played(scenario: Path) -> Any:
+    """Return what the extension registered and showed for a file."""
+    stand_in = Path(__file__).parent / "vscode_stand_in.js"
+    command = ["node", str(stand_in), str(BUNDLE), str(scenario), sys.executable, "-m", "osc2tx"]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    assert ended.returncode == 0, ended.stderr
+    return json.loads(ended.stdout)
