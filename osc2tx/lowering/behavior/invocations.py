@@ -25,6 +25,7 @@ from osc2tx.lowering.behavior.durations import (
     with_bounds,
     with_open_duration,
 )
+from osc2tx.lowering.behavior.fixed_arguments import without_fixed
 from osc2tx.lowering.behavior.node_names import invocation_name
 from osc2tx.lowering.behavior.reactions import Attached, attached_context, label_of
 from osc2tx.lowering.behavior.triggers import lower_until
@@ -249,7 +250,9 @@ class InvocationLowering:
             key=scenario_key(callee),
             actor=actor,
             arguments=tuple(
-                a for a in arguments if a.parameter not in ("duration", *self._conditions(callee))
+                each
+                for each in without_fixed(self._ctx, callee, arguments)
+                if each.parameter not in ("duration", *self._conditions(callee))
             ),
             duration=duration if duration is None else with_bounds(duration),
             until=lower_until(self._ctx, node.with_members),
