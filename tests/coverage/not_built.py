@@ -57,9 +57,9 @@ NOT_BUILT = (
     NotBuilt(
         "a scenario derived by a condition that only the run decides",
         "OSC501",
-        "the value of the condition is fixed while the scenario runs (§7.3.8.2), and it decides which"
-        " members the behavior tree has. So it must be known when the tree is built: a constant, or"
-        " what constraints leave no choice in",
+        "the value of the condition is fixed while the scenario runs (§7.3.8.2), and it decides"
+        " which members the behavior tree has. So it must be known when the tree is built: a"
+        " constant, or what constraints leave no choice in",
         SCENARIO + "    var k: bool = false\n    do serial:\n        base(quick: k)\n",
     ),
     NotBuilt(

@@ -50,7 +50,7 @@ def ask_everything(project: Project, path: Path, text: str, offset: int) -> int:
 def test_typing_a_file(file: Path, tmp_path: Path) -> None:
     text = file.read_text(encoding="utf-8")
     project = Project()
-    for end in range(1, len(text), STEP):
+    for end in range(1, len(text)):  # character by character
         ask_everything(project, tmp_path / "typed.osc", text[:end], end)
 
 
