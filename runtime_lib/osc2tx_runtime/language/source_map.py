@@ -59,6 +59,7 @@ class SourceMap:
         return self.place(_at(self.constraints, index))
 
 
+@lru_cache(maxsize=64)  # each invocation of a scenario asks
 def read_source_map(scenario: type, name: str, file: str) -> SourceMap:
     """Read the map beside the module of a scenario class.
 
@@ -73,11 +74,10 @@ def read_source_map(scenario: type, name: str, file: str) -> SourceMap:
     path = getattr(module, "__file__", None)
     if path is None:
         return SourceMap(file)
-    read = getattr(
-        getattr(module, "__loader__", None), "get_data", _bytes_of
-    )  # debuggers have none
+    loader = getattr(module, "__loader__", None)  # a debugger runs modules without one
+    read = getattr(loader, "get_data", _bytes_of)
     try:
-        content = _content(read(str(Path(path).with_suffix(".map.json"))))
+        content = json.loads(read(str(Path(path).with_suffix(".map.json"))))
     except (OSError, ValueError, RecursionError):
         return SourceMap(file)
     if not isinstance(content, dict) or content.get("version") != VERSION:
@@ -87,12 +87,6 @@ def read_source_map(scenario: type, name: str, file: str) -> SourceMap:
 
 def _bytes_of(path: str) -> bytes:
     return Path(path).read_bytes()
-
-
-@lru_cache(maxsize=4)
-def _content(text: bytes) -> Any:
-    """Return what a file says: each invoked scenario asks for that of its module."""
-    return json.loads(text)
 
 
 def parse_source_map(entry: Mapping[str, Any], file: str) -> SourceMap:
