@@ -9,9 +9,9 @@ import json
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import field
-from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeGuard
+from weakref import WeakKeyDictionary
 
 from osc2tx_runtime.errors import SourcePlace
 from osc2tx_shared.classes import dataclass
@@ -59,9 +59,12 @@ class SourceMap:
         return self.place(_at(self.constraints, index))
 
 
-@lru_cache(maxsize=64)  # each invocation of a scenario asks
+_MAPS: WeakKeyDictionary[type, SourceMap] = WeakKeyDictionary()
+"""By class: each invocation of a scenario asks."""
+
+
 def read_source_map(scenario: type, name: str, file: str) -> SourceMap:
-    """Read the map beside the module of a scenario class.
+    """Read the map beside the module of a scenario class, once for each class.
 
     A missing or unreadable map is no error, nor is one of another module.
 
@@ -70,6 +73,12 @@ def read_source_map(scenario: type, name: str, file: str) -> SourceMap:
         name: Name of the scenario in the map.
         file: Scenario file.
     """
+    if scenario not in _MAPS:
+        _MAPS[scenario] = _read(scenario, name, file)
+    return _MAPS[scenario]
+
+
+def _read(scenario: type, name: str, file: str) -> SourceMap:
     module = sys.modules.get(scenario.__module__)
     path = getattr(module, "__file__", None)
     if path is None:
