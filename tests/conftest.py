@@ -32,18 +32,22 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     if not hasattr(config, "workerinput"):  # those of pytest-xdist inherit it
-        config.add_cleanup(own_cache())
+        config.add_cleanup(own_environment())
     if config.getoption("--update-golden") and os.environ.get("CI"):
         raise pytest.UsageError("--update-golden is refused when CI is set")
 
 
-def own_cache() -> Callable[[], None]:
-    """Let no test see what earlier ones, or the user, have in the cache; return the way back."""
+def own_environment() -> Callable[[], None]:
+    """Let tests see a cache of their own, and no plugin of ours; return the way back.
+
+    pytest-lsp brings pytest-asyncio, which warns in each pytest that tests start.
+    """
     stack = ExitStack()
     folder = stack.enter_context(TemporaryDirectory(prefix="osc2tx-tests-"))
     patch = stack.enter_context(pytest.MonkeyPatch.context())
     for name in ("XDG_CACHE_HOME", "LOCALAPPDATA"):
         patch.setenv(name, folder)
+    patch.setenv("PYTEST_ADDOPTS", "-p no:asyncio")
     return stack.close
 
 

@@ -177,6 +177,7 @@ class ScenarioItem(pytest.Item):
 
     Attributes:
         entry: What is known of the scenario; `None` for a file with errors.
+        funcargs: Values of fixtures, of which it has none; other plugins ask every item for them.
     """
 
     def __init__(self, *, entry: ScenarioEntry | None, verdict: str, **more: Any) -> None:
@@ -189,6 +190,7 @@ class ScenarioItem(pytest.Item):
         """
         super().__init__(**more)
         self.entry = entry
+        self.funcargs: dict[str, object] = {}
         self._verdict = verdict
         if entry is not None:
             self.user_properties += entry.values.items()

@@ -45,7 +45,10 @@ class Three(TwoCars):
 
 
 class Drawn(Three):
-    """Behaviour from a seed; `shuffle` permutes the members of parallels and of races."""
+    """Behaviour from a seed; `shuffle` permutes the members of parallels.
+
+    Those of `one_of` keep their order: which of several for one actor is drawn depends on it.
+    """
 
     seed = 0
     shuffle: random.Random | None = None
@@ -63,7 +66,7 @@ class Drawn(Three):
             return Serial("serial", *members)
         if kind == "until":
             return Until(members[0], elapsed(self.draw.choice((0.5, 1.0, 2.0))))
-        if self.shuffle is not None:
+        if self.shuffle is not None and kind == "parallel":
             self.shuffle.shuffle(members)
         return (Parallel if kind == "parallel" else OneOf)(kind, *members)
 
