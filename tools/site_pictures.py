@@ -19,11 +19,16 @@ from lxml import etree
 from osc2tx.catalogue import catalogue
 from osc2tx.reference import Entry
 from osc2tx.testing import Run, run_scenario
+from osc2tx_runtime.opendrive import read_map
+from osc2tx_shared.map_files import SHIPPED
 
 REPOSITORY = Path(__file__).parent.parent
 WIDTH, HEIGHT = 720, 260
 LEFT, RIGHT, TOP, BOTTOM = 64, 16, 34, 64
 COLORS = ("#1f4fa8", "#b03060", "#2e7d32", "#8a5a00", "#6a3d9a")
+ASPHALT, BESIDE, MARKING = "#e4e8ec", "#f4f6f8", "#ffffff"  # lanes to drive on, others, edges
+STANDS, BEGINS = 6, 4  # radius of the dot where something stands, or a path begins
+AROUND = 2.0  # m that are shown beside paths
 MANY = len(COLORS)  # actors in a picture, the first that move
 MOVED = 0.5  # m, from which on an actor counts as moving
 CHANGED = 0.3  # m or km/h, from which on something is to be seen
@@ -44,6 +49,7 @@ class Chart:
         curves: Points by actor.
         spans: Times of the action, on the horizontal axis.
         shown: Values that the vertical axis has in any case.
+        ground: Map on which the curves lie, if they are paths.
     """
 
     across: str
@@ -51,6 +57,7 @@ class Chart:
     curves: Mapping[str, Points]
     spans: Sequence[tuple[float, float]] = ()
     shown: Sequence[float] = ()
+    ground: Path | None = None
 
 
 def picture(entry: Entry) -> str | None:
@@ -120,7 +127,11 @@ def _way(points: Points) -> float:
 
 def _from_above(run: Run, actors: Sequence[str] = ()) -> Chart:
     curves = {actor: _places(run, actor) for actor in actors or _moving(run)}
-    return Chart("x (m)", "y (m), on its own scale", curves)
+    heights = [y for curve in curves.values() for _, y in curve]
+    shown = (min(heights) - AROUND, max(heights) + AROUND) if heights else ()
+    (header,) = run.of_kind("header")
+    ground = SHIPPED / f"{header['map']}.xodr"
+    return Chart("x (m)", "y (m), on its own scale", curves, shown=shown, ground=ground)
 
 
 def _across_lanes(run: Run, entry: Entry | None = None) -> Chart:
@@ -209,20 +220,38 @@ def _svg(chart: Chart) -> str:
     root.set("font-family", "sans-serif")
     root.set("font-size", "12")
     _add(root, "rect", width=WIDTH, height=HEIGHT, fill="#ffffff")
+    if chart.ground is not None:
+        _lanes(root, chart.ground, across, up)
     _grid(root, chart, across, up)
     for number, (actor, curve) in enumerate(chart.curves.items()):
         shown = " ".join(f"{across(x):.1f},{up(y):.1f}" for x, y in _fewer(curve))
         color = COLORS[number]
         _add(root, "polyline", points=shown, fill="none", stroke=color, stroke_width=2)
-        if _way(curve) < MOVED:  # it stands
+        if chart.ground is not None:  # where it begins, or stands
             x, y = curve[0]
-            _add(root, "circle", cx=f"{across(x):.1f}", cy=f"{up(y):.1f}", r=5, fill=color)
+            size = STANDS if _way(curve) < MOVED else BEGINS
+            _add(root, "circle", cx=f"{across(x):.1f}", cy=f"{up(y):.1f}", r=size, fill=color)
         _add(root, "text", actor, x=LEFT + 110 * number, y=18, fill=color, font_weight="bold")
     for start, end in chart.spans:
         wide = max(across(end) - across(start), 3)
         place = {"x": f"{across(start):.1f}", "y": HEIGHT - 14, "width": f"{wide:.1f}"}
         _add(root, "rect", **place, height=6, fill="#d08700")
     return etree.tostring(root, encoding="unicode") + "\n"
+
+
+def _lanes(root: etree._Element, ground: Path, across: _Axis, up: _Axis) -> None:
+    """Draw the lanes of a map within the picture."""
+    clip = etree.SubElement(etree.SubElement(root, "defs"), "clipPath", id="plot")
+    size = {"width": WIDTH - RIGHT - LEFT, "height": HEIGHT - BOTTOM - TOP}
+    _add(clip, "rect", x=LEFT, y=TOP, **size)
+    lanes = etree.SubElement(root, "g")
+    lanes.set("clip-path", "url(#plot)")
+    bounds = (across.low, up.low, across.high, up.high)
+    for lane in read_map(ground).lane_outlines(bounds):
+        edge = [*lane.left, *reversed(lane.right)]
+        points = " ".join(f"{across(x):.1f},{up(y):.1f}" for x, y in edge)
+        fill = ASPHALT if lane.type == "driving" else BESIDE
+        _add(lanes, "polygon", points=points, fill=fill, stroke=MARKING, stroke_width=2)
 
 
 def _grid(root: etree._Element, chart: Chart, across: _Axis, up: _Axis) -> None:

@@ -24,7 +24,7 @@ SHOWN = {
     "speeds": (
         *("constant_speed", "speed_up", "brake_to_standstill", "red_light", "follow_time_gap"),
         *("close_up", "range_of_values", "wait_time", "time_to_collision", "time_out"),
-        *("rain_and_fog", "fail_on_condition", "record_a_value", "several_cars", "start_position"),
+        *("rain_and_fog", "fail_on_condition", "record_a_value"),
     ),
     "lanes": (
         *("lane_change", "cut_in_at_gap", "cut_out", "wait_for_event", "overtake"),

@@ -42,11 +42,13 @@ def test_the_page_has_them_all() -> None:
         assert f"({recipe.path.stem}.svg)" in page
 
 
-def test_pictures_show_paths_and_who_stands() -> None:
+def test_pictures_show_paths_on_their_lanes_and_who_stands() -> None:
     (recipe,) = (each for each in RECIPES if each.path.stem == "parked_car")
     drawn = fromstring(SITE["picture"](recipe))
     assert {"ego", "parked"} <= {node.text for node in drawn.iter("{*}text")}
-    assert len(list(drawn.iter("{*}circle"))) == 1
+    dots = [node.get("r") for node in drawn.iter("{*}circle")]
+    assert len(set(dots)) == len(dots) == 2, "a path begins, and a car stands"
+    assert len(list(drawn.iter("{*}polygon"))) >= 3
 
 
 def test_a_stop_at_a_red_light_is_a_stop() -> None:
