@@ -46,7 +46,7 @@ class Shell:
             "PATH": f"{scripts}{os.pathsep}{os.environ['PATH']}",
             "PYTHONDONTWRITEBYTECODE": "1",
             "COLUMNS": "100",
-            "PYTEST_ADDOPTS": "-p no:cacheprovider",
+            "PYTEST_ADDOPTS": f"{os.environ['PYTEST_ADDOPTS']} -p no:cacheprovider",
         }
         for key in ("GIT_AUTHOR", "GIT_COMMITTER"):
             self.environment |= {f"{key}_NAME": "A", f"{key}_EMAIL": "a@example.org"}

@@ -257,8 +257,12 @@ class OneOf(Composition, ParallelComposite):
         self.open_ended = self._content_open and self._limits is None
 
     def _without_rivals(self, members: Sequence[Member], rivals: Rivals) -> tuple[Member, ...]:
-        """Return the members of the race: in a random order, those whose rivals are not in it."""
-        drawn, kept = list(members), list[Member]()
+        """Return the members of the race: in a random order, those whose rivals are not in it.
+
+        What is drawn depends on what the alternatives are, not on the order of the source.
+        """
+        drawn = sorted(members, key=lambda member: sorted(n.name for n in member[0].iterate()))
+        kept = list[Member]()
         self.generator("one_of").shuffle(drawn)
         for member in drawn:
             out = rivals.get(member[0], ())
