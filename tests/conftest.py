@@ -38,9 +38,12 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def own_environment() -> Callable[[], None]:
-    """Let tests see a cache of their own, and no plugin of ours; return the way back.
+    """Give tests a cache of their own, and none of our plugins to the pytest that they start.
 
-    pytest-lsp brings pytest-asyncio, which warns in each pytest that tests start.
+    pytest-lsp brings pytest-asyncio, which warns where it is not configured.
+
+    Returns:
+        What ends it.
     """
     stack = ExitStack()
     folder = stack.enter_context(TemporaryDirectory(prefix="osc2tx-tests-"))
