@@ -54,6 +54,10 @@ class DiagnosticSink:
         """Whether anything found forbids going on to the next stage."""
         return any(d.severity is Severity.ERROR for d in self._found.values())
 
+    def has_report_at(self, span: Span) -> bool:
+        """Whether something was reported at a place."""
+        return any(each.primary == span for each in self._found.values())
+
     def sorted(self) -> tuple[Diagnostic, ...]:
         """Return everything found, in order."""
         return in_order(self._found.values())

@@ -136,8 +136,8 @@ class TimeSystem:
     def _invocation(self, node: ir.InvokeScenario) -> _Length:
         """Relate the times of an invoked scenario to the duration that it is given."""
         duration = node.duration
-        if duration is not None and self._is_refused(duration):
-            return None
+        if duration is not None and self.ctx.sink.has_report_at(duration.span):
+            return None  # the invoked scenario says otherwise how long it takes
         lengths = self._invoked.lengths(node)
         if duration is None:
             if any(length.goes_on for length in lengths):
@@ -166,10 +166,6 @@ class TimeSystem:
             if not self._equations.bound(each, duration):
                 return
         self._equations.relate_longest(length.members, duration)
-
-    def _is_refused(self, duration: ir.Expression) -> bool:
-        """Whether it is an error already, since the invoked scenario says how long it takes."""
-        return any(each.primary == duration.span for each in self.ctx.sink.sorted())
 
     def _composition(self, node: Composition, is_bounded: bool) -> tuple[ir.Behavior, _Length]:
         is_equal = isinstance(node, ir.Parallel) and node.overlap == "equal"

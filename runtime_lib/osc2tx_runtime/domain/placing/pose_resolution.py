@@ -84,10 +84,10 @@ def heading_base(
     """The heading (rad) from which an angle counts.
 
     Args:
-        world: As above.
+        world: The world.
         turned: The modifier.
-        at: As above.
-        other: State of its reference; None: the present one.
+        at: Place or state of the actor.
+        other: State of the reference of the modifier; the present one if it is left out.
     """
     if isinstance(turned, Orient):
         base = 0.0 if turned.measure_by == "absolute" else road_heading(world.map, at)
