@@ -33,7 +33,8 @@ class GapRun:
 
     A small error decays like that of a critically damped spring, as with tools that read
     OpenSCENARIO XML; the closing speed grows with the square root of a large one, so that the
-    actor can always still brake. It does not reverse.
+    actor can always still brake. Within a range it keeps its speed as long as that does not lead
+    to an edge. It does not reverse.
     """
 
     __slots__ = ("_command", "_failed", "_held", "_limits", "_other")
@@ -53,24 +54,76 @@ class GapRun:
             self._failed = _no_way(self._command)
             return me.v
         here, low, high = found
-        error = min(max(here, low), high) - here  # > 0: more speed is needed
-        last = self._limits.acceleration if error < 0.0 else self._limits.deceleration
-        pace = math.sqrt(_STIFFNESS * last)  # 1/s
-        soon = abs(error + 0.5 * (other.v - me.v) * inputs.dt)  # in the middle of the step
-        closing = min(0.5 * pace * soon, math.sqrt(2.0 * COMFORT * last * soon))
-        its_speed = other.v + other.a * inputs.dt  # extrapolated
-        goal = max(its_speed + math.copysign(closing, error), 0.0)
-        if error == 0.0 and low < high:
-            goal = me.v if low < here < high else goal  # anywhere in the range will do
-        blend = 1.0 - math.exp(-2.0 * pace * inputs.dt)
-        # Its acceleration is fed forward: a reached gap is kept while the speed of the reference
-        # changes.
-        wanted = me.v + other.a * inputs.dt + blend * (goal - me.v - other.a * inputs.dt)
+        if self._command.time is None:
+            wanted = self._at_distance(me, other, found, inputs.dt)
+        elif self._command.ahead:
+            wanted = self._ahead_in_time(me, other, here, inputs.dt)
+        else:
+            wanted = self._behind_in_time(me, other, -here, inputs.dt)
         speed = towards(me.v, max(wanted, 0.0), self._limits, 1.0, inputs.dt)
+        error = min(max(here, low), high) - here
         close = low < high or abs(me.v - other.v) < _SPEED_TOLERANCE
         near = abs(error) < _GAP_TOLERANCE and close
         self._held = self._held + inputs.dt if near else 0.0
         return speed
+
+    def _at_distance(
+        self, me: ActorState, other: ActorState, found: tuple[float, float, float], dt: float
+    ) -> float:
+        """The speed towards a distance. The acceleration of the reference is fed forward.
+
+        So a reached distance is kept while the speed of the reference changes.
+        """
+        here, *edges = found
+        drift = 0.5 * (other.v - me.v) * dt  # in the middle of the step
+        its_speed = other.v + other.a * dt  # extrapolated
+        least, most = (max(its_speed + self._closing(edge - here, drift), 0.0) for edge in edges)
+        goal = min(max(me.v, least), most)
+        blend = 1.0 - math.exp(-2.0 * self._pace(edges[1] - here) * dt)
+        return me.v + other.a * dt + blend * (goal - me.v - other.a * dt)
+
+    def _ahead_in_time(self, me: ActorState, other: ActorState, here: float, dt: float) -> float:
+        """The speed ahead of a reference, from whose speed and a time the distance follows."""
+        its_speed = other.v + other.a * dt
+        least, most = (
+            its_speed + time * other.a + self._closing(time * max(other.v, 0.0) - here)
+            for time in self._times()
+        )
+        return min(max(me.v, least), most)
+
+    def _behind_in_time(self, me: ActorState, other: ActorState, gap: float, dt: float) -> float:
+        """The speed behind a reference, from which and a time the distance follows.
+
+        After the step the distance is the time multiplied by that speed, but for what is left of
+        the error.
+        """
+        next_gap = gap + (other.v + 0.5 * other.a * dt) * dt - 0.5 * me.v * dt  # of standing still
+        bounds = []
+        for time in self._times():
+            error = time * me.v - gap  # > 0: it is too near
+            left = error + self._closing(-error) * dt
+            bounds.append((next_gap + left) / (time + 0.5 * dt))
+        return min(max(me.v, min(bounds)), max(bounds))
+
+    def _times(self) -> tuple[float, float]:
+        """Least and greatest time (s) allowed."""
+        time = self._command.time or 0.0
+        return time, time + self._command.spread
+
+    def _closing(self, error: float, drift: float = 0.0) -> float:
+        """Rate (m/s) at which to close an error (m), which drifts by so much until it counts."""
+        soon = abs(error + drift)
+        last = self._last(error)
+        closing = min(0.5 * self._pace(error) * soon, math.sqrt(2.0 * COMFORT * last * soon))
+        return math.copysign(closing, error)
+
+    def _pace(self, error: float) -> float:
+        """Of the spring (1/s)."""
+        return math.sqrt(_STIFFNESS * self._last(error))
+
+    def _last(self, error: float) -> float:
+        """The limit (m/s^2) that counts at the end of closing an error."""
+        return self._limits.acceleration if error < 0.0 else self._limits.deceleration
 
     def progress(self) -> Progress:
         """Done when the gap has been held for a while."""
