@@ -250,3 +250,53 @@ def test_without_a_word_it_counts_from_the_road(run: Run) -> None:
     assert car["roll"] == pytest.approx(-0.05, abs=1e-6)
     # Turned by 0.2 rad on a slope the road under it is tilted a little otherwise.
     assert box["roll"] == pytest.approx(0.05, abs=0.01)
+
+
+class Straight(Scenario):
+    """A car at 10 m/s on a straight road, at an angle to its lane from the first instant on."""
+
+    name = "straight"
+    source = "straight.osc"
+    angle = math.radians(3.0)
+
+    def declare(self) -> None:
+        self.road = Map(map_file="highway")
+        self.car = Vehicle()
+
+    def placement(self) -> None:
+        self.place(self.car, lane(2), position(150.0), speed(10.0), yaw(self.angle))
+
+
+@pytest.mark.parametrize("degrees", [3.0, -5.0, 20.0])
+def test_a_heading_is_held_from_the_start(run: Run, degrees: float) -> None:
+    class Held(Straight):
+        angle = math.radians(degrees)
+
+        def behavior(self) -> Behaviour:
+            return Parallel("on", self.car.drive(speed(10.0), yaw(self.angle)), duration=0.5)
+
+    done = run(Held)
+    assert done.result.status == "success"
+    states = done.states("car")
+    assert all(each["h"] == pytest.approx(math.radians(degrees), abs=1e-5) for each in states)
+    aside = states[-1]["y"] - states[0]["y"]
+    assert aside == pytest.approx(10.0 * 0.5 * math.sin(math.radians(degrees)), abs=1e-3)
+
+
+def test_a_turned_car_changes_lanes(run: Run) -> None:
+    class Changes(Straight):
+        def behavior(self) -> Behaviour:
+            return Serial("on", self.car.change_lane(num_of_lanes=1, side="left"))
+
+    states = run(Changes).states("car")
+    assert states[-1]["y"] - states[0]["y"] == pytest.approx(3.5, abs=0.01)
+
+
+def test_a_car_across_its_lane_cannot_change_it(run: Run) -> None:
+    class Across(Straight):
+        angle = math.radians(40.0)
+
+        def behavior(self) -> Behaviour:
+            return Serial("on", self.car.change_lane(num_of_lanes=1, side="left"))
+
+    assert "in no lane yet" in run(Across).result.reason

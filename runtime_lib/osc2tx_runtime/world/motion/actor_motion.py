@@ -6,7 +6,15 @@ import math
 from dataclasses import field
 
 from osc2tx_runtime.opendrive import Pose, RoadMap
-from osc2tx_runtime.world.commands import Command, FollowRoute, KeepLane, RunOut, Turn
+from osc2tx_runtime.world.commands import (
+    Command,
+    FollowRoute,
+    KeepLane,
+    RunOut,
+    Sideways,
+    Slant,
+    Turn,
+)
 from osc2tx_runtime.world.geometry.lane_return import turn_from
 from osc2tx_runtime.world.lateral.attitude_control import Turning
 from osc2tx_runtime.world.lateral.curve_following import Replay, TimedReplay, course_of
@@ -131,6 +139,8 @@ class CommandedActor(MovingActor):
             self._return_to_lane(road_map)
             if self.bound is not None and (command is None or isinstance(command, KeepLane)):
                 return  # on its way to the middle of the lane
+        if self.home is not None or self._astray:
+            self._return_to_lane(road_map, at_angle=isinstance(command, Sideways | Slant))
         if self.home is not None:
             held = command is None or isinstance(command, KeepLane)
             self._side = HoldOffset() if held else Impossible(f"{self.spec.id} is in no lane yet")

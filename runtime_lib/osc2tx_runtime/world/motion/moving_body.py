@@ -14,7 +14,14 @@ from osc2tx_runtime.world.geometry.seam_smoothing import Residual
 from osc2tx_runtime.world.grip.friction import Wheels, held_by
 from osc2tx_runtime.world.lateral.attitude_control import Turning
 from osc2tx_runtime.world.lateral.curve_following import Course, Steering
-from osc2tx_runtime.world.lateral.execution import HoldOffset, Lateral, Shift, shift_profile
+from osc2tx_runtime.world.lateral.execution import (
+    HEADING_LIMIT,
+    HoldOffset,
+    Impossible,
+    Lateral,
+    Shift,
+    shift_profile,
+)
 from osc2tx_runtime.world.lateral.route_following import Way
 from osc2tx_runtime.world.longitudinal.execution import Longitudinal
 from osc2tx_runtime.world.motion.cruise import Cruise
@@ -170,8 +177,13 @@ class MovingBody:
         self.jumped = way > max(abs(path), abs(speed) * dt) + _NEAR
         return self.free_state(pose, speed, (speed - state.v) / dt, road_map)
 
-    def _return_to_lane(self, road_map: RoadMap) -> None:
-        """Is in its lane again if it is in it and along it, else on the way there, if any."""
+    def _return_to_lane(self, road_map: RoadMap, *, at_angle: bool = False) -> None:
+        """Is in its lane again if it is in it and along it, else on the way there, if any.
+
+        Args:
+            road_map: The map.
+            at_angle: It is to go on at an angle to its lane.
+        """
         state, home, self._astray = self.reference, self.home, False
         if not self.spec.lane_bound:
             return
@@ -185,11 +197,14 @@ class MovingBody:
         turn = turn_from(road_map, home, state)
         offset = offset_from(road_map, home, state.x, state.y)
         inside = abs(offset) <= 0.5 * road_map.lane_width(home.road, home.lane, home.s)
-        if inside and abs(turn) <= (ALIGNED if state.v > 0.5 else 1e-3):
+        most = ALIGNED if state.v > 0.5 else 1e-3
+        if inside and abs(turn) <= (HEADING_LIMIT if at_angle else most):
             rate = state.v * math.sin(turn)
             profile = shift_profile(offset, 0.0, rate, ("none", None, None), self.limits)
             self.bound = LanePosition(home.road, home.lane, home.s, offset)
-            self._side, self.home = Shift(profile, 0.0), None
+            self.home = None
+            if not isinstance(self._side, Impossible):  # that is yet to be told
+                self._side = Shift(profile, 0.0)
 
     def _towards_lane(self, home: LanePosition, path: float, road_map: RoadMap) -> Pose:
         """Steers at the centre of the lane, some way ahead."""
