@@ -56,15 +56,10 @@ class Arguments:
         expression = self.expression(name)
         return None if expression is None else self._ctx.values.number(expression)
 
-    def required(self, name: str, otherwise: str) -> float:
-        """Return a number, in SI units, that has to be there.
-
-        Raises:
-            Inexpressible: It is not; `otherwise` says so.
-        """
+    def required(self, name: str) -> float:
+        """Return a number, in SI units, that the library requires: no call is without it."""
         number = self.number(name)
-        if number is None:
-            raise Inexpressible(otherwise, self.span)
+        assert number is not None, f"{self.construct} without {name}"
         return number
 
     def size(self, name: str) -> float | None:
@@ -127,6 +122,12 @@ class Arguments:
         if not isinstance(value, Named) or value.name not in self._ctx.cast:
             raise Inexpressible(f"`{name}` is no entity of the XML", self.span)
         return self._ctx.cast[value.name]
+
+    def required_entity(self, name: str) -> CastMember:
+        """Return an actor that the library requires."""
+        entity = self.entity(name)
+        assert entity is not None, f"{self.construct} without {name}"
+        return entity
 
     def approximate(self, reason: str, bound: Metres | str, remedy: Remedy = NOTHING) -> None:
         """Report that the action or modifier means nearly the same in the XML."""

@@ -59,8 +59,6 @@ def _celestial_position(ctx: Context, node: ir.Invoke, arguments: Arguments) -> 
     source = arguments.expression("light_source")
     if source is not None and source.span.text.endswith("moon"):
         raise Inexpressible("there is no moon in OpenSCENARIO XML")
-    if azimuth is None and elevation is None:
-        raise Inexpressible("neither azimuth nor elevation is stated")
     if azimuth is not None:  # what nobody has said is open, and the XML says some value
         ctx.weather["sun_azimuth"] = azimuth
     if elevation is not None:
@@ -117,10 +115,7 @@ def _wind(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
 
 @global_action("fog")
 def _fog_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
-    visual_range = arguments.number("visual_range")
-    if visual_range is None:
-        raise Inexpressible("no visual range is stated")
-    ctx.weather["visual_range"] = visual_range
+    ctx.weather["visual_range"] = arguments.required("visual_range")
     return (environment_action(ctx, node, _fog(ctx)),)
 
 
@@ -130,8 +125,8 @@ def _fog(ctx: Context) -> xml.Fog:
 
 @global_action("clouds")
 def _clouds_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
-    cloudiness = arguments.number("cloudiness")
-    if cloudiness is None or not 0.0 <= cloudiness < len(OKTAS):
+    cloudiness = arguments.required("cloudiness")
+    if not 0.0 <= cloudiness < len(OKTAS):
         raise Inexpressible("the cloud cover is not between 0 and 9 oktas")
     ctx.weather["cloudiness"] = cloudiness
     if ctx.version < "1.2" and 0 < cloudiness < 8:
@@ -154,9 +149,7 @@ def _cloud_state(ctx: Context) -> CloudState:
 
 @global_action("rain", "snow")
 def _precipitation_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
-    intensity = arguments.number("intensity")
-    if intensity is None:
-        raise Inexpressible("no intensity is stated")
+    intensity = arguments.required("intensity")
     if node.action == "snow" and intensity > 0.0:
         ctx.require_support("Precipitation/snow")
     ctx.weather[f"{node.action}_intensity"] = intensity

@@ -60,7 +60,7 @@ def _walking_speed(leaf: Leaf) -> float | None:
 
 @action("change_speed")
 def _change_speed(leaf: Leaf) -> Performance:
-    target = leaf.arguments.required("target", "it has no target")
+    target = leaf.arguments.required("target")
     pace = leaf.arguments.pace(leaf.duration)
     if leaf.member.walks and leaf.state.pose is not None:
         start = leaf.known_speed("how fast it walks is not known")
@@ -75,7 +75,7 @@ def _change_speed(leaf: Leaf) -> Performance:
 
 @action("assign_speed")
 def _assign_speed(leaf: Leaf) -> Performance:
-    target = leaf.arguments.required("speed", "it has no speed")
+    target = leaf.arguments.required("speed")
     if leaf.member.walks and leaf.state.pose is not None:
         course = course_of_speed(target, target, Pace(), leaf.limits)
         return Performance((change_pace(leaf, target, course),), "goal", 0.0)

@@ -7,7 +7,7 @@ decorators and by `without_form`; `tools/make_catalogue.py` fails if one is miss
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Literal
+from typing import Literal, TypeVar
 
 from osc2tx.backends.xosc.actions.arguments import Call
 from osc2tx.backends.xosc.actions.leaf import (
@@ -37,6 +37,23 @@ WITHOUT_FORM: dict[What, dict[str, str]] = {"action": {}, "modifier": {}}
 """Why there is no form."""
 
 
+HandlerT = TypeVar("HandlerT", Perform, PerformGlobal, Modify)
+
+
+def _registering(
+    forms: dict[str, HandlerT], what: str, names: Iterable[str], takes: Iterable[str] | None
+) -> Callable[[HandlerT], HandlerT]:
+    def register(handler: HandlerT) -> HandlerT:
+        for name in names:
+            assert name not in forms, f"two handlers for {what}{name}"
+            forms[name] = handler
+            if takes is not None:
+                TAKES[f"{what}{name}"] = frozenset(takes)
+        return handler
+
+    return register
+
+
 def action(*names: str, takes: Iterable[str] | None = None) -> Callable[[Perform], Perform]:
     """Register a handler for actions of the library.
 
@@ -44,42 +61,17 @@ def action(*names: str, takes: Iterable[str] | None = None) -> Callable[[Perform
         *names: The actions, without their actors.
         takes: Domains that the elements take over; by default what the actions control.
     """
-
-    def register(handler: Perform) -> Perform:
-        for name in names:
-            assert name not in ACTIONS, f"two handlers for action {name}"
-            ACTIONS[name] = handler
-            if takes is not None:
-                TAKES[name] = frozenset(takes)
-        return handler
-
-    return register
+    return _registering(ACTIONS, "", names, takes)
 
 
 def modifier(*names: str, takes: Iterable[str] | None = None) -> Callable[[Modify], Modify]:
     """Register a handler for modifiers of the library; parameters as of `action`."""
-
-    def register(handler: Modify) -> Modify:
-        for name in names:
-            assert name not in MODIFIERS, f"two handlers for modifier {name}"
-            MODIFIERS[name] = handler
-            if takes is not None:
-                TAKES[f"modifier {name}"] = frozenset(takes)
-        return handler
-
-    return register
+    return _registering(MODIFIERS, "modifier ", names, takes)
 
 
 def global_action(*names: str) -> Callable[[PerformGlobal], PerformGlobal]:
     """Register a handler for actions that concern no entity."""
-
-    def register(handler: PerformGlobal) -> PerformGlobal:
-        for name in names:
-            assert name not in GLOBAL_ACTIONS, f"two handlers for action {name}"
-            GLOBAL_ACTIONS[name] = handler
-        return handler
-
-    return register
+    return _registering(GLOBAL_ACTIONS, "", names, None)
 
 
 def at_start(*names: str) -> None:

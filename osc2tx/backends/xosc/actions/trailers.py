@@ -20,9 +20,7 @@ from osc2tx.xosc import elements as xml
 
 @action("connect_trailer")
 def _connect(leaf: Leaf) -> Performance:
-    trailer = leaf.arguments.entity("trailer")
-    if trailer is None:
-        raise Inexpressible("it names no trailer")
+    trailer = leaf.arguments.required_entity("trailer")
     return _act(leaf, xml.ConnectTrailerAction(trailerRef=trailer.name))
 
 

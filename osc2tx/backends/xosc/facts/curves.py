@@ -8,8 +8,8 @@ from functools import lru_cache
 from itertools import pairwise
 from typing import Literal, NamedTuple
 
-from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx_runtime.domain.paths.path_curves import PathError, interval_between_offsets
+from osc2tx.backends.xosc.facts.refusals import refusing
+from osc2tx_runtime.domain.paths.path_curves import interval_between_offsets
 from osc2tx_runtime.domain.paths.path_values import Path as Way
 from osc2tx_runtime.domain.paths.path_values import Trajectory
 from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
@@ -68,17 +68,15 @@ TOLERANCE = 0.02
 """Metres by which the straight lines of a polyline may leave a curve."""
 
 
+@refusing()
 def sample_curve(line: Line) -> tuple[Waypoint, ...]:
     """Return the corners of straight stretches that are as good as a way through points.
 
     Raises:
         Inexpressible: There is no such way.
     """
-    try:
-        curve = curve_through(line.points, is_timed=line.is_timed, is_smooth=line.is_smooth)
-        low, high = interval_between_offsets(curve, *line.offsets)
-    except PathError as error:
-        raise Inexpressible(error.message) from None
+    curve = curve_through(line.points, is_timed=line.is_timed, is_smooth=line.is_smooth)
+    low, high = interval_between_offsets(curve, *line.offsets)
     begin, end = curve.begin, curve.end
     if any(line.offsets):
         begin, end = curve.at_length(low), curve.at_length(high)
@@ -157,6 +155,7 @@ SETTLED, LEAST_SETTLED = 10.0, 100.0
 """Seconds, and metres besides, after which a corner is behind, or before which it is far off."""
 
 
+@refusing()
 @lru_cache(64)  # documents for other values of parameters have the same lines
 def off_the_line(
     line: Line,
@@ -185,11 +184,8 @@ def off_the_line(
         ends = offsets[0] if i == 0 else 0.0, offsets[1] if i == len(pieces) - 1 else 0.0
         if i > 0:
             corners, start = piece, _along_first(piece)
-        try:
-            curve = curve_through(piece, is_timed=False, is_smooth=is_smooth)
-            command = FollowCourse(curve, *interval_between_offsets(curve, *ends))
-        except PathError as error:
-            raise Inexpressible(error.message) from None
+        curve = curve_through(piece, is_timed=False, is_smooth=is_smooth)
+        command = FollowCourse(curve, *interval_between_offsets(curve, *ends))
         worst = max(worst, _worst(command, corners, start, speed, actor))
     return worst
 

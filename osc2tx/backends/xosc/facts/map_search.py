@@ -8,6 +8,7 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar, get_args
 
 from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
+from osc2tx.backends.xosc.facts.refusals import refusing
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_runtime.domain.map.crossings import Crossing, CrossingType
 from osc2tx_runtime.domain.map.road_graph import graph_of
@@ -29,7 +30,6 @@ from osc2tx_runtime.domain.placing.map_solver import MapSolver, Relation
 from osc2tx_runtime.domain.points_and_poses import Pose as WayPose
 from osc2tx_runtime.domain.routes.composed_routes import poses_of_route
 from osc2tx_runtime.enums import ConnectRoutePoints
-from osc2tx_runtime.errors import ScenarioError, UnsupportedError
 from osc2tx_runtime.language.values.parameters import Range
 
 __all__ = [
@@ -86,6 +86,7 @@ class MapQuery(NamedTuple):
     properties: Mapping[str, QueryValue]
 
 
+@refusing()
 def search_map(
     roads: Roads, parts: Mapping[str, MapQuery], relations: Sequence[MapQuery]
 ) -> dict[str, MapSegment]:
@@ -100,15 +101,11 @@ def search_map(
         Inexpressible: The map has none, or cannot tell.
     """
     made: dict[str, RoadPart] = {}
-    try:
-        for name, query in parts.items():
-            made[name] = _build(PARTS[query.kind], query, made)
-        kinds = {n: each for n, each in MODIFIERS.items() if issubclass(each, MapModifier)}
-        modifiers = [_build(kinds[query.kind], query, made) for query in relations]
-        solver = MapSolver(roads.map, list(made.values()), [Relation(m, None) for m in modifiers])
-        solver.solve()
-    except (ScenarioError, UnsupportedError) as error:
-        raise Inexpressible(error.message) from None
+    for name, query in parts.items():
+        made[name] = _build(PARTS[query.kind], query, made)
+    kinds = {n: each for n, each in MODIFIERS.items() if issubclass(each, MapModifier)}
+    modifiers = [_build(kinds[query.kind], query, made) for query in relations]
+    MapSolver(roads.map, list(made.values()), [Relation(m, None) for m in modifiers]).solve()
     return {name: part.found for name, part in made.items()}
 
 
@@ -175,6 +172,7 @@ def end_of(roads: Roads, segment: MapSegment) -> LanePosition:
     return graph_of(roads.map).end(segment)
 
 
+@refusing()
 def points_of_route(
     roads: Roads,
     elements: Sequence[LanePosition | Pose | MapSegment | Sequence[Waypoint]],
@@ -196,10 +194,7 @@ def points_of_route(
     )
     if kind is None:
         raise Inexpressible(f"`{connect_by}` is nothing that points can stand for")
-    try:
-        poses = poses_of_route(roads.map, parts, kind)
-    except ScenarioError as error:
-        raise Inexpressible(error.message) from None
+    poses = poses_of_route(roads.map, parts, kind)
     return tuple(Waypoint(0.0, pose.x, pose.y, pose.z, pose.yaw) for pose in poses)
 
 

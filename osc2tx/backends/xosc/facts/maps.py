@@ -11,13 +11,14 @@ from pathlib import Path
 from typing import Literal, cast
 
 from osc2tx.backends.xosc.facts.curves import Waypoint
+from osc2tx.backends.xosc.facts.refusals import refusing
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.domain.routes.lane_coordinates import road_entry
 from osc2tx_runtime.domain.routes.road_paths import way_through
 from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import InputError, ScenarioError
-from osc2tx_runtime.opendrive import LanePosition, MapError, Pose, RoadMap, read_map
+from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, read_map
 from osc2tx_runtime.opendrive.geodesy import GeoReferenceError
 from osc2tx_runtime.opendrive.model import LaneKey
 from osc2tx_runtime.world.geometry.lane_neighbours import (
@@ -111,11 +112,9 @@ class Roads:
         Raises:
             Inexpressible: The map has no such place.
         """
-        try:
+        with refusing(about=f"map {self.map.name}: "):
             place = LanePosition(road, lane, s, t * self.map.travel_direction(road, lane))
             self.map.pose(place)
-        except MapError as error:
-            raise Inexpressible(f"map {self.map.name}: {error.message}") from None
         return place
 
     def pose(self, place: LanePosition) -> Pose:
@@ -175,27 +174,23 @@ class Roads:
         pose = self.map.road_pose(light.road, light.s, light.t)
         return pose.x, pose.y
 
+    @refusing()
     def lamps(self, signal: str) -> tuple[Lamp, ...]:
         """Return the lamps of a traffic light.
 
         Raises:
             Inexpressible: There is no such light, or its lamps are not known.
         """
-        try:
-            return self._signals.lamps(signal)
-        except ScenarioError as error:
-            raise Inexpressible(error.message) from None
+        return self._signals.lamps(signal)
 
+    @refusing()
     def group(self, group: str) -> tuple[str, ...]:
         """Return the traffic lights of a group.
 
         Raises:
             Inexpressible: There is no such group.
         """
-        try:
-            return self._signals.members(group)
-        except ScenarioError as error:
-            raise Inexpressible(error.message) from None
+        return self._signals.members(group)
 
     def group_of(self, signal: str) -> tuple[str, ...]:
         """Return the lights of the group that a traffic light belongs to."""
@@ -214,16 +209,14 @@ class Roads:
         """Return the driving lane that contains a point; `None` if there is none."""
         return self.map.locate(x, y, z, max_distance=1e-3)
 
+    @refusing()
     def along(self, places: Sequence[LanePosition]) -> tuple[Waypoint, ...]:
         """Return the way along lanes through places.
 
         Raises:
             Inexpressible: There is no such way.
         """
-        try:
-            found = way_through(self.map, places)
-        except ScenarioError as error:
-            raise Inexpressible(error.message) from None
+        found = way_through(self.map, places)
         return tuple(Waypoint(0.0, pose.x, pose.y, pose.z, pose.yaw) for pose in found)
 
     def only_road(self) -> str | None:
@@ -259,10 +252,8 @@ def _read_now(path: Path) -> Roads:
 
 @lru_cache(maxsize=MOST_MAPS)
 def _read(path: Path, modified: int, size: int) -> Roads:
-    try:
+    with refusing(about=f"map {path.name} cannot be read: "):
         return Roads(read_map(path), path)
-    except MapError as error:
-        raise Inexpressible(f"map {path.name} cannot be read: {error.message}") from None
 
 
 # --- lanes of oncoming traffic --------------------------------------------------------------------

@@ -8,13 +8,13 @@ from typing import Literal, NamedTuple
 from osc2tx.backends.xosc.facts.actors import Shape
 from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
+from osc2tx.backends.xosc.facts.refusals import refusing
 from osc2tx.backends.xosc.report import Inexpressible, NoPlace
 from osc2tx.diagnostics import Span
 from osc2tx_runtime.domain.modifiers import Lane
 from osc2tx_runtime.domain.placing.default_starts import StartPlaces, TakenBy
 from osc2tx_runtime.domain.placing.start_room import Placed, StartRoom
 from osc2tx_runtime.domain.routes.lane_coordinates import place_at_distance
-from osc2tx_runtime.errors import PlacementError, SettingsError
 from osc2tx_runtime.language.tree import parallel_schedule as schedule
 from osc2tx_runtime.running.options import parse_signal, parse_spawn
 from osc2tx_runtime.world.measuring.collision import Box, box_of
@@ -52,6 +52,7 @@ class LaneNumber(NamedTuple):
         return Lane(self.number, from_=side)
 
 
+@refusing(NoPlace)
 def open_place(
     roads: Roads,
     name: str,
@@ -74,14 +75,12 @@ def open_place(
         NoPlace: There is no such place.
     """
     places, modifier = StartPlaces(roads.map), None if lane is None else lane.modifier
-    try:
-        if segment is None:
-            return places.default(name, modifier, distance, taken_by)
-        return places.on_path(name, segment, modifier, distance, taken_by)
-    except PlacementError as error:
-        raise NoPlace(error.message) from None
+    if segment is None:
+        return places.default(name, modifier, distance, taken_by)
+    return places.on_path(name, segment, modifier, distance, taken_by)
 
 
+@refusing(NoPlace)
 def given_place(
     roads: Roads, name: str, spawn: LanePosition, lane: LaneNumber | None
 ) -> LanePosition:
@@ -90,11 +89,8 @@ def given_place(
     Raises:
         NoPlace: The map has no such place, or it is in another lane than the scenario says.
     """
-    try:
-        modifier = None if lane is None else lane.modifier
-        return StartPlaces(roads.map).given(name, spawn, modifier, None)
-    except PlacementError as error:
-        raise NoPlace(error.message) from None
+    modifier = None if lane is None else lane.modifier
+    return StartPlaces(roads.map).given(name, spawn, modifier, None)
 
 
 def lane_beside(roads: Roads, place: LanePosition, lanes: int) -> LanePosition:
@@ -143,28 +139,24 @@ def _state(pose: Pose, shape: Shape) -> ActorState:
 # --- options and plans of runs --------------------------------------------------------------------
 
 
+@refusing()
 def read_signal(text: str) -> tuple[str, float]:
     """Return name and time (s) of an event from outside, as `--signal` says it.
 
     Raises:
         Inexpressible: It says none.
     """
-    try:
-        return parse_signal(text)
-    except SettingsError as error:
-        raise Inexpressible(str(error)) from None
+    return parse_signal(text)
 
 
+@refusing()
 def read_spawn(text: str) -> tuple[str, LanePosition]:
     """Return an actor and its start, as `--spawn` says it.
 
     Raises:
         Inexpressible: It says none.
     """
-    try:
-        actor, (road, lane, s) = parse_spawn(text)
-    except SettingsError as error:
-        raise Inexpressible(str(error)) from None
+    actor, (road, lane, s) = parse_spawn(text)
     return actor, LanePosition(road, lane, s)
 
 

@@ -30,10 +30,12 @@ from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass, replace
 
+UNKNOWN_RATE = "the present acceleration is only known during the run"
+
 
 @action("assign_acceleration")
 def _assign_acceleration(leaf: Leaf) -> Performance:
-    rate = leaf.arguments.required("acceleration", "no acceleration is stated")
+    rate = leaf.arguments.required("acceleration")
     after = ir.follower(leaf.ctx.scenario.body, leaf.node)
     if after is None or after.action != "keep_acceleration":
         raise Inexpressible(
@@ -47,15 +49,15 @@ def _assign_acceleration(leaf: Leaf) -> Performance:
 @action("keep_acceleration")
 def _keep_acceleration(leaf: Leaf) -> Performance:
     if leaf.state.rate is None:
-        raise Inexpressible("the present acceleration is only known during the run")
+        raise Inexpressible(UNKNOWN_RATE)
     return Performance((accelerated(leaf, leaf.state.rate), *apply_modifiers(leaf)), "open")
 
 
 @action("change_acceleration")
 def _change_acceleration(leaf: Leaf) -> Performance:
-    target, pace = leaf.arguments.number("target"), leaf.arguments.pace()
-    if target is None or leaf.state.rate is None:
-        raise Inexpressible("the acceleration before or after is not known")
+    target, pace = leaf.arguments.required("target"), leaf.arguments.pace()
+    if leaf.state.rate is None:
+        raise Inexpressible(UNKNOWN_RATE)
     if pace.peak is None and pace.profile != "asap":
         pace = pace._replace(duration=leaf.duration)
     course = course_of_acceleration(leaf.state.rate, target, pace, leaf.limits)
@@ -82,7 +84,7 @@ def _acceleration(leaf: Leaf, call: Call) -> Changes:
     if leaf.duration is None:
         raise Inexpressible("how long the acceleration lasts is only known during the run")
     if leaf.state.rate is None:
-        raise Inexpressible("the present acceleration is only known during the run")
+        raise Inexpressible(UNKNOWN_RATE)
     course = course_of_acceleration(leaf.state.rate, target, pace, leaf.limits)
     return (_ramp(leaf, course, leaf.duration),)
 

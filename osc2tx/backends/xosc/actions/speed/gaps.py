@@ -11,7 +11,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
-from osc2tx.backends.xosc.actions.speed.gap_elements import ACROSS, ALONG, Between, Gap, reach
+from osc2tx.backends.xosc.actions.speed.gap_elements import Between, Gap, reach
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_shared.classes import replace
@@ -35,10 +35,8 @@ def _change_gap(leaf: Leaf) -> Performance:
 
 @action("keep_space_gap", "keep_time_gap", "keep_space_headway", "keep_time_headway")
 def _keep_gap(leaf: Leaf) -> Performance:
-    reference = leaf.arguments.entity("reference")
+    reference = leaf.arguments.required_entity("reference")
     direction = leaf.arguments.member("direction", "longitudinal")
-    if reference is None:
-        raise Inexpressible("it names no actor")
     found = _reached_before(leaf, reference, direction)
     missing: float | None = 0.0
     if found is None and direction == "longitudinal" and leaf.is_start:
@@ -55,14 +53,12 @@ def _keep_gap(leaf: Leaf) -> Performance:
 
 def _asked_for(leaf: Leaf, node: ir.Invoke, arguments: Arguments) -> Gap:
     """Return the gap that a `change_…` asks for; a negative one is on the other side."""
-    target, reference = arguments.number("target"), arguments.entity("reference")
+    target, reference = arguments.required("target"), arguments.required_entity("reference")
     side = arguments.member("direction", "")
     if side in ("inside", "outside"):
         roads, lane = leaf.ctx.roads, leaf.state.lane
         is_right_hand = roads is None or lane is None or roads.is_right_hand(lane.road)
         side = "left" if (side == "inside") is is_right_hand else "right"
-    if target is None or reference is None or side not in (*ALONG, *ACROSS):
-        raise Inexpressible("it needs a target, a direction and a reference")
     if target < 0.0:
         target, side = -target, OPPOSITE[side]
     return Gap(reference, side, target, *_counted(node))

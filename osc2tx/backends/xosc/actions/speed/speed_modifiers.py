@@ -227,7 +227,7 @@ def _change_speed(leaf: Leaf, call: Call) -> Changes:
 
 @modifier("distance", takes=())
 def _distance(leaf: Leaf, call: Call) -> Changes:
-    distance = call.required("distance", "no distance is stated")
+    distance = call.required("distance")
     if any(_has_to_fit(leaf, other) for other in leaf.node.modifiers):
         reason = "what has to hold at the end of its distance decides how it gets there"
         raise Inexpressible(reason)
