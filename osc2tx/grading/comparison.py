@@ -33,12 +33,14 @@ class Recording:
         starts: When actions began (s): in the world by source line, in a player by event.
         track: Motion of each actor.
         choices: The chosen members, by the names of the choices.
+        ends: When actors came to the end of their roads in a player (s).
     """
 
     end: float
     starts: Mapping[str, float]
     track: Mapping[str, Sequence[Row]]
     choices: Mapping[str, str] = field(default_factory=dict)
+    ends: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -70,12 +72,14 @@ class Deviation:
         end: Difference of the ends (s).
         actors: Deviation of each actor.
         problems: Events that are missing, too late or in another order; a sentence each.
+        is_off_road: All that deviates are actors that have come to the end of their roads.
     """
 
     late: float
     end: float
     actors: Mapping[str, ActorDeviation]
     problems: tuple[str, ...]
+    is_off_road: bool = False
 
     @property
     def place(self) -> float:
@@ -149,7 +153,11 @@ def compare(
         )
         for actor, rows in expected.track.items()
     }
-    return Deviation(late, end, actors, tuple(problems))
+    deviating = {actor: each.since for actor, each in actors.items() if each.since < math.inf}
+    is_off_road = not problems and all(
+        found.ends.get(actor, math.inf) <= since + chain for actor, since in deviating.items()
+    )
+    return Deviation(late, end, actors, tuple(problems), is_off_road)
 
 
 # --- Events ---------------------------------------------------------------------------------------

@@ -23,6 +23,7 @@ from osc2tx_shared.classes import dataclass, replace
 
 UNLIKE = "played, the document does something else than the scenario"
 PACKAGES = "actions come from packages of users"
+OFF_ROAD = "its road ends while the run goes on, and what it does behind the end is up to the tool"
 BEYOND = "played, the document is farther off than its approximations state"
 
 
@@ -91,12 +92,14 @@ def _graded(
         return _completed(found, source)
     span = _blamed(found, finding)
     construct = report.construct_at(span, "action")
-    if stated:
+    is_off_road = finding.deviation.is_off_road
+    what = OFF_ROAD if is_off_road else BEYOND if stated else UNLIKE
+    if what is BEYOND:
         report.cannot(construct, span, f"{BEYOND}; {finding.measured}")
     else:
-        report.approximate(construct, span, UNLIKE, str(finding.measured))
-    if stated or (report.obstacles and source.options.target == "xosc"):
-        _complain(sink, construct, span, BEYOND if stated else UNLIKE, finding)
+        report.approximate(construct, span, what, str(finding.measured))
+    if what is BEYOND or (report.obstacles and source.options.target == "xosc"):
+        _complain(sink, construct, span, what, finding)
     return _completed(found, source)
 
 
@@ -138,6 +141,6 @@ def _complain(
         if each.since < float("inf")
     ]
     message = f"{construct}: {what}; {finding.measured}"
-    remedy = "`--allow-approx` accepts a measured deviation" if what is UNLIKE else ""
+    remedy = "" if what is BEYOND else "`--allow-approx` accepts a measured deviation"
     remedy = "; ".join(filter(None, (remedy, "`--no-verify` does not play documents")))
     sink.report("OSC518", span, message, notes=notes, help=remedy)

@@ -184,7 +184,7 @@ def run_in_player(
         end = evaluator.play(most)
     except (Unplayable, Unresolved, ArithmeticError) as error:
         raise NoEvidence(f"it cannot be played here: {error}") from error
-    return Recording(end, evaluator.starts, evaluator.track)
+    return Recording(end, evaluator.starts, evaluator.track, ends=evaluator.ends)
 
 
 def time_for(world: WorldRun, longest: float) -> float:

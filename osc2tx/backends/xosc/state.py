@@ -79,6 +79,7 @@ class ActorState:
         rate: Acceleration (m/s^2) that an action may keep; `None` if it may be anything.
         pending: Between which accelerations (m/s^2) a change that is cut short may leave it.
         drift: Fastest speed across the road (m/s) that a change which is cut short may leave.
+        jumped: The speed may have changed in no time before, and since then not again.
         aside: Metres that a change of its place in the lane may be short of it where it is stopped.
         unfinished: What may still be changing when the last action has ended, by domain, with the
             event that changes it.
@@ -92,6 +93,7 @@ class ActorState:
     rate: float | None = 0.0
     pending: Interval = STEADY
     drift: float = 0.0
+    jumped: bool = False
     aside: float = 0.0
     unfinished: tuple[tuple[str, str], ...] = ()
 
@@ -106,15 +108,14 @@ class ActorState:
 
     def finished(self, domain: str) -> ActorState:
         """Return the state in which nothing changes in a domain."""
-        rate = 0.0 if domain == LONGITUDINAL else self.rate
-        pending = STEADY if domain == LONGITUDINAL else self.pending
-        drift, aside = (0.0, 0.0) if domain == LATERAL else (self.drift, self.aside)
-        found = replace(self, rate=rate, pending=pending, drift=drift, aside=aside)
-        return replace(found, unfinished=self._others(domain))
+        found = replace(self, unfinished=self._others(domain))
+        if domain == LONGITUDINAL:
+            return replace(found, rate=0.0, pending=STEADY, jumped=False)
+        return replace(found, drift=0.0, aside=0.0) if domain == LATERAL else found
 
     def going_on(self, other: ActorState) -> ActorState:
         """Return the state in which what changes goes on as in another one."""
-        going = replace(self, rate=other.rate, pending=other.pending)
+        going = replace(self, rate=other.rate, pending=other.pending, jumped=other.jumped)
         return replace(going, drift=other.drift, aside=other.aside)
 
     def _others(self, domain: str) -> tuple[tuple[str, str], ...]:
@@ -140,6 +141,7 @@ def merged(a: ActorState, b: ActorState) -> ActorState:
         rate=a.rate if a.rate == b.rate else None,
         pending=a.pending.over(b.pending),
         drift=max(a.drift, b.drift),
+        jumped=a.jumped or b.jumped,
         aside=max(a.aside, b.aside),
         unfinished=unfinished,
     )

@@ -40,6 +40,7 @@ class Evaluator:
         step: The same in steps.
         starts: First start of each event and act, by name.
         track: Motion of each entity.
+        ends: When entities came to the end of their roads (s), behind which they stand.
     """
 
     def __init__(
@@ -83,6 +84,7 @@ class Evaluator:
         self._runs: dict[int, list[Running]] = {}
         self.starts: dict[str, float] = {}
         self.track: dict[str, list[Row]] = {name: [] for name in self.bodies}
+        self.ends: dict[str, float] = {}
         self.conditions = Conditions(self, dt, reading)
         self._stop = self.root.one(xml.Storyboard).find(xml.StopTrigger)
         self._ending = Agenda(1)
@@ -139,9 +141,10 @@ class Evaluator:
         """Play to the end; return when that is (s), infinite if it is not over in time."""
         while self.time < most:
             for name, body in self.bodies.items():
-                # of the end of a road the standard says nothing
-                if body.pose is not None and not body.is_at_end:
+                if body.pose is not None:
                     self.track[name].append((self.time, *body.here[:2], body.v))
+                if body.is_at_end:
+                    self.ends.setdefault(name, self.time)
             self.transitions.clear()
             self._run_cycles()
             if self._settle():

@@ -168,3 +168,31 @@ def test_a_run_that_never_ends_counts_up_to_its_last_action(tmp_path: Path) -> N
     found, _ = grade(tmp_path, text=waits + "            wait other.speed > 50mps\n")
     assert found.xml is not None
     assert found.report.obstacles == ()
+
+
+OFF_THE_ROAD = TEXT.replace("highway.xodr", "crossing.xodr").replace(
+    TEXT[TEXT.index("    v: speed") :],
+    """\
+    ego, other: vehicle
+
+    do parallel:
+        short: ego.drive(duration: 2s) with:
+            lane(1, at: start)
+            position(400m, at: start)
+            speed(20mps, at: start)
+        other.drive(duration: 9s) with:
+            lane(1, at: start)
+            position(60m, at: start)
+            speed(20mps, at: start)
+""",
+)
+
+
+def test_an_actor_beyond_the_end_of_its_road_is_not_exact(tmp_path: Path) -> None:
+    """It is at 500 m after 5 s; 4 s later the world has it braking behind it, and tools do not."""
+    found, compilation = grade(tmp_path, text=OFF_THE_ROAD, allow_approx=True)
+    assert found.xml is not None and codes(compilation) == []
+    (entry,) = found.report.losses
+    assert entry.grade is Grade.APPROXIMATED and "its road ends" in entry.reason
+    refused, compilation = grade(tmp_path, text=OFF_THE_ROAD)
+    assert refused.xml is None and codes(compilation) == ["OSC518"]

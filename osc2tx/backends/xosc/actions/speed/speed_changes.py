@@ -98,8 +98,10 @@ def _steepest(leaf: Leaf, target: float, duration: float) -> tuple[float, float]
 
 def jump_to(leaf: Leaf, target: float) -> Change:
     """Return the change of the speed in no time."""
+    jumps = leaf.state.speed != known(target)
     after = replace(leaf.state, speed=known(target)).finished(LONGITUDINAL)
-    leaf.ctx.demand(leaf.member.name, Demand(jumps=leaf.state.speed != known(target)))
+    after = replace(after, jumped=jumps)
+    leaf.ctx.demand(leaf.member.name, Demand(jumps=jumps))
     return Change(LONGITUDINAL, (speed_action(target, "step", "time", 0.0),), 0.0, after, after)
 
 
@@ -115,7 +117,9 @@ def _from_known(leaf: Leaf, course: Profile, target: float, pace: Pace) -> xml.P
         return speed_action(target, _curve(leaf, pace), "time", course.duration)
     note_acceleration(leaf, target, pace)
     if leaf.ctx.can(PROFILE_ACTION, "1.2"):
-        return within_limits(target, leaf.limits, pace)
+        # A tool that carries on an acceleration takes a jump for one.
+        is_carried = leaf.state.jumped and leaf.ctx.profile.carries_acceleration
+        return through_points(course) if is_carried else within_limits(target, leaf.limits, pace)
     length = course.duration
     if pace.duration is None and leaf.duration is not None:
         length = min(leaf.duration, length)
