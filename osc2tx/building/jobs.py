@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
@@ -49,12 +49,18 @@ class Job:
         """Hash the path, in which jobs differ; the options would take longer."""
         return hash(self.path)
 
-    def compilation(self, memory: Memory | None = None, text: str | None = None) -> Compilation:
+    def compilation(
+        self,
+        memory: Memory | None = None,
+        text: str | None = None,
+        unsaved: Mapping[Path, str] | None = None,
+    ) -> Compilation:
         """Return its compilation; no stage has run yet.
 
         Args:
             memory: Facts about imported files, shared with compilations of other jobs.
             text: The text, if it differs from the file.
+            unsaved: The texts of imported files that differ from those, by path.
         """
         from osc2tx.compilation.driver import Compilation
         from osc2tx.config import ConfigFiles
@@ -68,6 +74,7 @@ class Job:
             options_of=partial(self.options_of, configs=ConfigFiles()),
             memory=memory,
             text=text,
+            unsaved=unsaved or {},
         )
 
     @property

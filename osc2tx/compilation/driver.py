@@ -25,6 +25,7 @@ from osc2tx.compilation.products import (
     files_of_module,
     files_of_xml,
     loss_of,
+    report_losses,
 )
 from osc2tx.compilation.roots import Roots
 from osc2tx.compilation.siblings import find_siblings
@@ -48,6 +49,7 @@ if TYPE_CHECKING:
 __all__ = ["Compilation", "Memory", "Output"]
 
 NO_ROOTS = Roots()
+NO_TEXTS: Mapping[Path, str] = {}
 
 Memory: TypeAlias = "dict[tuple[object, ...], Compilation]"
 """Compilations of imported files for themselves, by place, name and settings."""
@@ -77,6 +79,7 @@ class Compilation:
         text: str | None = None,
         options_of: Callable[[Path], CompileOptions] | None = None,
         memory: Memory | None = None,
+        unsaved: Mapping[Path, str] = NO_TEXTS,
     ) -> None:
         """Take the file; nothing is read yet.
 
@@ -91,6 +94,7 @@ class Compilation:
             text: The text, for a file that does not exist on disk.
             options_of: Gives the options for other files; those of this one if left out.
             memory: Imported files that were compiled by themselves, shared by several files.
+            unsaved: Texts that count in place of files, by path with links followed.
         """
         self.path = path
         self.name = name
@@ -101,6 +105,7 @@ class Compilation:
         self._roots = roots
         self._options_of = options_of or (lambda _: options)
         self._memory: Memory = {} if memory is None else memory
+        self._unsaved = unsaved
         self.compiled_alone: dict[str, Compilation] = {}
         self._is_trusted = is_trusted
         self._text = text
@@ -142,14 +147,20 @@ class Compilation:
     @cached_property
     def model(self) -> SemanticModel | None:
         """The checked program; not made for a text with syntax errors, as they breed others."""
-        if self.ast is None or self._failed():
-            return None
-        paths = tuple(map(Path, self.options.import_paths))
+        return None if self.ast is None or self._failed() else self._program(self.ast, self.sink)
+
+    @cached_property
+    def recovered_model(self) -> SemanticModel | None:
+        """The program without what could not be parsed; what is wrong with it is not reported."""
+        return None if self.ast is None else self.model or self._program(self.ast, DiagnosticSink())
+
+    def _program(self, file: File, sink: DiagnosticSink) -> SemanticModel:
+        folders = tuple(map(Path, self.options.import_paths))
         loader = ImportLoader(
-            self.path, self.name, self._roots, self.sink, self._relaxed, import_paths=paths
+            self.path, self.name, self._roots, sink, self._relaxed, folders, self._unsaved
         )
         self.lookups = loader.lookups
-        return stages.build_model(self.ast, self.options, loader, self.sink)
+        return stages.build_model(file, self.options, loader, sink)
 
     @cached_property
     def analysis(self) -> Analysis | None:
@@ -185,7 +196,7 @@ class Compilation:
         self._report_missing_maps(self.ir)
         self.is_complete = not self._failed()
         if self.options.target == "xosc":
-            self._report_losses()
+            report_losses(self.xml, self.sink)
         return not self._failed()
 
     @property
@@ -248,6 +259,8 @@ class Compilation:
                     roots=self._roots,
                     options_of=self._options_of,
                     memory=self._memory,
+                    text=self._unsaved.get(imported.path),
+                    unsaved=self._unsaved,
                 )
                 self._memory[key] = made
             self.compiled_alone[imported.name] = made
@@ -349,12 +362,6 @@ class Compilation:
         for place in report_missing_maps(module, folders, self.sink):
             self.lookups[place] = look_up(place)
 
-    def _report_losses(self) -> None:
-        """Report what keeps scenarios from being XML."""
-        for scenario in self.xml:
-            for entry in scenario.report.obstacles:
-                self.sink.report(entry.code, entry.span, entry.message, help=entry.help)
-
     @property
     def start(self) -> Span:
         """The place of what concerns the file as a whole, even if there is no text."""
@@ -370,13 +377,8 @@ class Compilation:
         """The levels as plain data, for reports."""
         if not self.levels or self.model is None or self.analysis is None:
             return ()
-        return entries_of(self.levels, self.model, self.analysis, self._runnable())
-
-    def _runnable(self) -> frozenset[str]:
-        """Return the scenarios that can run by themselves, as far as they were lowered."""
         lowered = self.__dict__.get("ir")
-        scenarios = () if lowered is None else lowered.scenarios
-        return frozenset(each.name for each in scenarios if each.is_runnable)
+        return entries_of(self.levels, self.model, self.analysis, lowered)
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:

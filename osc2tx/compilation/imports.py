@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import posixpath
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import takewhile
 from pathlib import Path
@@ -120,6 +120,7 @@ class ImportLoader:
         sink: DiagnosticSink,
         relaxed: Collection[str],
         import_paths: Sequence[Path] = (),
+        unsaved: Mapping[Path, str] | None = None,
     ) -> None:
         """Take the surroundings of the root file.
 
@@ -131,6 +132,7 @@ class ImportLoader:
             sink: Receives diagnostics.
             relaxed: Deviations from the grammar that the dialect allows.
             import_paths: Further such folders, in which modules are looked for last.
+            unsaved: Texts that count in place of files, by path with links followed.
         """
         self._folder = real_path(path).parent
         self._prefix = posixpath.dirname(name)
@@ -142,6 +144,7 @@ class ImportLoader:
         self._libraries = tuple(map(real_path, import_paths))
         self._sink = sink
         self._relaxed = relaxed
+        self._unsaved = unsaved or {}
         self._parsed: dict[Path, ast.File] = {}
         self._read: dict[Path, Lookup] = {}
         self.lookups: dict[Path, Lookup] = {}
@@ -199,7 +202,7 @@ class ImportLoader:
         try:
             path = real_path(path)
             allowed = any(path.is_relative_to(root) for root in self._real.values())
-            if allowed and not path.exists():
+            if allowed and path not in self._unsaved and not path.exists():
                 self.lookups[asked] = Lookup(str(path))
                 return None
         except (OSError, ValueError):  # a name that no file can have
@@ -220,7 +223,10 @@ class ImportLoader:
 
     def _parse(self, statement: ast.Import, path: Path) -> ast.File:
         name, found = self._name_of(path), DiagnosticSink()
-        source = read_source(path, name, found)
+        if path in self._unsaved:
+            source: SourceFile | None = SourceFile(name, self._unsaved[path], path)
+        else:
+            source = read_source(path, name, found)
         if source is not None:
             self._read[path] = Lookup(str(path), source.text)
             file, reports = _parsed(name, source.text, path, frozenset(self._relaxed))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from osc2tx.compilation.file_reports import LossEntry
@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from osc2tx.analysis import Analysis, ScenarioLevel
     from osc2tx.backends.py_trees.emitter import GeneratedModule
     from osc2tx.backends.xosc.emitter import XmlScenario
+    from osc2tx.diagnostics import DiagnosticSink
+    from osc2tx.ir import Module
     from osc2tx.semantics import SemanticModel
 
 
@@ -58,11 +60,18 @@ def loss_of(scenario: XmlScenario) -> LossEntry:
     )
 
 
+def report_losses(scenarios: Iterable[XmlScenario], sink: DiagnosticSink) -> None:
+    """Report what keeps scenarios from being XML."""
+    for scenario in scenarios:
+        for entry in scenario.report.obstacles:
+            sink.report(entry.code, entry.span, entry.message, help=entry.help)
+
+
 def entries_of(
     levels: Sequence[ScenarioLevel],
     model: SemanticModel,
     analysis: Analysis,
-    runnable: Collection[str],
+    lowered: Module | None,
 ) -> tuple[ScenarioEntry, ...]:
     """Return the levels of scenarios as plain data, for reports.
 
@@ -70,10 +79,12 @@ def entries_of(
         levels: Of each scenario.
         model: The program.
         analysis: What its constraints allow.
-        runnable: Names of the scenarios that can run by themselves.
+        lowered: The program in the IR, which states what can run by itself; `None` before that.
     """
     from osc2tx.analysis.fixed_values import fixed_values
 
+    scenarios = () if lowered is None else lowered.scenarios
+    runnable = {each.name for each in scenarios if each.is_runnable}
     return tuple(
         ScenarioEntry(
             source=found.scenario.span.source,

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cached_property
+from pathlib import Path
 from typing import NamedTuple
 
 from osc2tx.building.jobs import Job
@@ -12,6 +13,7 @@ from osc2tx.compilation.driver import Compilation
 from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics.symbols import EnumSymbol, Symbol, TypeSymbol
+from osc2tx.support.paths import real_path
 from osc2tx.syntax import ast
 from osc2tx.syntax.token_source import TokenSource
 from osc2tx.syntax.tokens import TokenTable
@@ -37,19 +39,33 @@ class Document:
     Attributes:
         job: How to compile it.
         text: The text.
+        uri: How the editor calls it.
     """
 
-    def __init__(self, job: Job, text: str) -> None:
-        """Take the text; nothing is compiled yet."""
+    def __init__(self, job: Job, text: str, uri: str, unsaved: Mapping[Path, str]) -> None:
+        """Take the text; nothing is compiled yet.
+
+        Args:
+            job: How to compile it.
+            text: The text.
+            uri: How the editor calls it.
+            unsaved: The texts of all open files, which it may import.
+        """
         self.job = job
         self.text = text
+        self.uri = uri
+        self._unsaved = unsaved
 
     @cached_property
     def compilation(self) -> Compilation:
         """Its compilation, with all stages that can report something."""
-        compilation = self.job.compilation(text=self.text)
+        compilation = self.compilation_of(self.text)
         compilation.check()
         return compilation
+
+    def compilation_of(self, text: str) -> Compilation:
+        """Return the compilation of another text in its place; no stage has run yet."""
+        return self.job.compilation(text=text, unsaved=self._unsaved)
 
     @cached_property
     def source(self) -> SourceFile:
@@ -63,8 +79,24 @@ class Document:
 
     @property
     def model(self) -> SemanticModel | None:
-        """The checked program; `None` for a text with syntax errors."""
-        return self.compilation.model
+        """The program; of a text with syntax errors that of what could be parsed."""
+        return self.compilation.recovered_model
+
+    @property
+    def is_well_formed(self) -> bool:
+        """Whether all of the text could be parsed, so that no name in it is unknown."""
+        return self.compilation.model is not None
+
+    def imports(self, path: Path) -> bool:
+        """Whether a file counts for it, links followed: it imports that, or looked for it."""
+        searched = {} if self.model is None else self.compilation.lookups
+        return any(found.path == str(path) for found in searched.values())
+
+    def may_use(self, source: SourceFile) -> bool:
+        """Whether its names may stand for declarations of a text: it is that, or imports it."""
+        return source.path is not None and (
+            source.path == self.job.path or self.imports(real_path(source.path))
+        )
 
     @cached_property
     def tokens(self) -> TokenTable:

@@ -25,13 +25,12 @@ class CannotRename(Exception):
 def definition(document: Document, position: lsp.Position) -> lsp.Location | None:
     """Return where the name at a position is declared, also within the library."""
     found = document.occurrence_at(offset_of(document.source, position))
-    return None if found is None else location_of(found.symbol)
-
-
-def location_of(symbol: Symbol) -> lsp.Location | None:
-    """Return where a symbol is declared."""
-    path = path_of(symbol)
-    return None if path is None else lsp.Location(path.as_uri(), range_of(symbol.span))
+    if found is None:
+        return None
+    span, path = found.symbol.span, path_of(found.symbol)
+    if span.source is document.source:
+        return lsp.Location(document.uri, range_of(span))
+    return None if path is None else lsp.Location(path.as_uri(), range_of(span))
 
 
 def path_of(symbol: Symbol) -> Path | None:
@@ -61,11 +60,17 @@ def references(
                 yield document, each
 
 
-def check_new_name(symbol: Symbol, name: str) -> None:
+def check_rename(symbol: Symbol, name: str, documents: Sequence[Document]) -> None:
     """Check that a symbol can be given another name.
 
+    Args:
+        symbol: The symbol.
+        name: The new name.
+        documents: The texts in which its present name occurs.
+
     Raises:
-        CannotRename: If it is of the library, or the name is no identifier.
+        CannotRename: If it is of the library, if the name is no identifier, or if a text has
+            syntax errors that may use it: lines that cannot be parsed would keep the old name.
     """
     if symbol.origin != "user":
         raise CannotRename(f"`{symbol.name}` belongs to the standard library")
@@ -73,6 +78,9 @@ def check_new_name(symbol: Symbol, name: str) -> None:
         raise CannotRename(f"`{name}` is a reserved word")
     if not name or identifier_end(name, 0) != len(name):
         raise CannotRename(f"`{name}` is not a name: one begins with a letter or `_`")
+    for each in documents:
+        if not each.is_well_formed and each.may_use(symbol.span.source):
+            raise CannotRename(f"correct the syntax errors of `{each.job.name}` first")
 
 
 # --- Outline and folding --------------------------------------------------------------------

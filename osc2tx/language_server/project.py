@@ -18,23 +18,34 @@ _FILLERS = ("", "wait elapsed(1s)", "keep(true)", "event cursor")
 
 
 class Project:
-    """Open documents by path, and the last program that each was understood as."""
+    """Open documents by path."""
 
     def __init__(self) -> None:
         """Begin with nothing open."""
         self._open: dict[Path, Document] = {}
-        self._models: dict[Path, SemanticModel] = {}
 
-    def change(self, path: Path, text: str) -> Document:
+    def change(self, path: Path, text: str, uri: str | None = None) -> Document:
         """Take the present text of an open file."""
-        document = Document(_job_for(path), text)
+        document = Document(_job_for(path), text, uri or path.as_uri(), self._texts(path, text))
         self._open[path] = document
         return document
 
     def close(self, path: Path) -> None:
         """Forget a file; what is on disk counts again."""
         self._open.pop(path, None)
-        self._models.pop(path, None)
+
+    def renew_importers(self, path: Path) -> list[Document]:
+        """Return the open documents that import a file, as they are after a change of it."""
+        real = real_path(path)
+        importers = [each for each in self._open if each != path and self._open[each].imports(real)]
+        return [self._renewed(each) for each in importers]
+
+    def _renewed(self, path: Path) -> Document:
+        return self.change(path, self._open[path].text, self._open[path].uri)
+
+    def _texts(self, path: Path, text: str) -> dict[Path, str]:
+        texts = {real_path(each): document.text for each, document in self._open.items()}
+        return {**texts, real_path(path): text}
 
     def document(self, path: Path) -> Document:
         """Return a file as it is in the editor, or else on disk.
@@ -43,25 +54,21 @@ class Project:
             OSError, UnicodeDecodeError: If it is not open and cannot be read.
         """
         if path not in self._open:
-            return Document(_job_for(path), path.read_bytes().decode("utf-8-sig"))
+            text = path.read_bytes().decode("utf-8-sig")
+            return Document(_job_for(path), text, path.as_uri(), self._texts(path, text))
         return self._open[path]
-
-    def open_documents(self) -> list[Document]:
-        """Return the open documents, in the order in which they were opened."""
-        return list(self._open.values())
 
     def refreshed(self) -> Iterator[Document]:
         """Compile the open documents again: a file that they import may have changed."""
-        for path, document in list(self._open.items()):
-            yield self.change(path, document.text)
+        for path in list(self._open):
+            yield self._renewed(path)
 
     def model_near(self, path: Path, offset: int) -> SemanticModel | None:
         """Return a program that is near to a text which may be unfinished at an offset."""
         document = self.document(path)
-        model = document.model or _without_line(document, offset) or self._models.get(path)
-        if model is not None:
-            self._models[path] = model
-        return model
+        if document.is_well_formed:
+            return document.model
+        return _without_line(document, offset) or document.model
 
     def documents_with(self, path: Path, word: str) -> list[Document]:
         """Return the documents of the project of a file in whose text a word occurs."""
@@ -105,7 +112,7 @@ def _without_line(document: Document, offset: int) -> SemanticModel | None:
     opened, closed = text.rfind("(", start, offset) - start, line.rfind(")")
     without_arguments = [f"{line[: opened + 1]}{line[closed:]}"] if 0 <= opened < closed else []
     for attempt in (*without_arguments, *(f"{blanks}{filler}" for filler in _FILLERS)):
-        model = document.job.compilation(text=f"{text[:start]}{attempt}{text[end:]}").model
+        model = document.compilation_of(f"{text[:start]}{attempt}{text[end:]}").model
         if model is not None:
             return model
     return None

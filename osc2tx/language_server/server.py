@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import difflib
 from collections.abc import Sequence
 from pathlib import Path
@@ -22,6 +23,9 @@ from osc2tx.language_server.project import Project
 from osc2tx.support.recursion import collect_earlier_trees
 from osc2tx.version import __version__
 
+PAUSE = 0.02  # s without another change, after which a text is checked
+WATCHED = ("**/*.osc", "**/osc2tx.toml", "**/pyproject.toml")
+
 
 class OscServer(LanguageServer):
     """A language server for OpenSCENARIO DSL."""
@@ -30,34 +34,67 @@ class OscServer(LanguageServer):
         """Begin without documents."""
         super().__init__("osc2tx", __version__)
         self.project = Project()
+        self._changed: dict[str, None] = {}
+        self._timer: asyncio.TimerHandle | None = None
 
     def of(self, identifier: lsp.TextDocumentIdentifier) -> Document:
         """Return the document that a question is about."""
         return self.project.document(path_of(identifier.uri))
 
-    def publish(self, uri: str, document: Document) -> None:
-        """Send the diagnostics of a document; wrong settings are one of them."""
+    def changed(self, uri: str) -> None:
+        """Take the text that the editor has now; it is checked when no other change follows."""
+        self._changed[uri] = None
+        try:
+            self.project.change(path_of(uri), self.workspace.get_text_document(uri).source, uri)
+        except ConfigError as error:
+            del self._changed[uri]
+            self._publish_settings(uri, error)
+            return
+        if self._timer is not None:
+            self._timer.cancel()
+        self._timer = asyncio.get_running_loop().call_later(PAUSE, self._check_changed)
+
+    def _check_changed(self) -> None:
+        uris = list(self._changed)
+        self._changed.clear()
+        for uri in uris:
+            self._publish(self.project.document(path_of(uri)))
+            for importer in self.project.renew_importers(path_of(uri)):
+                self._publish(importer)
+
+    def forget(self, uri: str) -> None:
+        """Take the text on disk for a document that the editor closed."""
+        self._changed.pop(uri, None)
+        self.project.close(path_of(uri))
+        self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, []))
+        for importer in self.project.renew_importers(path_of(uri)):
+            self._publish(importer)
+
+    def refresh(self) -> None:
+        """Check the open documents again after changes on disk."""
+        try:
+            for document in self.project.refreshed():
+                self._publish(document)
+        except ConfigError as error:
+            for uri in self.workspace.text_documents:
+                self._publish_settings(uri, error)
+
+    def _publish(self, document: Document) -> None:
         found = problems.problems(document)
-        self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, found))
+        self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(document.uri, found))
         collect_earlier_trees()  # now that the editor has its answer
 
-    def changed(self, uri: str) -> None:
-        """Take the text that the editor has now, and check it."""
-        text = self.workspace.get_text_document(uri).source
-        try:
-            document = self.project.change(path_of(uri), text)
-        except ConfigError as error:
-            start = lsp.Range(lsp.Position(0, 0), lsp.Position(0, 0))
-            found = [lsp.Diagnostic(start, str(error), source="osc2tx")]
-            self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, found))
-            return
-        self.publish(uri, document)
+    def _publish_settings(self, uri: str, error: ConfigError) -> None:
+        """Send what is wrong with the settings as the diagnostic of a document."""
+        start = lsp.Range(lsp.Position(0, 0), lsp.Position(0, 0))
+        found = [lsp.Diagnostic(start, str(error), source="osc2tx")]
+        self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, found))
 
 
 def path_of(uri: str) -> Path:
     """Return the path of a document; one that is not a file gets a name in the working folder."""
     # Not by `urllib.request`, which loads a twentieth of all that the server loads.
-    return Path(to_fs_path(uri) or unquote(urlparse(uri).path) or "a.osc")
+    return Path(to_fs_path(uri) or unquote(urlparse(uri).path) or "a.osc").absolute()
 
 
 def make_server() -> OscServer:
@@ -80,14 +117,30 @@ def _documents(server: OscServer) -> None:
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_SAVE)
     def did_save(params: lsp.DidSaveTextDocumentParams) -> None:
-        for document in server.project.refreshed():
-            server.publish(document.job.path.as_uri(), document)
+        server.refresh()
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_CLOSE)
     def did_close(params: lsp.DidCloseTextDocumentParams) -> None:
-        uri = params.text_document.uri
-        server.project.close(path_of(uri))
-        server.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, []))
+        server.forget(params.text_document.uri)
+
+    @server.feature(lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES)
+    def did_change_watched_files(params: lsp.DidChangeWatchedFilesParams) -> None:
+        server.refresh()
+
+    @server.feature(lsp.INITIALIZED)
+    async def initialized(params: lsp.InitializedParams) -> None:
+        if watches_files(server.client_capabilities):
+            watchers = [lsp.FileSystemWatcher(pattern) for pattern in WATCHED]
+            options = lsp.DidChangeWatchedFilesRegistrationOptions(watchers)
+            method = lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES
+            asked = lsp.RegistrationParams([lsp.Registration(method, method, options)])
+            await server.client_register_capability_async(asked)
+
+
+def watches_files(client: lsp.ClientCapabilities) -> bool:
+    """Whether an editor can be asked to report changes on disk."""
+    watching = client.workspace and client.workspace.did_change_watched_files
+    return bool(watching and watching.dynamic_registration)
 
 
 def _questions(server: OscServer) -> None:
@@ -105,10 +158,10 @@ def _questions(server: OscServer) -> None:
         found = document.occurrence_at(offset_of(document.source, params.position))
         if found is None:
             return []
-        documents = server.project.documents_with(document.job.path, found.symbol.name)
+        documents = server.project.documents_with(path_of(document.uri), found.symbol.name)
         wanted = params.context.include_declaration
         return [
-            lsp.Location(each.job.path.as_uri(), range_of(name.span))
+            lsp.Location(each.uri, range_of(name.span))
             for each, name in navigation.references(
                 documents, found.symbol, with_declaration=wanted
             )
@@ -120,7 +173,7 @@ def _questions(server: OscServer) -> None:
     def completion(params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
         document = server.of(params.text_document)
         offset = offset_of(document.source, params.position)
-        model = server.project.model_near(document.job.path, offset)
+        model = server.project.model_near(path_of(document.uri), offset)
         return completions(document.text, offset, model)
 
     @server.feature(
@@ -129,9 +182,8 @@ def _questions(server: OscServer) -> None:
     def signature_help(params: lsp.SignatureHelpParams) -> lsp.SignatureHelp | None:
         document = server.of(params.text_document)
         offset = offset_of(document.source, params.position)
-        return signature(
-            document.text, offset, server.project.model_near(document.job.path, offset)
-        )
+        model = server.project.model_near(path_of(document.uri), offset)
+        return signature(document.text, offset, model)
 
     @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
     def document_symbol(params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
@@ -189,16 +241,15 @@ def _edits(server: OscServer) -> None:
         found = document.occurrence_at(offset_of(document.source, params.position))
         if found is None:
             return None
+        documents = server.project.documents_with(path_of(document.uri), found.symbol.name)
         try:
-            navigation.check_new_name(found.symbol, params.new_name)
+            navigation.check_rename(found.symbol, params.new_name, documents)
         except navigation.CannotRename as error:
             raise JsonRpcInvalidParams(str(error)) from None
         changes: dict[str, Sequence[lsp.TextEdit]] = {}
-        documents = server.project.documents_with(document.job.path, found.symbol.name)
         for each, name in navigation.references(documents, found.symbol):
             edit = lsp.TextEdit(range_of(name.span), params.new_name)
-            uri = each.job.path.as_uri()
-            changes[uri] = [*changes.get(uri, ()), edit]
+            changes[each.uri] = [*changes.get(each.uri, ()), edit]
         return lsp.WorkspaceEdit(changes=changes)
 
     @server.command("osc2tx.showModule")

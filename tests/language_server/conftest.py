@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import sys
-from collections.abc import Awaitable, Callable, Iterator
+from collections.abc import Awaitable, Iterator
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -55,19 +55,38 @@ class Editor:
         path = self.folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
-        uri = path.as_uri()
+        return self.show(path.as_uri(), text)
+
+    def show(self, uri: str, text: str) -> str:
+        """Open a text that need not be a file."""
         self._versions[uri] = 1
         item = lsp.TextDocumentItem(uri, "osc2", 1, text)
-        self._send(lambda: self._client.text_document_did_open(lsp.DidOpenTextDocumentParams(item)))
+        self.notify(lsp.TEXT_DOCUMENT_DID_OPEN, lsp.DidOpenTextDocumentParams(item), uri)
         return uri
 
-    def change(self, uri: str, text: str) -> None:
-        """Replace the text of a document; return after its diagnostics came."""
+    def change(self, uri: str, text: str, *, of: str | None = None) -> None:
+        """Replace the text of a document; return after its diagnostics, or those of another."""
+        whole = lsp.TextDocumentContentChangeWholeDocument(text)
+        self.edit(uri, whole, of=of or uri)
+
+    def edit(self, uri: str, *changes: Any, of: str | None = None) -> None:
+        """Send changes of a document; return after diagnostics came, if some are awaited."""
         self._versions[uri] += 1
         document = lsp.VersionedTextDocumentIdentifier(self._versions[uri], uri)
-        change = lsp.TextDocumentContentChangeWholeDocument(text)
-        params = lsp.DidChangeTextDocumentParams(document, [change])
-        self._send(lambda: self._client.text_document_did_change(params))
+        params = lsp.DidChangeTextDocumentParams(document, changes)
+        self.notify(lsp.TEXT_DOCUMENT_DID_CHANGE, params, of)
+
+    def notify(self, method: str, params: Any, of: str | None = None) -> None:
+        """Send a notification; return after the diagnostics of a document, if one is given."""
+
+        async def wait() -> None:
+            self._client.diagnostics.pop(of, None)
+            self._client.protocol.notify(method, params)
+            while of is not None and of not in self._client.diagnostics:
+                asked = lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS
+                await self._client.wait_for_notification(asked)
+
+        self._run(wait())
 
     def ask(self, method: str, params: Any) -> Any:
         """Send a request; return its result."""
@@ -76,13 +95,6 @@ class Editor:
             return await self._client.protocol.send_request_async(method, params)
 
         return self._run(send())
-
-    def _send(self, send: Callable[[], None]) -> None:
-        async def wait() -> None:
-            send()
-            await self._client.wait_for_notification(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)
-
-        self._run(wait())
 
     def _run(self, work: Awaitable[T]) -> T:
         async def limited() -> T:
