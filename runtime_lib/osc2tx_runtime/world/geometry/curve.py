@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 _PARTS = 8  # intervals of the arc length table per cubic piece
@@ -19,6 +20,7 @@ _GAUSS = (
     (0.8872983346207417, 0.2777777777777778),
 )
 _COARSE = 0.02  # of the distance to a point: so long are the steps of a search for its foot
+_REMEMBERED = 64  # parameters kept by arc length: a search asks for some of them again
 _STILL = 1e-9  # metres per unit of the parameter
 
 Vector = tuple[float, float, float]
@@ -59,6 +61,8 @@ class Curve:
         self.begin, self.end = self._starts[0], self._starts[-1]
         self._smooth = smooth and len(knots) > 2
         self._slopes = _slopes(self._knots) if self._smooth else []
+        self._on_ground = self._pieces_on_ground()
+        self._parameters: dict[float, float] = {}
         self._table = self._lengths()
         self.length = self._table[-1][1]
         self._nodes = [node for node, _ in self._table]
@@ -122,18 +126,28 @@ class Curve:
 
     def at_length(self, along: float) -> float:
         """Parameter at an arc length (m); beyond the ends straight on where the curve moves."""
+        found = self._parameters.get(along)
+        if found is None:
+            if len(self._parameters) >= _REMEMBERED:
+                self._parameters.clear()
+            found = self._parameters[along] = self._found_at_length(along)
+        return found
+
+    def _found_at_length(self, along: float) -> float:
         inside = min(max(along, 0.0), self.length)
         i = min(max(bisect_right(self._sums, inside) - 1, 0), len(self._sums) - 2)
         low, high = self._nodes[i], self._nodes[i + 1]
         rest, part = inside - self._sums[i], self._sums[i + 1] - self._sums[i]
         at = low + (high - low) * rest / part if part > 0.0 else low
         for _ in range(4):
-            speed = math.hypot(*self.rate(at)[:2])
+            speed = self._speed(at)
             if speed <= _STILL:
                 break
-            at = min(max(at + (rest - self._arc(low, at)) / speed, low), high)
+            before, at = at, min(max(at + (rest - self._arc(low, at)) / speed, low), high)
+            if at == before:
+                break
         if along != inside:
-            speed = math.hypot(*self.rate(at)[:2])
+            speed = self._speed(at)
             at += (along - inside) / speed if speed > _STILL else 0.0
         return at
 
@@ -146,14 +160,14 @@ class Curve:
             along: Where to begin (m).
             reach: How far beyond a worse place to look (m).
         """
-        best, best_distance = along, self._distance(x, y, along)
+        best, best_distance = along, self.distance_to(x, y, along)
         step, ahead = 0.25 * reach, along
         while True:
             step = max(0.25 * reach, _COARSE * best_distance)  # a path may be a thousand km away
             if ahead >= min(best + 4.0 * step, self.length):
                 break
             ahead = min(ahead + step, self.length)
-            distance = self._distance(x, y, ahead)
+            distance = self.distance_to(x, y, ahead)
             if distance < best_distance:
                 best, best_distance = ahead, distance
         for _ in range(8):
@@ -166,29 +180,57 @@ class Curve:
             following = max(best + min(max(ahead, -step), step), along)
             if abs(following - best) < 1e-9:
                 break
-            distance = self._distance(x, y, following)
+            distance = self.distance_to(x, y, following)
             if distance >= best_distance:  # at a corner
                 break
             best, best_distance = following, distance
         return best
 
-    def _distance(self, x: float, y: float, along: float) -> float:
+    def distance_to(self, x: float, y: float, along: float) -> float:
+        """Metres from a point to the place at an arc length."""
         px, py, _ = self.point(self.at_length(along))
         return math.hypot(x - px, y - py)
 
-    def distance_to(self, x: float, y: float, along: float) -> float:
-        """Metres from a point to the place at an arc length."""
-        return self._distance(x, y, along)
-
     def _arc(self, low: float, high: float) -> float:
         """Arc length between two parameters of one interval of the table."""
-        if not self._smooth:
-            dx, dy, _ = self.rate(low)
-            return (high - low) * math.hypot(dx, dy)
         span = high - low
-        return span * sum(
-            weight * math.hypot(*self.rate(low + place * span)[:2]) for place, weight in _GAUSS
+        if not self._smooth:
+            return span * self._speed(low)
+        (a, p), (b, q), (c, r) = _GAUSS
+        speed = self._speed
+        return span * (
+            p * speed(low + a * span) + q * speed(low + b * span) + r * speed(low + c * span)
         )
+
+    def _speed(self, at: float) -> float:
+        """Length of `rate` on the ground; asked so often that it stands here in plain numbers."""
+        inside = self.begin if at < self.begin else self.end if at > self.end else at
+        i = bisect_right(self._starts, inside) - 1
+        piece = self._on_ground[i]
+        if len(piece) == 1:
+            return piece[0]
+        start, step, x, y, mx, my, nx, ny = piece
+        w = (inside - start) / step
+        w2 = w * w
+        q = 6.0 * (w - w2) / step
+        r, s = 3.0 * w2 - 4.0 * w + 1.0, 3.0 * w2 - 2.0 * w
+        return math.hypot(q * x + r * mx + s * nx, q * y + r * my + s * ny)
+
+    def _pieces_on_ground(self) -> list[tuple[float, ...]]:
+        """What `_speed` needs of each piece, and of the last one again for the last knot.
+
+        Its speed for a straight piece; for a cubic one begin and length in the parameter, the
+        way from knot to knot, and the tangents there.
+        """
+        pieces: list[tuple[float, ...]] = []
+        for i, (a, b) in enumerate(pairwise(self._knots)):
+            step, x, y = b.at - a.at, b.x - a.x, b.y - a.y
+            if self._smooth:
+                m, n = self._slopes[i], self._slopes[i + 1]
+                pieces.append((a.at, step, x, y, m[0], m[1], n[0], n[1]))
+            else:
+                pieces.append((math.hypot(x / step, y / step),))
+        return [*pieces, pieces[-1]]
 
     def _lengths(self) -> list[tuple[float, float]]:
         total, table = 0.0, [(self.begin, 0.0)]
