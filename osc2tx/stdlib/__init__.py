@@ -7,6 +7,7 @@ Lines that belong to one version of the standard only carry a tag at their end: 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
@@ -24,7 +25,7 @@ __all__ = [
     "library_file",
     "library_source",
     "member_meanings",
-    "newest_enum_members",
+    "newer_members",
     "parse_library_file",
 ]
 
@@ -57,15 +58,37 @@ def library_file(name: str, standard: str) -> ast.File:
 
 
 @cache
-def newest_enum_members(enum: str) -> frozenset[str]:
-    """Return the members that an enum of the library has in the newest version of the standard."""
+def newer_members(name: str, standard: str) -> frozenset[str]:
+    """Return what a declaration has in the newest version of the standard, and not in another.
+
+    Args:
+        name: Of an enum, a primitive type, an action or a modifier of the library.
+        standard: The other version.
+    """
+    return _members(name, NEWEST) - _members(name, standard)
+
+
+def _members(name: str, standard: str) -> frozenset[str]:
     return frozenset(
-        member.name.text
-        for name in LIBRARY
-        for statement in library_file(name, NEWEST).statements
-        if isinstance(statement, ast.EnumDeclaration) and statement.name.text == enum
-        for member in statement.members
+        member
+        for file in LIBRARY
+        for statement in library_file(file, standard).statements
+        for member in _members_of(name, statement)
     )
+
+
+def _members_of(name: str, statement: ast.FileStatement) -> Iterator[str]:
+    match statement:
+        case ast.EnumDeclaration(name=enum) if enum.text == name:
+            yield from (member.name.text for member in statement.members)
+        case ast.PrimitiveExtension(primitive=primitive) if primitive == name:
+            yield from (method.name.text for method in statement.members)
+        case ast.ActionDeclaration() | ast.ModifierDeclaration():
+            if statement.name.name.text != name:
+                return
+            for member in statement.members:
+                if isinstance(member, ast.ParameterDeclaration):
+                    yield from (parameter.text for parameter in member.names)
 
 
 def parse_library_file(source: SourceFile) -> ast.File:

@@ -21,6 +21,7 @@ from osc2tx.semantics.expressions.type_receivers import implied_object
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.names.everyday_words import CONDITIONS, LIST_WORDS, plain_word
 from osc2tx.semantics.names.member_lookup import find_member, lookup_value, visible_names
+from osc2tx.semantics.names.unknown_names import in_newest_version
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.scope import supertypes
 from osc2tx.semantics.symbols import (
@@ -233,7 +234,12 @@ def _find_member(
     if owner is None and isinstance(base, PrimitiveType):
         owner = _primitive_of(r, callee, base)
     if owner is None:
-        r.report("OSC208", callee.name.span, f"`{base}` has no method `{callee.name}`")
+        r.report(
+            "OSC208",
+            callee.name.span,
+            f"`{base}` has no method `{callee.name}`",
+            help=in_newest_version(r, str(base), callee.name) or None,
+        )
         return None
     member = find_member(r, owner, callee.name, env.context)
     if member is None:

@@ -12,6 +12,7 @@ from osc2tx.semantics.names.actors_by_name import actor_of_caller
 from osc2tx.semantics.names.aliases import enum_member_alias, write_instead
 from osc2tx.semantics.names.everyday_words import ENUM_MEMBERS, NAMES, NOTHING, plain_word
 from osc2tx.semantics.names.member_lookup import find_member, lookup_value, visible_names
+from osc2tx.semantics.names.unknown_names import in_newest_version
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.symbols import (
     EnumMemberSymbol,
@@ -25,7 +26,6 @@ from osc2tx.semantics.symbols import (
     Symbol,
 )
 from osc2tx.semantics.types import ERROR, EVENT, OBJECT, EnumType, ListType, RangeType, Type
-from osc2tx.stdlib import NEWEST, newest_enum_members
 from osc2tx.syntax import ast
 
 
@@ -139,7 +139,7 @@ def _infer_unknown(
             help=write_instead(
                 name.span, ENUM_MEMBER_ALIASES.get((expected.symbol.name, name.text))
             )
-            or _member_meant(name, expected.symbol),
+            or _member_meant(r, name, expected.symbol),
             labels=declared_here(expected.symbol),
         )
         return ERROR
@@ -178,10 +178,10 @@ def _name_meant(r: Resolution, name: ast.Name, env: Environment) -> Help:
     return write(name.span, meant, help_, is_safe=False)
 
 
-def _member_meant(name: ast.Name, enum: EnumSymbol) -> Help:
+def _member_meant(r: Resolution, name: ast.Name, enum: EnumSymbol) -> Help:
     """Say which member of an enum may be meant by a name that it does not have."""
-    if enum.origin != "user" and name.text in newest_enum_members(enum.name):
-        return f"OpenSCENARIO DSL {NEWEST} has it: check with `--std {NEWEST}`"
+    if enum.origin != "user" and (newer := in_newest_version(r, enum.name, name)):
+        return newer
     if ENUM_MEMBERS.get(name.text) in enum.members:
         return plain_word(name.span, ENUM_MEMBERS)
     return name_meant(name.span, enum.members) or one_of("its members are", enum.members)
@@ -236,7 +236,7 @@ def infer_enum_literal(r: Resolution, node: ast.EnumLiteral, env: Environment) -
             "OSC208",
             node.member.span,
             f"enum `{symbol.name}` has no member `{node.member}`",
-            help=_member_meant(node.member, symbol),
+            help=_member_meant(r, node.member, symbol),
             labels=declared_here(symbol),
         )
         return EnumType(symbol)

@@ -21,6 +21,7 @@ from osc2tx.semantics.symbols import (
     Symbol,
 )
 from osc2tx.semantics.types import EnumType
+from osc2tx.stdlib import NEWEST, newer_members
 from osc2tx.syntax import ast
 
 
@@ -100,6 +101,8 @@ def _help(
         return f"leave `{word}: {value.span.text}` out; {LEFT_OUT[callee.name, word]}"
     if alias := standard_parameter(callee, name):
         return Remedy(f"write `{alias.written_out}`")
+    if callee.origin == "library" and (newer := in_newest_version(r, callee.name, name)):
+        return newer
     for parameter in parameters:
         if isinstance(parameter.type, EnumType) and word in parameter.type.symbol.members:
             given = value.span.text
@@ -110,6 +113,13 @@ def _help(
     if _is_modified_by(r, callee, word):
         return f"`{word}` is a modifier: end the line with `with:`, and write `{word}(…)` below"
     return name_meant(name.span, names) or one_of("its parameters are", names)
+
+
+def in_newest_version(r: Resolution, owner: str, name: ast.Name) -> str:
+    """Return the help for a member that the library has in a newer version only; empty: none."""
+    if name.text not in newer_members(owner, r.standard):
+        return ""
+    return f"OpenSCENARIO DSL {NEWEST} has it: check with `--std {NEWEST}`"
 
 
 def _is_modified_by(r: Resolution, callee: Symbol, word: str) -> bool:
