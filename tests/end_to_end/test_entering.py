@@ -536,3 +536,55 @@ def test_only_a_replay_begins_where_no_way_leads(shell: Shell, action: str, code
         assert "npc has no way in" in run.ended.err
     else:
         assert run.at("npc", 5.05)["x"] == pytest.approx(2.0 + 0.05 * 40.0)
+
+
+@pytest.mark.parametrize(("map_file", "way"), [("highway", 1.0), ("urban_crossing", -1.0)])
+@pytest.mark.parametrize("turned", ["", "yaw(angle: 90deg, relative_to: lead)"])
+def test_a_pedestrian_enters_beside_the_lane_of_another(
+    shell: Shell, map_file: str, way: float, turned: str
+) -> None:
+    """2 s later, 40 m ahead of the car and 4 m to its right."""
+    run = Run(
+        shell,
+        f"""    do parallel:
+        lead.drive(duration: 8s) with:
+            lane(1, at: start)
+            position(20m, at: start)
+            speed(8mps)
+        serial:
+            wait elapsed(2s)
+            ped.walk(duration: 5s) with:
+                position(40m, ahead_of: lead, at: start)
+                lateral(4m, side_of: lead, side: right, at: start)
+                speed(1.5mps)
+                {turned or "avoid_collisions(false)"}
+""",
+        map_file=map_file,
+    )
+    assert run.ended.code == 0, run.ended.err
+    lead, ped = run.at("lead", 2.0), run.at("ped", 2.0)
+    assert way * (ped["x"] - lead["x"]) == pytest.approx(40.0, abs=1e-3)
+    assert way * (lead["y"] - ped["y"]) == pytest.approx(4.0, abs=1e-3)
+    assert run.moves_steadily("ped")
+    moved = run.at("ped", 7.0)["y" if turned else "x"] - ped["y" if turned else "x"]
+    assert way * moved == pytest.approx(7.5, abs=1e-3)
+    assert "OSC811" not in run.ended.err
+
+
+def test_a_heading_counts_from_the_road_on_both_carriageways(shell: Shell) -> None:
+    """A pedestrian walks straight over the middle line of the road."""
+    run = Run(
+        shell,
+        """    do ped.walk(duration: 6s) with:
+        position(80m, at: start)
+        lane(1, at: start)
+        yaw(angle: 90deg)
+        speed(1.5mps)
+""",
+        map_file="urban_crossing",
+    )
+    assert run.ended.code == 0 and "OSC811" not in run.ended.err
+    start, end = run.at("ped", 0.0), run.at("ped", 6.0)
+    assert end["x"] == pytest.approx(start["x"], abs=1e-6)
+    assert (start["lane"] < 0.0) is not (end["lane"] < 0.0)
+    assert abs(end["y"] - start["y"]) == pytest.approx(9.0, abs=1e-3)

@@ -8,7 +8,7 @@ the run itself is then the same as the last rehearsal.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from math import hypot, inf
+from math import cos, hypot, inf, sin
 from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.domain.actors import MovableObject
@@ -145,12 +145,17 @@ class Rehearsal(Entries):
 
 def _missed(road_map: RoadMap, here: ActorState, there: LanePosition | Pose) -> float:
     """Return the distance (m) to where an actor has to be; infinite beside it."""
+    pose = road_map.pose(there) if isinstance(there, LanePosition) else there
+    dx, dy = pose.x - here.x, pose.y - here.y
+    ahead = dx * cos(pose.h) + dy * sin(pose.h)
+    aside = dy * cos(pose.h) - dx * sin(pose.h)
+    if abs(ahead) < _FITS and abs(aside) < _NEAR:
+        return ahead  # both may count from different lanes
     if isinstance(there, LanePosition) and here.lane_position is not None:
         left = road_map.route_distance(here.lane_position, there)
-        aside = abs(here.lane_position.offset - there.offset) > _NEAR
-        return inf if left is None or aside else left
-    pose = road_map.pose(there) if isinstance(there, LanePosition) else there
-    return hypot(pose.x - here.x, pose.y - here.y)
+        beside = abs(here.lane_position.offset - there.offset) > _NEAR
+        return inf if left is None or beside else left
+    return hypot(dx, dy)
 
 
 def ways_in(
@@ -192,7 +197,10 @@ def ways_in(
         ways = {actor: way for actor, way in searched.items() if way is not None}
         before = found
     names = ", ".join(before)
-    raise PlacementError(f"where {names} has to be at first depends on the way to there")
+    raise PlacementError(
+        f"where {names} has to be at first depends on the way to there",
+        next((arrival.source for arrival in before.values()), None),
+    )
 
 
 def _alike(found: dict[str, Arrival], before: dict[str, Arrival], road_map: RoadMap) -> bool:
