@@ -130,21 +130,21 @@ def _linked(text: str, entry: Entry) -> str:
         return f"[{match[0]}](../{declaration.kind}/{declaration.name}.md)"
 
     def _meant(name: str) -> Entry | None:
-        wanted = "modifier" if in_modifiers else ""
+        wanted = "modifier" if in_modifiers else "action" if in_actions else ""
         return by_key.get(f"{wanted} {name}") if wanted else by_name.get(name) or None
 
-    parts, in_modifiers, in_block = [], False, False
+    parts, in_modifiers, in_actions, in_block = [], False, False, False
     for line in text.split("\n"):
         in_block = in_block != line.startswith("```")
         if line.startswith("## "):
-            in_modifiers = line == "## Modifiers"
+            in_modifiers, in_actions = line == "## Modifiers", line == "## Actions"
         row = line.split(" | ")
         if in_block or line.startswith(("#", "```")):
             parts.append(line)
         elif line.startswith("| `") and len(row) > 1:
             row[1] = _CODE.sub(link, row[1])
             parts.append(" | ".join(row))
-        elif in_modifiers or "## Used by" in parts:
+        elif in_modifiers or in_actions or "## Used by" in parts:
             parts.append(_CODE.sub(link, line))
         else:
             parts.append(line)

@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 
 from osc2tx.catalogue import ActionEntry, ModifierEntry, catalogue
-from osc2tx.reference.declarations import Declaration, declarations
+from osc2tx.reference.declarations import Declaration, Member, declarations
 from osc2tx_shared.classes import dataclass
 
 TABLE = Path(__file__).with_name("shown.json")
@@ -62,6 +62,8 @@ class Entry:
         declaration: The declaration in the library.
         facts: Its effects in the runtime, one sentence each.
         modifiers: Modifiers that an action accepts.
+        actions: Actions of an actor and of its bases, `vehicle.drive`; none to inherit from.
+        inherited: Members that an actor or a struct has from its bases.
         users: Declarations that use it as a type, or inherit from it.
     """
 
@@ -69,6 +71,8 @@ class Entry:
     facts: tuple[str, ...]
     modifiers: tuple[str, ...]
     users: tuple[str, ...]
+    actions: tuple[str, ...] = ()
+    inherited: tuple[Member, ...] = ()
 
     @property
     def key(self) -> str:
@@ -114,7 +118,26 @@ def _entry(declaration: Declaration, users: tuple[str, ...]) -> Entry:
         return Entry(declaration, _modifier_facts(modifier), (), users)
     if declaration.name in known.abstract:
         return Entry(declaration, ("It is only there to be inherited from.",), (), users)
-    return Entry(declaration, (), (), users)
+    bases = _bases(declaration)
+    owners = {declaration.name, *(base.name for base in bases)}
+    actions = tuple(
+        each.name
+        for each in declarations()
+        if each.kind == "action" and each.name not in known.abstract
+        if each.name.rpartition(".")[0] in owners
+    )
+    inherited = tuple(member for base in bases for member in base.members)
+    return Entry(declaration, (), (), users, actions, inherited)
+
+
+def _bases(declaration: Declaration) -> list[Declaration]:
+    """Return what an actor or a struct inherits from, the nearest first."""
+    by_name = {(each.kind, each.name): each for each in declarations()}
+    bases: list[Declaration] = []
+    while declaration.kind in ("actor", "struct") and declaration.base:
+        declaration = by_name[declaration.kind, declaration.base]
+        bases.append(declaration)
+    return bases
 
 
 def _action_facts(action: ActionEntry) -> tuple[str, ...]:

@@ -38,6 +38,10 @@ def as_text(entry: Entry) -> str:
     if declaration.units:
         parts.append(f"Units: {', '.join(declaration.units)}")
     parts += [fact.replace("`", "") for fact in entry.facts]
+    if entry.inherited:
+        parts.append(f"Inherited: {', '.join(map(_short, entry.inherited))}")
+    if entry.actions:
+        parts.append(f"Actions: {', '.join(entry.actions)}")
     if entry.modifiers:
         parts.append(f"Modifiers: {', '.join(entry.modifiers)}")
     shown = entry.shown
@@ -66,6 +70,10 @@ def as_markdown(entry: Entry) -> str:
     facts = [*entry.facts, *([f"In CARLA: {shown.carla}."] if shown.carla else [])]
     if facts:
         parts += ["## How it runs", "\n".join(f"- {fact}" for fact in facts)]
+    if entry.inherited:
+        parts += ["## Inherited", ", ".join(f"`{_short(each)}`" for each in entry.inherited)]
+    if entry.actions:
+        parts += ["## Actions", ", ".join(f"`{name}`" for name in entry.actions)]
     if entry.modifiers:
         parts += ["## Modifiers", ", ".join(f"`{name}`" for name in entry.modifiers)]
     if shown.example:
@@ -93,6 +101,8 @@ def as_data(entry: Entry) -> dict[str, Any]:
         "members": [_data(each) for each in declaration.members],
         "units": list(declaration.units),
         "modifiers": list(entry.modifiers),
+        "actions": list(entry.actions),
+        "inherited": [each.name for each in entry.inherited],
         "facts": [fact.replace("`", "") for fact in entry.facts],
         "carla": entry.shown.carla,
         "xml": entry.shown.xml,
@@ -160,6 +170,10 @@ def _member(member: Member) -> str:
     head = "var " if member.kind == "variable" else ""
     default = f" = {member.default}" if member.default else ""
     return f"{head}{member.name}: {member.type}{default}"
+
+
+def _short(member: Member) -> str:
+    return f"{member.name}()" if member.kind == "method" else member.name
 
 
 def _meaning(member: Member) -> str:

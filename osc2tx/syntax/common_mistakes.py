@@ -58,7 +58,9 @@ def _blank_before_unit(place: Place) -> Advice | None:
     if place.text() in ("if", "else"):
         return Advice(f"unexpected `{place.text()}`", "a choice is written `condition ? a : b`")
     number, unit = place.text(-1), place.text()
-    help_ = write(place.span(-1, 0), f"{number}{unit}")
+    is_quotient = place.text(1) == "/" and place.kind(2) in t.WORDS
+    written = f"{number}{unit}/{place.text(2)}" if is_quotient else f"{number}{unit}"
+    help_ = write(place.span(-1, 2 if is_quotient else 0), written)
     return Advice(f"a unit follows its number without a blank: `{unit}`", help_)
 
 
@@ -256,6 +258,7 @@ _REMEDIES: tuple[Callable[[Place], Advice | None], ...] = (
     _sampled_parameter,
     foreign.behind_a_call,
     foreign.wait_until,
+    foreign.event_in_parentheses,
     foreign.arrow,
     foreign.other_strength,
     foreign.not_in,

@@ -19,6 +19,7 @@ STATEMENTS: Mapping[str, str] = {
     **dict.fromkeys(("for", "while", "repeat", "loop"), _LOOP),
     **dict.fromkeys(("class", "type"), _TYPE),
     **dict.fromkeys(("function", "func", "fn"), _METHOD),
+    "assert": "a run fails by `on rise(…): emit fail`, values are constrained by `keep(…)`",
     "from": "write `import` and the file in quotes, or the dotted name of a module",
     "return": "the value of a method stands in its head: `is expression …`",
     "let": "a field is declared `name: type = value`, without `let`",
@@ -126,8 +127,41 @@ def arrow(place: Place) -> Advice | None:
         return None
     if place.table.types[place.line] == t.KEYWORDS["def"]:
         return None
-    help_ = "write each on a line of its own, below `serial:`"
+    each = "write each on a line of its own, below `serial:`"
+    steps = _steps(place)
+    help_ = each if steps is None else rewrite([steps], each, is_safe=False)
     return Advice("there is no `->` between actions", help_)
+
+
+def _steps(place: Place) -> Edit | None:
+    """Return the edit that makes a serial of the actions in a line; none above a block."""
+    table, end = place.table, place.at
+    while table.types[end] not in (t.NEWLINE, t.EOF):
+        end += 1
+    if table.types[end : end + 2] == [t.NEWLINE, t.INDENT]:
+        return None
+    first = place.line + (table.text(place.line) == "do")
+    span = table.span(first, end - 1)
+    indentation = " " * (table.indentation(table.starts[place.line]) + 4)
+    steps = [step.strip() for step in span.text.split("->")]
+    return Edit(span, f"\n{indentation}".join(["serial:", *steps]))
+
+
+def event_in_parentheses(place: Place) -> Advice | None:
+    """`until(@e)`."""
+    if place.kind() != _AT or place.kind(-1) != _LPAREN or place.at - 2 != place.line:
+        return None
+    word = place.text(-2)
+    if word not in ("wait", "until", "on"):
+        return None
+    close = place.at
+    while place.table.types[close] not in (_RPAREN, t.NEWLINE, t.EOF):
+        close += 1
+    edits = [Edit(Span(place.table.source, place.table.ends[place.line], place.span().start), " ")]
+    if place.table.types[close] == _RPAREN:
+        edits.append(Edit(place.table.span(close, close), ""))
+    help_ = rewrite(edits, f"an event has no parentheses: `{word} @{place.text(1)}`")
+    return Advice(f"unexpected `(` after `{word}`", help_, place.at - 1)
 
 
 def colon_inheritance(place: Place) -> Advice | None:
@@ -178,7 +212,10 @@ def range_without_brackets(place: Place) -> Advice | None:
     """`speed(10kph..20kph)`."""
     if place.kind() != _DOTS:
         return None
-    range_ = f"[{place.text(-1)}..{place.text(1)}]"
+    lower, upper = place.text(-1), place.text(1)
+    if place.kind(-1) in NUMBERS and place.kind(1) == t.PHYSICAL:  # one unit for both
+        lower += upper.lstrip("0123456789.+-eE")
+    range_ = f"[{lower}..{upper}]"
     return Advice("a range stands in brackets", write(place.span(-1, 1), range_))
 
 

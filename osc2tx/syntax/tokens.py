@@ -95,6 +95,11 @@ class TokenTable:
         """Return the column of what begins at an offset, the first thing on its line."""
         return column_after(self.source.text[self.line_start(offset) : offset])
 
+    def below(self, offset: int) -> str:
+        """Return the blanks before a line that stands below the line of an offset, in its block."""
+        line = self.source.text[self.line_start(offset) : offset]
+        return " " * (column_after(line[: len(line) - len(line.lstrip())]) + 4)
+
 
 def column_after(blanks: str) -> int:
     """Return the column after blanks: tabs go to multiples of 8, a form feed starts anew."""

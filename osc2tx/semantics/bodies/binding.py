@@ -8,7 +8,7 @@ from itertools import dropwhile
 
 from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import Span
-from osc2tx.diagnostics.fixes import Edit, Help, rewrite, write
+from osc2tx.diagnostics.fixes import Help, write
 from osc2tx.semantics.assignability import check_value
 from osc2tx.semantics.builtins import DURATION
 from osc2tx.semantics.conversions import converts
@@ -16,6 +16,7 @@ from osc2tx.semantics.declarations.resolve_types import choose
 from osc2tx.semantics.model import Binding
 from osc2tx.semantics.names.aliases import parameter_alias
 from osc2tx.semantics.names.member_lookup import lookup_value, parameters_of
+from osc2tx.semantics.names.stray_modifiers import move_out
 from osc2tx.semantics.names.unknown_names import report_unknown
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.symbols import (
@@ -86,7 +87,7 @@ def bind_behavior(
     parameters: list[Parameter] = list(parameters_of(callee))
     if isinstance(callee, ScenarioSymbol | ActionSymbol):
         parameters.append(DURATION)
-    pairs = _match(r, node.arguments, parameters, callee, env)
+    pairs = _match(r, node, parameters, callee, env)
     named = {argument.value for argument in node.arguments if argument.name is not None}
     for parameter, value in pairs:
         check_value(
@@ -122,14 +123,7 @@ def _meant(
     action = catalogue().actions.get(callee.qualified_name)
     if action is None or name not in action.modifiers or not isinstance(node, ast.Invocation):
         return None
-    text = value.span.text
-    help_ = f"`{name}` is a modifier: end the line with `with:`, and write `{name}({text})` below"
-    if node.with_members or len(node.arguments) != 1:
-        return help_
-    column = node.span.source.position((node.label or node).span.start)[1]
-    block = f" with:\n{' ' * (column + 3)}{name}({text})"
-    behind = Span(node.span.source, node.span.end, node.span.end)
-    return rewrite([Edit(value.span, ""), Edit(behind, block)], help_, is_safe=False)
+    return move_out(node, value, name)
 
 
 def _takes(parameter: Type, value: ast.Expression, given: Type) -> bool:
@@ -151,7 +145,7 @@ def bind_call(
         type_arguments(r, node.arguments, env)
         r.bindings[node] = Binding(callee, receiver, ())
         return
-    pairs = _match(r, node.arguments, list(callee.parameters), callee, env)
+    pairs = _match(r, node, list(callee.parameters), callee, env)
     for parameter, value in pairs:
         type_ = r.type_of(value, env, parameter.type)
         if isinstance(type_, RangeType) and not isinstance(parameter.type, RangeType):
@@ -186,12 +180,15 @@ def type_arguments(r: Resolution, arguments: Sequence[ast.Argument], env: Enviro
 
 def _match(
     r: Resolution,
-    arguments: Sequence[ast.Argument],
+    node: (
+        ast.Invocation | ast.ModifierApplication | ast.Call | ast.CallDirective | ast.EmitDirective
+    ),
     parameters: Sequence[Parameter],
     callee: Symbol,
     env: Environment,
 ) -> Pairs:
     """Pair arguments with parameters in source order; report what does not pair."""
+    arguments = node.arguments
     pairs: list[tuple[Parameter, ast.Expression]] = []
     taken: set[Parameter] = set()
     implied: list[tuple[Parameter, ast.Expression]] = []
@@ -225,7 +222,7 @@ def _match(
         else:
             taken.add(parameter)
             pairs.append((parameter, argument.value))
-    report_unknown(r, unknown, parameters, callee)
+    report_unknown(r, unknown, parameters, callee, node)
     for parameter, value in implied:
         if parameter in taken:
             r.report("OSC403", value.span, f"`{parameter.name}` is given twice")

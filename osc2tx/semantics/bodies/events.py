@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from typing import assert_never
 
+from osc2tx.diagnostics.fixes import Remedy, insert_before
 from osc2tx.diagnostics.suggestions import name_meant
 from osc2tx.semantics.assignability import check_condition, check_duration, check_value
 from osc2tx.semantics.builtins import TIME
 from osc2tx.semantics.dialects import RUNNER_EVENTS
 from osc2tx.semantics.expressions.access import resolve_member
-from osc2tx.semantics.names.member_lookup import lookup_value, member_names
+from osc2tx.semantics.names.member_lookup import lookup_value
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
-from osc2tx.semantics.symbols import EventSymbol, ParameterSymbol, Symbol
+from osc2tx.semantics.scope import supertypes
+from osc2tx.semantics.symbols import EventSymbol, ParameterSymbol, Symbol, TypeSymbol
 from osc2tx.semantics.types import EVENT, OBJECT
 from osc2tx.syntax import ast
 
@@ -112,13 +114,23 @@ def resolve_event_name(r: Resolution, name: ast.Name, env: Environment) -> Symbo
         key=f"{owner.name}.{name}",
         help=condition or f"declare it: `event {name}`",
     ):
-        events = [n for n in member_names(owner) if n not in ("start", "end", "fail", name.text)]
+        members = {n: m for type_ in supertypes(owner) for n, m in type_.members.items()}
+        events = [n for n, m in members.items() if isinstance(m, EventSymbol) and not m.is_implicit]
         r.report(
             "OSC210",
             name.span,
             f"event `{name}` is not declared",
-            help=condition
-            or name_meant(name.span, events)
-            or f"declare it in `{owner.name}`: `event {name}`",
+            help=condition or name_meant(name.span, events) or _declared(owner, name.text),
         )
     return implicit
+
+
+def _declared(owner: TypeSymbol, name: str) -> Remedy:
+    """Return the remedy that declares an event above the members of a type."""
+    help_ = f"declare it in `{owner.name}`: `event {name}`"
+    members = getattr(getattr(owner, "node", None), "members", ())
+    if not members:
+        return Remedy(help_)
+    first = members[0].span
+    indentation = " " * (first.source.position(first.start)[1] - 1)
+    return insert_before(first, f"event {name}\n{indentation}", help_, is_safe=False)

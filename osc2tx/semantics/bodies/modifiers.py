@@ -8,6 +8,7 @@ from osc2tx.semantics.declarations.resolve_types import choose
 from osc2tx.semantics.expressions.methods import call_by_statement
 from osc2tx.semantics.names.everyday_words import MODIFIERS, NO_MODIFIERS, plain_word
 from osc2tx.semantics.names.other_dialects import advise
+from osc2tx.semantics.names.stray_modifiers import modifiers_of
 from osc2tx.semantics.names.unknown_names import report_unimported
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.scope import CallableBehavior, is_subtype
@@ -117,7 +118,7 @@ def _find_modifier(
         if name.text == OVERRIDE.name:
             return OVERRIDE
         if not report_unimported(r, name):
-            _report_unknown(r, name)
+            _report_unknown(r, name, invoked)
         return None
     quiet = env.it == ERROR
     fitting = (
@@ -177,7 +178,7 @@ def _distance(modifier: ModifierSymbol, actor: ActorSymbol | None) -> int:
     return depth
 
 
-def _report_unknown(r: Resolution, name: ast.Name) -> None:
+def _report_unknown(r: Resolution, name: ast.Name, invoked: CallableBehavior | None) -> None:
     known = {n for layer in r.scope.layers() for n in layer.modifiers}
     behaviors = r.scope.behaviors_named(name.text)
     if behaviors:
@@ -197,6 +198,7 @@ def _report_unknown(r: Resolution, name: ast.Name) -> None:
     advice = advise(r, "modifier", name, sorted(known))
     if meant := plain_word(name.span, MODIFIERS):
         advice["help"] = meant
+    advice["help"] = advice["help"] or modifiers_of(invoked)
     r.report("OSC212", name.span, f"no modifier `{name}`", **advice)
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TypeVar, assert_never
 
+from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics.fixes import Help, write, write_one_of
-from osc2tx.diagnostics.suggestions import name_meant
+from osc2tx.diagnostics.suggestions import name_meant, one_of
 from osc2tx.semantics.declarations.undeclared_models import undeclared_model
 from osc2tx.semantics.dialects import PRELUDE_BEHAVIORS, TYPE_ALIASES
 from osc2tx.semantics.names.aliases import (
@@ -303,6 +304,7 @@ def report_unknown_behavior(r: Resolution, actor: ActorSymbol, name: ast.Name) -
             for b in group
             if b.actor is not None and is_subtype(actor, b.actor)
         }
+        acts = sorted(known - {n.rpartition(".")[2] for n in catalogue().abstract})
         r.report(
             "OSC211",
             name.span,
@@ -311,5 +313,7 @@ def report_unknown_behavior(r: Resolution, actor: ActorSymbol, name: ast.Name) -
             or (plain_word(name.span, BEHAVIORS) if BEHAVIORS.get(name.text) in known else None)
             or NO_BEHAVIORS.get(name.text)
             or name_meant(name.span, known)
-            or f"declare it, `scenario {actor.name}.{name}:`, or import the file that does",
+            or one_of(f"declare it, `scenario {actor.name}.{name}:`; there are", acts)
+            or f"declare it, `scenario {actor.name}.{name}:`; `osc2tx reference {actor.name}` "
+            "lists the actions",
         )

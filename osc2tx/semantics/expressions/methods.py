@@ -19,7 +19,7 @@ from osc2tx.semantics.declarations.resolve_types import type_of_symbol
 from osc2tx.semantics.expressions.access import note_prelude_member, report_unknown_member
 from osc2tx.semantics.expressions.type_receivers import implied_object
 from osc2tx.semantics.model import Binding
-from osc2tx.semantics.names.everyday_words import CONDITIONS, LIST_WORDS, plain_word
+from osc2tx.semantics.names.everyday_words import CONDITIONS, LIST_WORDS, MEMBERS, plain_word
 from osc2tx.semantics.names.member_lookup import find_member, lookup_value, visible_names
 from osc2tx.semantics.names.unknown_names import in_newest_version
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
@@ -206,6 +206,9 @@ def _find_plain(
 def _method_meant(callee: ast.NameExpression, node: ast.Call | ast.CallDirective) -> Help:
     """Return a line of help for `len(list)`, a method of what stands in the parentheses."""
     word = callee.name.text
+    if word in MEMBERS and node.arguments:
+        receiver = node.arguments[0].value.span.text
+        return f"methods are called on an object: `{receiver}.{MEMBERS[word]}`"
     if word not in LIST_WORDS or len(node.arguments) != 1:
         return None
     return write(node.span, f"{node.arguments[0].value.span.text}.{LIST_WORDS[word]}()")

@@ -40,6 +40,8 @@ BEHAVIORS: Mapping[str, str] = {
     "set_speed": "assign_speed",
     "go": "drive",
     "go_to": "change_position",
+    "park": "remain_stationary",
+    "stand": "remain_stationary",
     "keep_distance": "keep_space_gap",
     "overtake": "change_lane",
     "speed_change": "change_speed",
@@ -58,19 +60,27 @@ MODIFIERS: Mapping[str, str] = {
     "stay_in_lane": "keep_lane",
     "velocity": "speed",
 }
-# For a word several, of which a behavior or modifier has one.
-# Names that are no modifiers, and what to write instead.
+# Names that are no behaviors, or no modifiers, and what to write instead.
 NO_BEHAVIORS: Mapping[str, str] = dict.fromkeys(
     ("turn", "turn_left", "turn_right"),
     "a turn is a matter of the route: `drive` with the modifier `along`, on a route that turns",
 )
 NO_MODIFIERS: Mapping[str, str] = {
+    "ahead_of": "a parameter of `position`: `position(20m, ahead_of: …)`",
+    "behind": "a parameter of `position`: `position(20m, behind: …)`",
+    "in_front_of": "a parameter of `position`: `position(20m, ahead_of: …)`",
+    "faster_than": "a parameter of `speed`: `speed(10kph, faster_than: …)`",
+    "slower_than": "a parameter of `speed`: `speed(10kph, slower_than: …)`",
+    "left_of": "a parameter of `lateral` and `lane`: `lane(1, side_of: …, side: left)`",
+    "right_of": "a parameter of `lateral` and `lane`: `lane(1, side_of: …, side: right)`",
+    "same_lane": "`lane(same_as: …)`",
     "duration": "how long is an argument of what is invoked: `(duration: …)`",
     "repeat": "there are no loops: write the invocation as often as it shall happen",
     "retry": "there are no loops: write the invocation as often as it shall happen",
     "timeout": "how long is an argument of what is invoked: `(duration: …)`",
     "wait": "`wait` stands inside `do`, on a line of its own",
 }
+# For a word several, of which a behavior or modifier has one.
 PARAMETERS: Mapping[str, tuple[str, ...]] = {
     "after": ("behind",),
     "before": ("ahead_of",),
@@ -100,6 +110,9 @@ UNITS: Mapping[str, str] = {
     "seconds": "s",
     "secs": "s",
     "ms2": "mpss",
+    "mps2": "mpss",
+    "mss": "mpss",
+    "kmph": "kph",
     "m_s": "mps",
     "degrees": "deg",
 }

@@ -9,6 +9,7 @@ from osc2tx.diagnostics.suggestions import name_meant, one_of
 from osc2tx.semantics.dialects import LEFT_OUT, PRELUDE_PARAMETERS, PreludeHint
 from osc2tx.semantics.names.aliases import standard_parameter, write_instead
 from osc2tx.semantics.names.everyday_words import fitting_word
+from osc2tx.semantics.names.stray_modifiers import move_out
 from osc2tx.semantics.resolution import Resolution, declared_here
 from osc2tx.semantics.scope import is_subtype, supertypes
 from osc2tx.semantics.symbols import (
@@ -57,6 +58,7 @@ def report_unknown(
     names: Mapping[ast.Name, ast.Expression],
     parameters: Parameters,
     callee: Symbol,
+    node: ast.Node,
 ) -> None:
     """Report names that no parameter has; those of a prelude together, the others one by one.
 
@@ -65,6 +67,7 @@ def report_unknown(
         names: The names, with the values given.
         parameters: Those that there are.
         callee: What has them.
+        node: What gives the arguments.
     """
     hints = {n: PRELUDE_PARAMETERS.get((callee.name, n.text)) for n in names}
     foreign = [n for n in names if hints[n] is not None and callee.origin == "library"]
@@ -87,13 +90,18 @@ def report_unknown(
             "OSC402",
             name.span,
             f"`{callee.name}` has no parameter `{name}`",
-            help=_help(r, name, value, parameters, callee),
+            help=_help(r, name, value, parameters, callee, node),
             labels=declared_here(callee),
         )
 
 
 def _help(
-    r: Resolution, name: ast.Name, value: ast.Expression, parameters: Parameters, callee: Symbol
+    r: Resolution,
+    name: ast.Name,
+    value: ast.Expression,
+    parameters: Parameters,
+    callee: Symbol,
+    node: ast.Node,
 ) -> Help:
     word, names = name.text, [p.name for p in parameters]
     whole = name.span.to(value.span)
@@ -111,7 +119,7 @@ def _help(
     if parameter_name := fitting_word(word, names):
         return write(name.span, parameter_name, f"write `{parameter_name}: …`")
     if _is_modified_by(r, callee, word):
-        return f"`{word}` is a modifier: end the line with `with:`, and write `{word}(…)` below"
+        return move_out(node, value, word)
     return name_meant(name.span, names) or one_of("its parameters are", names)
 
 
@@ -123,13 +131,14 @@ def in_newest_version(r: Resolution, owner: str, name: ast.Name) -> str:
 
 
 def _is_modified_by(r: Resolution, callee: Symbol, word: str) -> bool:
-    """Whether a modifier has the name and is one of a behavior."""
-    if not isinstance(callee, ScenarioSymbol | ActionSymbol):
+    """Whether a modifier has the name and goes with a behavior, or with another modifier."""
+    modified = callee.target if isinstance(callee, ModifierSymbol) else callee
+    if not isinstance(modified, ScenarioSymbol | ActionSymbol):
         return False
     return any(
         isinstance(modifier, ModifierSymbol)
         and modifier.target is not None
-        and is_subtype(callee, modifier.target)
+        and is_subtype(modified, modifier.target)
         for modifier in r.scope.modifiers_named(word)
     )
 

@@ -21,6 +21,7 @@ from osc2tx.syntax.literals import (
 
 MAX_PREFIXES = 200
 
+_NAMED = "an argument is written `name: value`, where `name` is that of a parameter"
 _LEVELS = ("=>", "or", "and", "not", "== != < <= > >= in", "+ -", "* / %")
 _PRECEDENCE: dict[int, int] = {}
 _OPERATORS: dict[int, ast.BinaryOperator] = {}
@@ -323,7 +324,7 @@ def _named_argument(b: Builder, name_tree: Tree, value_tree: Tree) -> ast.Argume
         name: ast.Name | None = b.name(children[0])
     else:
         name = None
-        b.report("OSC100", b.tree_span(name_tree), "the name of an argument is a name")
+        b.report("OSC100", b.tree_span(name_tree), "the name of an argument is a name", _NAMED)
     span = b.span(name_tree.start, b.last_token(value_tree))
     return ast.Argument(span=span, name=name, value=value)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from osc2tx.diagnostics import Span
-from osc2tx.diagnostics.fixes import leave_out
+from osc2tx.diagnostics.fixes import Edit, leave_out, rewrite
 from osc2tx.syntax import ast
 from osc2tx.syntax import tokens as t
 from osc2tx.syntax._antlr.OpenSCENARIO2 import OpenSCENARIO2 as Grammar
@@ -182,7 +182,14 @@ def build_with_block(b: Builder, tree: Tree, place: Place) -> tuple[ast.Statemen
         return build_body(b, tree, place, "`with`")
     first = inner.start
     message = "what belongs to `with:` stands on lines of its own"
-    b.report("OSC100", b.span(first, first), message, "begin a new, indented line")
+    if b.table.text(first) == "[":
+        b.report("OSC100", b.span(first, first), message, "write one modifier in each line")
+        return ()
+    colon = "" if b.table.text(first - 1) == ":" else ":"
+    between = Span(b.table.source, b.table.ends[first - 1], b.table.starts[first])
+    line = f"{colon}\n{b.table.below(between.start)}"
+    help_ = rewrite([Edit(between, line)], "begin a new, indented line")
+    b.report("OSC100", b.span(first, first), message, help_)
     node = build_statement(b, inner, place)
     return () if node is None else (node,)
 

@@ -28,6 +28,8 @@ _COLON, _DOT = t.PUNCTUATION[":"], t.PUNCTUATION["."]
 _FIELDS = frozenset({Place.STRUCT, Place.ACTOR, Place.BEHAVIOR, Place.MODIFIER, Place.EXTENSION})
 _APPLICATIONS = (_FIELDS - {Place.STRUCT}) | {Place.WITH}
 _BRACKETED_TYPE = re.compile(r"(?:list)?\[(\w+)\]")
+_COUNTED_TYPE = re.compile(r"(\w+)\[(\d+)\]")
+_BOUNDED_TYPE = re.compile(r"(\w+) +in +(\[[^\n]{1,60}\])")
 _COMPARED_TYPE = re.compile(r"(\w+) *== *(.{1,40})")
 _WITH_WORDS = {
     "duration": "how long is an argument of what is invoked: `(duration: …)`",
@@ -194,10 +196,20 @@ def _report_no_type(b: Builder, tree: Tree) -> None:
     help_: Help = "a field is declared `name: type = value`"
     if listed := _BRACKETED_TYPE.fullmatch(span.text):
         help_ = write(span, f"list of {listed[1]}")
+    elif listed := _COUNTED_TYPE.fullmatch(span.text):
+        help_ = _with_constraint(b, span, f"list of {listed[1]}", f"it.size() == {listed[2]}")
+    elif bounded := _BOUNDED_TYPE.fullmatch(span.text):
+        help_ = _with_constraint(b, span, bounded[1], f"it in {bounded[2]}")
     elif compared := _COMPARED_TYPE.fullmatch(span.text):
         given = f"{compared[1]} = {compared[2]}"
         help_ = write(span, given, f"a value is given with one `=`: `{given}`")
     b.report("OSC100", span, f"expected a type name, found {found}", help_)
+
+
+def _with_constraint(b: Builder, span: Span, type_: str, constraint: str) -> Help:
+    """Return the remedy that declares a field with a constraint on its value."""
+    help_ = f"write `{type_} with:`, and `keep({constraint})` below"
+    return write(span, f"{type_} with:\n{b.table.below(span.start)}keep({constraint})", help_)
 
 
 def _only_name(b: Builder, children: list[Tree], what: str) -> ast.Name | None:
