@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from pathlib import Path
 
@@ -15,7 +15,9 @@ from osc2tx.xosc.element import Element, Unresolved
 from osc2tx.xosc.player import Evaluator, Reading, Unplayable
 from osc2tx.xosc.profiles import ToolProfile
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
+from osc2tx_runtime.language.trace import rounded
 from osc2tx_runtime.opendrive import RoadMap, read_map
+from osc2tx_runtime.world.state import ActorState
 from osc2tx_shared.classes import dataclass, replace
 
 MAPS_KEPT = 8
@@ -66,21 +68,27 @@ def run_in_world(scenario: type[Scenario], settings: RunSettings) -> WorldRun:
     Raises:
         NoEvidence: The run fails.
     """
+    track: dict[str, list[Row]] = {}
+
+    def keep(time: float, states: Iterable[tuple[str, ActorState]]) -> None:
+        if time == 0.0:
+            track.clear()
+        t = rounded(time)
+        for actor, state in states:
+            row = t, rounded(state.x), rounded(state.y), rounded(state.v)
+            track.setdefault(actor, []).append(row)
+
     try:
-        result = run_scenario(scenario, settings, read=cached_map)
+        result = run_scenario(scenario, settings, on_states=keep, read=cached_map)
     except (ScenarioError, ArithmeticError) as error:
         raise NoEvidence(f"the run in the world fails: {error}") from error
     if result.status == "failure":
         raise NoEvidence(f"the run in the world fails: {result.reason}")
     starts: dict[str, float] = {}
-    track: dict[str, list[Row]] = {}
     choices: dict[str, str] = {}
     acted = 0.0
     for line in map(json.loads, result.trace_lines):
         match line["kind"]:
-            case "state":
-                row = (line["t"], line["x"], line["y"], line["v"])
-                track.setdefault(line["actor"], []).append(row)
             case "action":
                 acted = line["t"]
                 if line["status"] == "start":

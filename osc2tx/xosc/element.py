@@ -186,9 +186,11 @@ class Element:
 
     def walk(self) -> Iterator[Element]:
         """Yield the element and all below it, in the order of the document."""
-        yield self
-        for child in self.children:
-            yield from child.walk()
+        pending: list[Element] = [self]
+        while pending:
+            node = pending.pop()
+            yield node
+            pending.extend(reversed(node.children))
 
     def below(self, kind: type[E]) -> Iterator[E]:
         """Yield the elements of a kind in it, itself included, in the order of the document."""

@@ -9,7 +9,6 @@ from dataclasses import field
 
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
-from osc2tx.xosc.elements import class_of
 from osc2tx.xosc.player.agenda import Awaited
 from osc2tx.xosc.player.courses import RULES, number
 from osc2tx.xosc.player.entity_conditions import Test, World, compared, test_of_entities
@@ -17,13 +16,14 @@ from osc2tx.xosc.player.errors import Unplayable
 from osc2tx_shared.classes import dataclass
 
 KINDS = {
-    "act": "Act",
-    "action": "Action",
-    "event": "Event",
-    "maneuver": "Maneuver",
-    "maneuverGroup": "ManeuverGroup",
-    "story": "Story",
+    "Act": "act",
+    "Action": "action",
+    "Event": "event",
+    "Maneuver": "maneuver",
+    "ManeuverGroup": "maneuverGroup",
+    "Story": "story",
 }
+"""What conditions call the elements of a storyboard, by tag."""
 
 
 @dataclass(frozen=True)
@@ -98,18 +98,20 @@ class Conditions:
         self.world, self.dt, self.reading = world, dt, reading
         self.looked: dict[int, Looked] = {}
         self.tests: dict[int, Test] = {}
-        self.can_wait: dict[int, bool] = {}
+        self.triggers: dict[int, tuple[Sequence[Element], bool]] = {}
         self.last_false: dict[int, int] = {}  # of each group
         self.named = {
-            (kind, node.said("name")): node
-            for kind, tag in KINDS.items()
-            for node in world.root.below(class_of(tag))
+            (KINDS[node.tag], node.said("name")): node
+            for node in world.root.walk()
+            if node.tag in KINDS
         }
 
     def fires(self, trigger: Element | None) -> bool:
         """Whether a trigger fires; all its conditions are looked at in each step."""
-        groups = [] if trigger is None else list(trigger.all(xml.ConditionGroup))
-        if trigger is not None and self._may_wait(trigger, groups):
+        if trigger is None:
+            return False
+        groups, may_wait = self._groups_of(trigger)
+        if may_wait:
             return any([self._false_one(group) is None for group in groups])
         return any([self._all_hold(group.children) for group in groups])
 
@@ -118,8 +120,8 @@ class Conditions:
 
         That is one false condition of each group: until it holds, the others do not matter.
         """
-        groups = list(trigger.all(xml.ConditionGroup))
-        if not self._may_wait(trigger, groups):
+        groups, may_wait = self._groups_of(trigger)
+        if not may_wait:
             return None
         times: list[float] = []
         changes: list[int | str] = []
@@ -149,12 +151,13 @@ class Conditions:
                 return found
         return None
 
-    def _may_wait(self, trigger: Element, groups: Sequence[Element]) -> bool:
-        """Whether a trigger that does not fire needs no look before something changes."""
-        known = self.can_wait.get(id(trigger))
+    def _groups_of(self, trigger: Element) -> tuple[Sequence[Element], bool]:
+        """Return the groups of a trigger, and whether it can wait until something changes."""
+        known = self.triggers.get(id(trigger))
         if known is None:
-            known = all(self._can_wait(each) for group in groups for each in group.children)
-            self.can_wait[id(trigger)] = known
+            groups = tuple(trigger.all(xml.ConditionGroup))
+            may_wait = all(self._can_wait(each) for group in groups for each in group.children)
+            known = self.triggers[id(trigger)] = groups, may_wait
         return known
 
     def _can_wait(self, condition: Element) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from json.encoder import encode_basestring_ascii as quoted
 from math import isfinite
@@ -23,8 +23,13 @@ def number(value: float | None) -> str:
     """Return a number as the trace writes it: at most six decimals, no minus zero."""
     if value is None:
         return "null"
-    text = repr(round(value, 6) + 0.0)
+    text = repr(rounded(value))
     return "null" if "n" in text else text  # nan and inf are no JSON
+
+
+def rounded(value: float) -> float:
+    """Return a number with the decimals of the trace."""
+    return round(value, 6) + 0.0
 
 
 def to_json(value: Any, *, exact: bool = False) -> str:
@@ -57,6 +62,9 @@ OnSample = Callable[[str, Mapping[str, Any]], None]
 TakeLines = Callable[[Sequence[str]], object]
 """Takes the next lines of a trace, without line ends."""
 
+OnStates = Callable[[float, Iterable[tuple[str, "ActorState"]]], object]
+"""Takes the time (s) of an instant, and the states of the placed actors."""
+
 
 class TracedAction(Protocol):
     """The fields of an action in the trace."""
@@ -80,15 +88,22 @@ class TraceWriter:
     Args:
         *takers: Called with the lines of each instant; the writer keeps none of them.
         on_sample: Called with the value of each coverage item, also if nothing takes the lines.
+        on_states: Called with the states of each instant, which then are no lines.
 
     Attributes:
         enabled: Whether something takes the lines.
     """
 
-    def __init__(self, *takers: TakeLines, on_sample: OnSample | None = None) -> None:
+    def __init__(
+        self,
+        *takers: TakeLines,
+        on_sample: OnSample | None = None,
+        on_states: OnStates | None = None,
+    ) -> None:
         self.enabled = bool(takers)
         self._takers = takers
         self._on_sample = on_sample
+        self._on_states = on_states
         self._events: set[tuple[str, str]] = set()
         self._actions: list[tuple[tuple[int, str], int, str]] = []
         self._others: dict[tuple[int, str, str], str] = {}
@@ -240,13 +255,10 @@ class TraceWriter:
             return
         t = f'{{"t":{number(time)},'
         lines: list[str] = []
-        written = self._written
-        for actor_id, state in states:
-            before = written.get(actor_id)
-            if before is None or before[0] != state:  # an actor at standstill is written once
-                text = f'"kind":"state","actor":{quoted(actor_id)},{state_json(state)}}}'
-                before = written[actor_id] = (state, text)
-            lines.append(t + before[1])
+        if self._on_states is not None:
+            self._on_states(time, states)
+        else:
+            lines.extend(self._state_lines(t, states))
         for name, arguments in sorted(self._events):
             lines.append(f'{t}"kind":"event","name":{json.dumps(name)}{arguments}}}')
         lines.extend(f"{t}{text}}}" for _, _, text in sorted(self._actions))
@@ -259,6 +271,15 @@ class TraceWriter:
         self._actions.clear()
         self._others.clear()
         self._hand_over(lines)
+
+    def _state_lines(self, t: str, states: Iterable[tuple[str, ActorState]]) -> Iterator[str]:
+        written = self._written
+        for actor_id, state in states:
+            before = written.get(actor_id)
+            if before is None or before[0] != state:  # an actor at standstill is written once
+                text = f'"kind":"state","actor":{quoted(actor_id)},{state_json(state)}}}'
+                before = written[actor_id] = (state, text)
+            yield t + before[1]
 
     def tree(self, nodes: Iterable[tuple[object, Mapping[str, int | str]]]) -> None:
         """Write when each node of the tree ran, see `NodeRuns`; after the last instant."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 from osc2tx_runtime.errors import BeyondMapError
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.settings import RunSettings
-from osc2tx_runtime.language.trace import TraceWriter
+from osc2tx_runtime.language.trace import OnStates, TraceWriter
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.running.loop import Observer, OnProgress, Outcome, overloads, run_tree
 from osc2tx_runtime.running.output_files import check_outputs
@@ -68,6 +68,7 @@ def run_scenario(
     keep_trace: bool = True,
     digest: bool = False,
     observer: Observer | None = None,
+    on_states: OnStates | None = None,
     read: Callable[[Path], RoadMap] = read_map,
 ) -> RunResult:
     """Run a scenario from its placement to its verdict.
@@ -81,6 +82,8 @@ def run_scenario(
         keep_trace: Keep the lines of the trace; memory then grows with the length of the run.
         digest: Compute the digest of the trace.
         observer: Observes the run.
+        on_states: Takes the states of each instant, which the trace then leaves out. Values are
+            drawn again where a map has no room for them: a run starts anew at 0 s.
         read: Reads the map; callers with many runs can cache it.
 
     Raises:
@@ -94,7 +97,7 @@ def run_scenario(
         root = scenario.create_tree()
         outputs = RunOutputs(scenario.settings, keep_lines=keep_trace, digest=digest)
         on_sample = None if observer is None else observer.sampled
-        trace = TraceWriter(*outputs.takers, on_sample=on_sample)
+        trace = TraceWriter(*outputs.takers, on_sample=on_sample, on_states=on_states)
         made = prepared(scenario_class, scenario, root, world, read, trace, is_last=is_last)
         with made as (context, monitors):
             try:
