@@ -15,7 +15,7 @@ from osc2tx.xosc.element import Element, Unresolved
 from osc2tx.xosc.player import Evaluator, Reading, Unplayable
 from osc2tx.xosc.profiles import ToolProfile
 from osc2tx_runtime import RunSettings, Scenario, ScenarioError, run_scenario
-from osc2tx_runtime.language.trace import rounded
+from osc2tx_runtime.language.trace import DECIMALS
 from osc2tx_runtime.opendrive import RoadMap, read_map
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_shared.classes import dataclass, replace
@@ -73,10 +73,10 @@ def run_in_world(scenario: type[Scenario], settings: RunSettings) -> WorldRun:
     def keep(time: float, states: Iterable[tuple[str, ActorState]]) -> None:
         if time == 0.0:
             track.clear()
-        t = rounded(time)
+        t = round(time, DECIMALS)
         for actor, state in states:
-            row = t, rounded(state.x), rounded(state.y), rounded(state.v)
-            track.setdefault(actor, []).append(row)
+            x, y, v = round(state.x, DECIMALS), round(state.y, DECIMALS), round(state.v, DECIMALS)
+            track.setdefault(actor, []).append((t, x, y, v))
 
     try:
         result = run_scenario(scenario, settings, on_states=keep, read=cached_map)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from json.encoder import encode_basestring_ascii as quoted
 from math import isfinite
@@ -16,20 +16,18 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.state import ActorState
 
 TRACE_VERSION = 1
+DECIMALS = 6
+"""Decimals of the numbers of states, times and deviations."""
+
 ACTION_ORDER = {"start": 0, "end": 1, "fail": 2}
 
 
 def number(value: float | None) -> str:
-    """Return a number as the trace writes it: at most six decimals, no minus zero."""
+    """Return a number as the trace writes it: with few decimals, no minus zero."""
     if value is None:
         return "null"
-    text = repr(rounded(value))
+    text = repr(round(value, DECIMALS) + 0.0)
     return "null" if "n" in text else text  # nan and inf are no JSON
-
-
-def rounded(value: float) -> float:
-    """Return a number with the decimals of the trace."""
-    return round(value, 6) + 0.0
 
 
 def to_json(value: Any, *, exact: bool = False) -> str:
@@ -254,11 +252,7 @@ class TraceWriter:
         if not self.enabled:
             return
         t = f'{{"t":{number(time)},'
-        lines: list[str] = []
-        if self._on_states is not None:
-            self._on_states(time, states)
-        else:
-            lines.extend(self._state_lines(t, states))
+        lines = self._lines_of_states(t, time, states)
         for name, arguments in sorted(self._events):
             lines.append(f'{t}"kind":"event","name":{json.dumps(name)}{arguments}}}')
         lines.extend(f"{t}{text}}}" for _, _, text in sorted(self._actions))
@@ -272,14 +266,20 @@ class TraceWriter:
         self._others.clear()
         self._hand_over(lines)
 
-    def _state_lines(self, t: str, states: Iterable[tuple[str, ActorState]]) -> Iterator[str]:
-        written = self._written
+    def _lines_of_states(
+        self, t: str, time: float, states: Iterable[tuple[str, ActorState]]
+    ) -> list[str]:
+        if self._on_states is not None:
+            self._on_states(time, states)
+            return []
+        lines, written = [], self._written
         for actor_id, state in states:
             before = written.get(actor_id)
             if before is None or before[0] != state:  # an actor at standstill is written once
                 text = f'"kind":"state","actor":{quoted(actor_id)},{state_json(state)}}}'
                 before = written[actor_id] = (state, text)
-            yield t + before[1]
+            lines.append(t + before[1])
+        return lines
 
     def tree(self, nodes: Iterable[tuple[object, Mapping[str, int | str]]]) -> None:
         """Write when each node of the tree ran, see `NodeRuns`; after the last instant."""
@@ -301,7 +301,8 @@ class TraceWriter:
 def state_json(state: ActorState) -> str:
     """Return the state of an actor as the inside of a JSON object.
 
-    Most lines of a trace come from here, so the numbers are not written by `number` one by one.
+    Most lines of a trace come from here, so the numbers are not written by `number` one by one, and
+    `DECIMALS` stands here as a literal.
     """
     x, y, z, h, v, a, place = state[:7]
     if place is None:

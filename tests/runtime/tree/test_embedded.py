@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
@@ -26,6 +27,7 @@ from osc2tx_runtime import (
     run_scenario,
 )
 from osc2tx_runtime.modifiers import lane, position, speed
+from osc2tx_runtime.world.state import ActorState
 from tests.traces import whatever_the_order
 
 DOCUMENT = Path(__file__).parents[3] / "docs/trace.md"
@@ -116,3 +118,21 @@ def test_the_document_shows_the_keys_of_a_run() -> None:
     for line in map(json.loads, run_scenario(Overtake).trace_lines):
         keys = shown[line["kind"]]
         assert list(line) == keys[: len(line)], line
+
+
+def test_states_that_are_taken_are_those_of_the_trace() -> None:
+    taken: list[tuple[float, str, ActorState]] = []
+
+    def take(time: float, states: Iterable[tuple[str, ActorState]]) -> None:
+        taken.extend((time, actor, state) for actor, state in states)
+
+    rest = run_scenario(Overtake, on_states=take).trace_lines
+    whole = [json.loads(line) for line in run_scenario(Overtake).trace_lines]
+    assert list(map(json.loads, rest)) == [line for line in whole if line["kind"] != "state"]
+    written = [line for line in whole if line["kind"] == "state"]
+    assert [(round(time, 6), actor) for time, actor, _ in taken] == [
+        (line["t"], line["actor"]) for line in written
+    ]
+    for (_, _, state), line in zip(taken, written, strict=True):
+        numbers = [line[name] for name in ("x", "y", "v")]
+        assert [state.x, state.y, state.v] == pytest.approx(numbers, abs=1e-6)

@@ -128,8 +128,11 @@ def _covered(course: Profile, time: float) -> float:
     changing = min(time, course.duration)
     step = changing / PIECES
     way = (time - changing) * course.value(course.duration)
+    if changing <= 0.0:
+        return way
+    speed = course.value(0.0)
     for index in range(PIECES):
         left, right = index * step, (index + 1) * step
-        middle = 0.5 * (left + right)
-        way += (course.value(left) + 4.0 * course.value(middle) + course.value(right)) / 6.0 * step
+        before, speed = speed, course.value(right)
+        way += (before + 4.0 * course.value(0.5 * (left + right)) + speed) / 6.0 * step
     return way
