@@ -187,16 +187,17 @@ class Context:
         else:
             self.report.exact(construct, span)
 
-    def require(self, what: str, since: XmlVersion, span: Span | None = None) -> None:
-        """Refuse what the version does not have yet.
+    def require(
+        self, what: str, since: XmlVersion, span: Span | None = None, instead: str = ""
+    ) -> None:
+        """Refuse what the version does not have yet; `instead` is what any of them has.
 
         Raises:
             Inexpressible: It does not.
         """
         if self.version < since:
-            raise Inexpressible(
-                f"{what} is not in OpenSCENARIO XML {self.version}", span, Remedy(version=since)
-            )
+            newer = Remedy(version=since, instead=instead)
+            raise Inexpressible(f"{what} is not in OpenSCENARIO XML {self.version}", span, newer)
 
     def required_roads(self, what: str, span: Span | None = None, otherwise: str = "") -> Roads:
         """Return the map.

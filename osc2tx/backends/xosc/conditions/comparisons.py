@@ -11,7 +11,7 @@ from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
-from osc2tx.xosc.literals import Rule
+from osc2tx.xosc.literals import DirectionalDimension, Rule
 
 
 class Comparison(NamedTuple):
@@ -64,13 +64,20 @@ def of_entity(actor: str, condition: xml.EntityConditionPart) -> xml.ByEntityCon
     )
 
 
-def relative_speed(ctx: Context, actor: str, other: str, rule: Rule, value: float) -> Groups:
-    """Return the condition on the difference (m/s) of the speeds of two actors."""
+def relative_speed(
+    actor: str,
+    other: str,
+    rule: Rule,
+    value: float,
+    direction: DirectionalDimension | None = None,
+) -> Groups:
+    """Return the condition on the difference (m/s) of the speeds of two actors.
+
+    With a direction (1.2) it is that of their parts along an axis of one of them, which in a bend
+    is another one.
+    """
     condition = xml.RelativeSpeedCondition(
-        entityRef=other,
-        rule=rule,
-        value=value,
-        direction="longitudinal" if ctx.version >= "1.2" else None,
+        entityRef=other, rule=rule, value=value, direction=direction
     )
     return ((of_entity(actor, condition),),)
 

@@ -22,7 +22,8 @@ def object_distance(ctx: Context, c: Comparison) -> Groups:
     direction = c.member("direction", "euclidean")
     freespace = c.member("mode", "reference_points") == "bounding_boxes"
     if direction != "euclidean":
-        ctx.require(f"a {direction} distance in the axes of an object", "1.1", c.source.span)
+        what = f"a {direction} distance in the axes of an object"
+        ctx.require(what, "1.1", c.source.span, "`road_distance` is in all versions")
         if direction == "vertical":
             raise Inexpressible("there is no condition on a vertical distance", c.source.span)
         return _signed(ctx, c, direction, freespace, "entity", ahead_is_positive=True)

@@ -120,7 +120,7 @@ def _comparison(ctx: Context, expression: ir.Binary, operator: str, edge: Edge) 
         groups: Groups = ((parameter_condition(ctx, left, rule, ctx.values.of(right)),),)
     elif speeds is not None:
         actor, other, difference = speeds
-        groups = relative_speed(ctx, actor, other, rule, difference)
+        groups = relative_speed(actor, other, rule, difference)
     elif ir.is_live(right):
         raise Inexpressible(
             "a condition compares one measure with a constant, not two measures",

@@ -144,9 +144,12 @@ def time_to_collision(ctx: Context, c: Comparison) -> Groups:
         "none where both keep to the axis of the actor; else by the time to come to its width",
     )
     if c.rule.startswith("less"):
+        if ctx.profile.latches_conditions:  # it wants each of two conditions once: one has to do
+            return ((time,),)
         beside = _across(ctx, c, "lessThan")
         return ((time, beside), (beside, time)) if c.is_edge else ((time, beside),)
-    away = relative_speed(ctx, c.actor, c.reference(), "lessThan", TOUCHING)
+    along: DirectionalDimension | None = "longitudinal" if ctx.version >= "1.2" else None
+    away = relative_speed(c.actor, c.reference(), "lessThan", TOUCHING, along)
     return ((time,), (_across(ctx, c, "greaterThan"),), *away)
 
 

@@ -21,6 +21,7 @@ from osc2tx.backends.xosc.values.constants import Member, Named
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import Role, VehicleCategory
 from osc2tx.xosc.schema import has_attribute
+from osc2tx_shared.classes import replace
 
 WHEEL_DIAMETER = 0.6
 MAX_STEERING = 0.5
@@ -156,6 +157,9 @@ def _vehicle(ctx: Context, member: CastMember) -> xml.Vehicle:
     )
 
 
+IN_THE_MIDDLE = "`keep(it.bounding_box.center.x == 0m)` gives it this origin in the world, too"
+
+
 def _note_origin(ctx: Context, member: CastMember) -> None:
     """Report where the models of a tool have their origin; in the standard it is the rear axle."""
     if ctx.profile.has_middle_origins and member.shape.centre:
@@ -164,7 +168,7 @@ def _note_origin(ctx: Context, member: CastMember) -> None:
             member.actor.span,
             f"{ctx.profile.name} uses a vehicle model of its own, with its middle as the rear axle",
             Metres(abs(member.shape.centre), "behind its position, and the size of its own model"),
-            GENERIC,
+            replace(GENERIC, instead=IN_THE_MIDDLE),
         )
 
 

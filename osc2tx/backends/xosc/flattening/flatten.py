@@ -30,11 +30,21 @@ from osc2tx.backends.xosc.flattening.storyboard.builder import (
     construct_of,
 )
 from osc2tx.backends.xosc.flattening.storyboard.storyboard import Act
-from osc2tx.backends.xosc.flattening.tree_queries import follows_route, is_instant, is_single
-from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
+from osc2tx.backends.xosc.flattening.tree_queries import (
+    follows_route,
+    is_instant,
+    is_single,
+    starts_at_once,
+)
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import either
 from osc2tx.diagnostics import Span
 from osc2tx.xosc.element import Unwritable
+
+WITHOUT_STOPS = Remedy(
+    profile="generic",
+    instead="a duration of each action, or a `parallel` of single actions, needs no stop",
+)
 
 
 class Flattener:
@@ -257,7 +267,8 @@ class Flattener:
                 node, end_within_duration(builder, node, start, body(start), "racer")
             )
         role: Role = "in a race" if self._is_racing else "alone"
-        if is_single(node):
+        needs_no_stop = not self._ctx.profile.has_act_stop and starts_at_once(node)
+        if is_single(node) or needs_no_stop:
             outer, builder.is_race = builder.is_race, True
             end = end_within_duration(builder, node, start, body(start), role)
             builder.is_race = outer
@@ -278,7 +289,7 @@ class Flattener:
         ctx, builder = self._ctx, self._builder
         if not ctx.profile.has_act_stop and not ir.is_last(ctx.scenario.body, node):
             reason = f"{ctx.profile.name} looks at events of an act again that has been stopped"
-            raise Inexpressible(reason, node.span, GENERIC)
+            raise Inexpressible(reason, node.span, WITHOUT_STOPS)
         name = f"act_{builder.name_of(node)}"
         act = builder.open_act(name, start)
         end = body(builder.running(act))

@@ -97,6 +97,17 @@ def follows_route(node: ir.Behavior) -> bool:
     return any(route.type.name not in ("crossing", "path") for route in routes)
 
 
+def starts_at_once(node: ir.Behavior) -> bool:
+    """Whether all actions in a member start when it does: nothing in it is left to be stopped."""
+    match node:
+        case ir.Parallel(overlap=None, start_to_start=None, end_to_end=None, members=members):
+            return all(map(starts_at_once, members))
+        case ir.Invoke():
+            return True
+        case _:
+            return False
+
+
 def is_single(node: ir.Behavior) -> bool:
     """Whether nothing has to be stopped but one action: a leaf, or waits before and after it."""
     return _leaves(node) <= 1

@@ -175,9 +175,9 @@ def _longest(leaf: Leaf, target: float, profile: str, rate: float) -> float:
     """
     speed, tool = leaf.state.speed, leaf.ctx.profile.name
     if speed is None:
-        raise Inexpressible(
-            f"{tool} knows no rates, and nothing is known of the speed", None, GENERIC
-        )
+        known_speed = replace(GENERIC, instead="with `speed(…, at: start)` it can be written")
+        reason = f"{tool} knows no rates, and nothing is known of the speed"
+        raise Inexpressible(reason, None, known_speed)
     farthest = max(speed.low, speed.high, key=lambda each: abs(target - each))
     duration = course_of_speed(farthest, target, Pace(profile, rate), leaf.limits).duration
     reason = f"{tool} knows no rates, and the speed at the start is only known in the run"

@@ -10,6 +10,7 @@ from osc2tx.backends.xosc.actions.leaf import UNKNOWN_SPEED, Change, Changes, Le
 from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to, may_jump
 from osc2tx.backends.xosc.actions.speed.speed_elements import relative_speed, speed_action
+from osc2tx.backends.xosc.actions.speed.speed_notes import speed_then
 from osc2tx.backends.xosc.actions.speed.user_shapes import speed_by, user_shape
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import COMFORT, FASTEST, Course, Pace
@@ -174,8 +175,7 @@ def _rate_towards(
     """
     limits, mine = leaf.limits, leaf.state.known_speed
     faster, slower = COMFORT * limits.acceleration, COMFORT * limits.deceleration
-    states = leaf.ctx.at_start if leaf.is_start else leaf.ctx.states
-    theirs = states[reference.name].known_speed
+    theirs = speed_then(leaf, reference)
     if mine is None or theirs is None:
         bound = "until the speed is reached; the speed itself is exact"
     else:

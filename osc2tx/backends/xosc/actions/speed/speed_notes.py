@@ -145,6 +145,28 @@ def note_open_speed(leaf: Leaf) -> None:
         )
 
 
+def speed_then(leaf: Leaf, other: CastMember) -> float | None:
+    """Return the speed (m/s) of another actor at the start of an action; `None` if not known.
+
+    Members beside one another are written down one after the other: the state of an actor that acts
+    in one of them may be that before or after it.
+    """
+    if leaf.is_start:
+        return leaf.ctx.at_start[other.name].known_speed
+    body = leaf.ctx.scope.scenario.body
+    beside = list(ir.runs_beside(body, leaf.node))
+    may_act = any(_acts(member, other.actor.name) for member in beside)
+    if may_act or not ir.holds(leaf.ctx.scenario.body, leaf.node):
+        return steady_speed(leaf, other)
+    return leaf.ctx.states[other.name].known_speed
+
+
+def _acts(member: ir.Behavior, actor: str) -> bool:
+    """Whether an actor may act in a member."""
+    nodes = ir.walk_behaviors(member)
+    return actor in ir.actors_of(member) or any(isinstance(n, ir.InvokeScenario) for n in nodes)
+
+
 def steady_speed(leaf: Leaf, actor: CastMember) -> float | None:
     """Return the speed (m/s) that an actor has all the time; `None` if it may change."""
     start = leaf.ctx.at_start[actor.name].known_speed
