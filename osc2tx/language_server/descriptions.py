@@ -96,6 +96,8 @@ def describe(symbol: Symbol, model: SemanticModel | None) -> str:
             entries = find(f"{kind} {name}")
             if entries:
                 return as_markdown(entries[0]).split("\n", 2)[2].lstrip()
+        if topics := find_topics(_topic_name(symbol)):
+            return topic_as_markdown(topics[0])
     parts = [f"```osc\n{declaration(symbol)}\n```"]
     comments = _comments(symbol)
     if comments:
@@ -112,6 +114,15 @@ def _library_keys(symbol: Symbol) -> list[tuple[str, str]]:
     if isinstance(symbol, BehaviorSymbol):
         names.insert(0, symbol.qualified_name)
     return [(kind, name) for name in names if kind]
+
+
+def _topic_name(symbol: Symbol) -> str:
+    """Return how the reference calls a member of the library, or a unit."""
+    if isinstance(symbol, UnitSymbol):
+        return f"unit {symbol.name}"
+    owner = symbol.enum if isinstance(symbol, EnumMemberSymbol) else getattr(symbol, "owner", None)
+    name = getattr(owner, "qualified_name", getattr(owner, "name", ""))
+    return f"{name}.{symbol.name}"
 
 
 def declaration(symbol: Symbol) -> str:

@@ -115,6 +115,8 @@ def as_data(entry: Entry) -> dict[str, Any]:
 def topic_as_text(topic: Topic) -> str:
     """Return a topic for a terminal."""
     parts = [_topic_title(topic), _sentence(topic.meaning).replace("`", ""), topic.signature]
+    if topic.units:
+        parts.append(f"Units: {', '.join(topic.units)}")
     if topic.example:
         parts += ["Example:", indent(topic.example, INDENT)]
     return "\n\n".join(part for part in parts if part)
@@ -123,6 +125,8 @@ def topic_as_text(topic: Topic) -> str:
 def topic_as_markdown(topic: Topic) -> str:
     """Return a topic as a part of a page."""
     parts = [f"*{_topic_title(topic)}*", _sentence(topic.meaning), f"```\n{topic.signature}\n```"]
+    if topic.units:
+        parts.append("Units: " + ", ".join(f"`{unit}`" for unit in topic.units))
     if topic.example:
         parts += ["Example:", f"```\n{topic.example}\n```"]
     return "\n\n".join(part for part in parts if part) + "\n"
@@ -138,6 +142,7 @@ def topic_as_data(topic: Topic) -> dict[str, Any]:
         "section": topic.section,
         "meaning": topic.meaning,
         "example": topic.example,
+        "units": list(topic.units),
     }
 
 

@@ -29,6 +29,7 @@ class Topic:
         section: Of OpenSCENARIO DSL 2.2; empty if the text names none.
         meaning: Its description, whole sentences or a phrase.
         example: Lines that use it; empty without.
+        units: Of a member whose type, or the type of its result, is physical.
     """
 
     kind: str
@@ -38,6 +39,7 @@ class Topic:
     section: str = ""
     meaning: str = ""
     example: str = ""
+    units: tuple[str, ...] = ()
 
     @property
     def is_of_language(self) -> bool:
@@ -77,6 +79,7 @@ def _language() -> Iterator[Topic]:
 
 def _members() -> Iterator[Topic]:
     examples: Mapping[str, str] = _table()["methods"]
+    units = {each.name: each.units for each in declarations() if each.kind == "type"}
     for declaration in declarations():
         for member in declaration.members:
             name = f"{declaration.name}.{member.name}"
@@ -88,6 +91,7 @@ def _members() -> Iterator[Topic]:
                 section=member.section or declaration.section,
                 meaning=member.meaning,
                 example=examples.get(name, ""),
+                units=units.get(member.type.removeprefix("range of "), ()),
             )
 
 

@@ -98,7 +98,7 @@ def test_problems_fixes_completion_and_lenses(tmp_path: Path) -> None:
     assert ended.returncode == 0, ended.stderr
     seen = json.loads(ended.stdout)
     assert "error" not in seen, seen
-    (_, problem) = seen["problems"]
+    _, problem = seen["problems"]
     assert problem.splitlines()[:3] == ["unknown word `paralel`", "osc2tx", "OSC100"]
     assert seen["fixes"] == ["write `parallel`"]
     assert "change_lane" in seen["completion"]
