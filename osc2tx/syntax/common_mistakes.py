@@ -230,6 +230,9 @@ def _misspelt_composition(place: Place) -> Advice | None:
             f"write `{name} with:`" if len(name) <= 40 and "\n" not in name else "write ` with:`"
         )
         help_ = insert(place.table.span(end - 1, end - 1), " with", with_)
+        if place.kind(1) != t.INDENT:
+            colon = leave_out(place.table.span(end, end), "leave the `:` out")
+            return Advice("nothing stands below the `:` of an invocation", colon, end)
         return Advice("`with` is missing before the `:` of an invocation", help_)
     return None
 

@@ -47,6 +47,7 @@ BEHIND_A_CALL: Mapping[str, str] = {
 }
 
 
+BOUNDS = NUMBERS | {t.PHYSICAL, t.ID}
 _COLON, _LPAREN, _RPAREN, _BANG, _AT, _DOT = (t.PUNCTUATION[symbol] for symbol in ":()!@.")
 _STAR, _PERCENT = (t.PUNCTUATION[symbol] for symbol in "*%")
 _DOTS, _DOUBLE_COLON = t.PUNCTUATION[".."], t.PUNCTUATION["::"]
@@ -60,7 +61,8 @@ def label_of_two_words(place: Place) -> Advice | None:
     if types[line + 2] != _COLON or types[line + 3] == t.NEWLINE or place.at > line + 2:
         return None
     words = f"{place.table.text(line)}_{place.table.text(line + 1)}"
-    help_ = write(place.table.span(line, line + 1), words, f"write `{words}:`")
+    named = place.table.span(line, line + 1)
+    help_ = write(named, words, f"write `{words}:`", is_safe=False)
     return Advice("a label is a single word", help_, line + 1)
 
 
@@ -212,6 +214,8 @@ def range_without_brackets(place: Place) -> Advice | None:
     """`speed(10kph..20kph)`."""
     if place.kind() != _DOTS:
         return None
+    if place.kind(-1) not in BOUNDS or place.kind(1) not in BOUNDS:
+        return Advice("unexpected `..`", "a range is written `[from..to]`")
     lower, upper = place.text(-1), place.text(1)
     if place.kind(-1) in NUMBERS and place.kind(1) == t.PHYSICAL:  # one unit for both
         lower += upper.lstrip("0123456789.+-eE")

@@ -8,8 +8,10 @@ from collections.abc import Collection
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.diagnostics.fixes import Help, insert, leave_out, write
 from osc2tx.syntax import patterns
-from osc2tx.syntax.tokens import TokenTable
+from osc2tx.syntax.tokens import TokenTable, column_after
 
+# The end of a line, lines of blanks, and the indentation of what follows.
+_NEXT_LINE = re.compile(r"[ \t\r]*\n(?:[ \t\r]*\n)*([ \t]*)\S")
 _MAX_REPORTS = 100
 _OPERATORS = {"&&": "and", "&": "and", "||": "or"}
 _REPLACEMENTS = {
@@ -54,6 +56,8 @@ class LexicalErrors:
             help_ = self._without_brace(start, found)
         elif found == ";" and not self._rest_of_line(start + 1).strip():
             help_ = leave_out(span, _REPLACEMENTS[found])
+            if self._opens_block(start):
+                help_ = write(span, ":", "a block begins with `:`", is_safe=False)
         if found == "\\":
             help_ = "a backslash joins lines only as the last character of a line"
         elif found == "\0":
@@ -61,6 +65,13 @@ class LexicalErrors:
         self._report("OSC102", start, end, f"unexpected character {shown}", help_)
         self._table.damaged.append(start)
         return end
+
+    def _opens_block(self, start: int) -> bool:
+        """Whether the next line with something on it is further in than that of an offset."""
+        following = _NEXT_LINE.match(self._text, start + 1)
+        line = self._text[self._table.line_start(start) : start]
+        own = line[: len(line) - len(line.lstrip())]
+        return following is not None and column_after(following[1]) > column_after(own)
 
     def _without_brace(self, start: int, brace: str) -> Help:
         """Return how a brace becomes the colon of a block, or goes with its line."""

@@ -1,6 +1,7 @@
 """A session of VS Code with the packed extension, in headless Chromium: what its user sees.
 
-VS Code comes from the npm package of code-server, which serves it to a browser (`make test-vscode`).
+VS Code comes from the npm package of code-server, which serves it to a browser (see the
+`Makefile`).
 """
 
 from __future__ import annotations
