@@ -78,12 +78,11 @@ def _files() -> Iterator[tuple[str, str, os.stat_result]]:
             folders.append((name, os.path.dirname(spec.origin)))
         else:
             yield name, spec.origin, os.stat(spec.origin)
-    while folders:
+    while folders:  # a thousand files, looked at by each process: loops without calls of ours
         inner, folder = folders.pop()
-        with os.scandir(folder) as entries:
-            for entry in sorted(entries, key=lambda entry: entry.name):
-                name = f"{inner}/{entry.name}"
-                if entry.is_dir():
-                    folders.append((name, entry.path))
-                elif entry.name.endswith(_KINDS):
-                    yield name, entry.path, entry.stat()
+        for own in sorted(os.listdir(folder)):
+            path = f"{folder}/{own}"
+            if own.endswith(_KINDS):
+                yield f"{inner}/{own}", path, os.stat(path)
+            elif "." not in own and own != "__pycache__" and os.path.isdir(path):
+                folders.append((f"{inner}/{own}", path))

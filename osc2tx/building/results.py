@@ -221,6 +221,8 @@ def _dependencies(compilation: Compilation) -> tuple[Dependency, ...] | None:
     lookups = _lookups(compilation)
     if compilation.source is None or any(lookup.is_refused for lookup in lookups.values()):
         return None
+    if not lookups:
+        return ()  # which needs none of the modules that find out what is used
     from osc2tx.compilation.uses import whole_files
 
     exact = {str(path) for path in whole_files(compilation)}

@@ -43,7 +43,7 @@ class Receiver:
     value: ir.Expression
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)  # without slots: what differs in one field is made by a copy of a dict
 class LoweringContext:
     """The checked program and the place for complaints, while one scenario is lowered.
 
@@ -147,19 +147,29 @@ class LoweringContext:
 
     def at(self, place: Place) -> LoweringContext:
         """Return the context for an expression of a constraint."""
-        return replace(self, place=place, it=None)
+        return self._with(place=place, it=None)
 
     def with_it(self, it: ir.Expression) -> LoweringContext:
         """Return the context for an expression in which `it` is something."""
-        return replace(self, it=it)
+        return self._with(it=it)
+
+    def with_actor(self, actor: ir.Expression | None) -> LoweringContext:
+        """Return the context for members in which `actor` is something."""
+        return self._with(actor=actor)
 
     def with_local(self, name: str, value: ir.Expression) -> LoweringContext:
         """Return the context for an expression in which a parameter stands for something."""
-        return replace(self, locals={**self.locals, name: value})
+        return self._with(locals={**self.locals, name: value})
 
     def inside(self, receiver: Receiver) -> LoweringContext:
         """Return the context for the body of a method of a type."""
-        return replace(self, receiver=receiver, place=None, it=receiver.value)
+        return self._with(receiver=receiver, place=None, it=receiver.value)
+
+    def _with(self, **changes: object) -> LoweringContext:
+        """Return a context with other fields: `replace` would set all thirty, for each argument."""
+        made = object.__new__(LoweringContext)
+        made.__dict__.update(self.__dict__, **changes)
+        return made
 
     def quiet(self) -> LoweringContext:
         """Return a context to look ahead with: nothing is reported, and nothing is noted."""

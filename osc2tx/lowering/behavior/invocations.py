@@ -107,7 +107,7 @@ class InvocationLowering:
             if not (added := each.added):
                 continue
             place = Place(model=self._ctx.model, owner=callee, prefix=(node,), it=None)
-            ctx = replace(self._ctx.at(place), actor=actor or self._ctx.actor)
+            ctx = self._ctx.at(place).with_actor(actor or self._ctx.actor)
             attached.add(attached_context(ctx, each, added, name_of_member(node)), added)
 
     def _added_modifiers(
@@ -289,7 +289,7 @@ class InvocationLowering:
     ) -> ModifierLowering:
         ctx = self._ctx
         if ctx.actor is None and "actor" not in ctx.own_names:
-            ctx = replace(ctx, actor=actor)  # the scenario has none: it is that of the invocation
+            ctx = ctx.with_actor(actor)  # the scenario has none: it is that of the invocation
         return ModifierLowering(
             *(ctx, self._constraints, name_of_member(node), actor, behavior, (node,)),
             attached=attached or Attached(),

@@ -16,7 +16,6 @@ from osc2tx.lowering.value_types import lower_type
 from osc2tx.lowering.values.expressions import lower_expression
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast
-from osc2tx_shared.classes import replace
 
 MOVEMENT = "action_for_movable_object"
 """Base of all actions of the library that modifiers of movement may be applied to."""
@@ -88,7 +87,7 @@ def default_arguments(
     """
     names = {argument.parameter for argument in given}
     place = Place(model=ctx.model, owner=action, prefix=(node,), it=(node,))
-    inside = replace(ctx.at(place), actor=actor)
+    inside = ctx.at(place).with_actor(actor)
     arguments = []
     for parameter in _in_order_of_use(ctx, list(_parameters(action))):
         default = parameter.default

@@ -78,7 +78,7 @@ class ConstraintLowering:
 
     def with_actor(self, actor: ir.Expression | None) -> ConstraintLowering:
         """Return the same constraints, for expressions in which `actor` is something."""
-        return replace(self, ctx=replace(self.ctx, actor=actor))
+        return replace(self, ctx=self.ctx.with_actor(actor))
 
     def setting(self, key: Key, type_: types.Type) -> Setting:
         """Return the facts about a parameter; its constraints count as written from now on."""
