@@ -82,7 +82,7 @@ def measure(lines: int, file: Path) -> dict[str, list[float]]:
         found.setdefault("completion", []).append(
             milliseconds(
                 lambda edited=edited, offset=offset: completions(
-                    edited, offset, project.model_near(file, offset)
+                    edited, offset, project.model_near(file, offset), project.document(file).job
                 )
             )
         )

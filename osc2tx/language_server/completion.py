@@ -7,12 +7,14 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from lsprotocol import types as lsp
 
+from osc2tx.building.jobs import Job
 from osc2tx.catalogue import catalogue
 from osc2tx.language_server.contexts import Block, Cursor, OpenCall, cursor_at, path_before
 from osc2tx.language_server.descriptions import declaration
+from osc2tx.language_server.named_files import file_names
+from osc2tx.language_server.programs import Program
 from osc2tx.reference import Entry, Member, entries, find
 from osc2tx.semantics import SemanticModel
-from osc2tx.semantics.conversions import symbol_of
 from osc2tx.semantics.scope import is_subtype, supertypes
 from osc2tx.semantics.symbols import (
     ActorSymbol,
@@ -21,7 +23,6 @@ from osc2tx.semantics.symbols import (
     EnumSymbol,
     EventSymbol,
     FieldSymbol,
-    ListType,
     MethodSymbol,
     ModifierSymbol,
     ParameterSymbol,
@@ -45,75 +46,49 @@ _CONDITIONS = ("rise", "fall", "elapsed", "every")
 _TYPE_PLACE = re.compile(r"^\s*(?:global\s+|var\s+)?\w+(?:\s*,\s*\w+)*\s*:\s*(?:list\s+of\s+)?\w*$")
 _BASE_PLACE = re.compile(r"\b(?:inherits|extend|of)\s+\w*$")
 _NUMBER_PLACE = re.compile(r"(?<![\w.])\d+(?:\.\d+)?[A-Za-z_]*$")
+_EVENT_PLACE = re.compile(r"@(?:([\w.]*)\.)?\w*$")
+_EMIT_PLACE = re.compile(r"^\s*(?:\w+\s*:\s*)?emit\s+\w*$")
+_FIELD_HEADER = re.compile(r"(\w+)(?:\s*,\s*\w+)*\s*:\s*(?:list\s+of\s+)?[\w.]+\s+with:?$")
+_FIELD_VALUE = re.compile(r"^\s*(?:global\s+|var\s+)?\w+(?:\s*,\s*\w+)*\s*:\s*(\w+)\s*=")
+_COMPARED = re.compile(
+    r"([A-Za-z_][\w.\[\]]*)(?:\([^()]*\))?\s*(?:[=!<>]=|[<>]|in\b)\s*[\[\d.\w]*$"
+)
 _MEMBER_PLACE = re.compile(r"\.\w*$")
 _INVOCATION_PLACE = re.compile(r"^\s*(?:\w+\s*:\s*)*[\w.\[\]]*$")
 _START_OF_LINE = re.compile(r"^\s*\w*$")
 _BEHIND_LABEL = re.compile(r"^\s*\w+\s*:\s*\w*$")
 
 
-def completions(text: str, offset: int, model: SemanticModel | None) -> list[lsp.CompletionItem]:
+def completions(
+    text: str, offset: int, model: SemanticModel | None, job: Job
+) -> list[lsp.CompletionItem]:
     """Return what may stand at an offset, each once.
 
     Args:
         text: The text.
         offset: The place of the cursor.
         model: A program that is near to the text; without one, names of the library alone.
+        job: The file.
     """
+    files = file_names(text[text.rfind("\n", 0, offset) + 1 : offset], job)
+    if files is not None:
+        return [_item(name, Kind.File) for name in files]
     found: dict[str, lsp.CompletionItem] = {}
-    for item in _candidates(cursor_at(text, offset), _Program(model, offset)):
+    for item in _candidates(cursor_at(text, offset), Program(model, offset)):
         found.setdefault(item.label, item)
     return list(found.values())
 
 
-class _Program:
-    """The names of a program at an offset."""
-
-    def __init__(self, model: SemanticModel | None, offset: int) -> None:
-        self.model = model
-        self.symbols: Sequence[Symbol] = () if model is None else model.symbols
-        self.offset = offset
-
-    def owner(self, declared_at: int) -> TypeSymbol | None:
-        """Return the type whose declaration begins in the line of an offset."""
-        if self.model is None:
-            return None
-        root = self.model.root.span.source
-        here = [
-            symbol
-            for symbol in self.symbols
-            if isinstance(symbol, TypeSymbol)
-            and symbol.span.source.name == root.name
-            and symbol.span.start >= declared_at
-        ]
-        return min(here, key=lambda symbol: symbol.span.start, default=None)
-
-    def of(self, kinds: type | tuple[type, ...]) -> list[Symbol]:
-        """Return the declarations of some kinds."""
-        return [symbol for symbol in self.symbols if isinstance(symbol, kinds)]
-
-    def type_of(self, path: str, owner: TypeSymbol | None) -> TypeSymbol | None:
-        """Return the type of the object that a dotted name reaches."""
-        current = owner
-        for step in filter(None, re.split(r"[.]|\[\d+\]", path)):
-            if current is None or step == "it":
-                continue
-            member = next(
-                (type_.members[step] for type_ in supertypes(current) if step in type_.members),
-                None,
-            )
-            type_ = getattr(member, "type", None)
-            if isinstance(type_, ListType):
-                type_ = type_.element
-            current = None if type_ is None else symbol_of(type_)
-        return current if path else None
-
-
-def _candidates(cursor: Cursor, program: _Program) -> Iterator[lsp.CompletionItem]:
+def _candidates(cursor: Cursor, program: Program) -> Iterator[lsp.CompletionItem]:
     before, owner = cursor.before, program.owner(cursor.declaration)
-    if re.search(r"@[\w.]*$", before):
-        yield from _events(owner, program)
+    declared = _FIELD_HEADER.match(cursor.header)
+    program.it = program.type_of(declared[1], owner) if declared else None
+    if found := _EVENT_PLACE.search(before):
+        yield from _events(found[1] or "", owner, program)
+    elif _EMIT_PLACE.match(before):
+        yield from _declared_events(owner)
     elif _NUMBER_PLACE.search(before):
-        yield from _units(program)
+        yield from _units(_expected(cursor, owner, program), program)
     elif _MEMBER_PLACE.search(before):
         path = path_before(before.rpartition(".")[0])
         yield from _members(program.type_of(path, owner), cursor, program)
@@ -136,7 +111,7 @@ def _item(
 
 
 def _statements(
-    cursor: Cursor, owner: TypeSymbol | None, program: _Program
+    cursor: Cursor, owner: TypeSymbol | None, program: Program
 ) -> Iterator[lsp.CompletionItem]:
     if cursor.block is Block.WITH:
         yield from _modifiers(cursor.header, owner, program)
@@ -159,7 +134,7 @@ def _fields(owner: TypeSymbol | None) -> Iterator[lsp.CompletionItem]:
 
 
 def _members(
-    reached: TypeSymbol | None, cursor: Cursor, program: _Program
+    reached: TypeSymbol | None, cursor: Cursor, program: Program
 ) -> Iterator[lsp.CompletionItem]:
     """Yield what may follow the dot behind an object: its actions where it acts, its members."""
     if reached is None:
@@ -175,7 +150,7 @@ def _members(
             yield _item(name, kind, declaration(member))
 
 
-def _behaviors(actor: ActorSymbol, program: _Program) -> Iterator[BehaviorSymbol]:
+def _behaviors(actor: ActorSymbol, program: Program) -> Iterator[BehaviorSymbol]:
     known: Iterable[Symbol] = () if program.model is None else program.model.actions
     for each in (*known, *program.symbols):
         if isinstance(each, BehaviorSymbol) and not isinstance(each, ModifierSymbol):
@@ -184,7 +159,7 @@ def _behaviors(actor: ActorSymbol, program: _Program) -> Iterator[BehaviorSymbol
                 yield each
 
 
-def _behavior(path: str, owner: TypeSymbol | None, program: _Program) -> BehaviorSymbol | None:
+def _behavior(path: str, owner: TypeSymbol | None, program: Program) -> BehaviorSymbol | None:
     """Return the behavior that a dotted name invokes."""
     receiver, _, name = path.rpartition(".")
     if not receiver:
@@ -204,7 +179,7 @@ def _invoked(header: str) -> str:
 
 
 def _modifiers(
-    header: str, owner: TypeSymbol | None, program: _Program
+    header: str, owner: TypeSymbol | None, program: Program
 ) -> Iterator[lsp.CompletionItem]:
     behavior = _behavior(_invoked(header), owner, program)
     names = set()
@@ -224,7 +199,7 @@ def _modifiers(
 
 
 def _arguments(
-    call: OpenCall, cursor: Cursor, owner: TypeSymbol | None, program: _Program
+    call: OpenCall, cursor: Cursor, owner: TypeSymbol | None, program: Program
 ) -> Iterator[lsp.CompletionItem]:
     parameters = _parameters(call, cursor, owner, program)
     name, colon, _ = call.argument.partition(":")
@@ -241,7 +216,7 @@ def _arguments(
 
 
 def _parameters(
-    call: OpenCall, cursor: Cursor, owner: TypeSymbol | None, program: _Program
+    call: OpenCall, cursor: Cursor, owner: TypeSymbol | None, program: Program
 ) -> list[tuple[str, str]]:
     """Return the parameters of what is called, with their types."""
     receiver, _, name = call.callee.rpartition(".")
@@ -271,7 +246,7 @@ def _library_parameters(name: str) -> Sequence[Member]:
     return found[0].declaration.members if found else ()
 
 
-def _values_of(type_: str, program: _Program) -> Iterator[lsp.CompletionItem]:
+def _values_of(type_: str, program: Program) -> Iterator[lsp.CompletionItem]:
     """Yield the values of a type that have names."""
     if type_ == "bool":
         yield from (_item(word, Kind.Keyword) for word in ("true", "false"))
@@ -283,7 +258,7 @@ def _values_of(type_: str, program: _Program) -> Iterator[lsp.CompletionItem]:
             yield _item(member.name, Kind.EnumMember, member.meaning or type_)
 
 
-def _values(owner: TypeSymbol | None, program: _Program) -> Iterator[lsp.CompletionItem]:
+def _values(owner: TypeSymbol | None, program: Program) -> Iterator[lsp.CompletionItem]:
     yield from _fields(owner)
     for word in _CONDITIONS:
         yield _item(word, Kind.Function, "event condition", f"{word}()")
@@ -291,9 +266,13 @@ def _values(owner: TypeSymbol | None, program: _Program) -> Iterator[lsp.Complet
         yield _item(word, Kind.Keyword)
 
 
-def _events(owner: TypeSymbol | None, program: _Program) -> Iterator[lsp.CompletionItem]:
+def _events(path: str, owner: TypeSymbol | None, program: Program) -> Iterator[lsp.CompletionItem]:
+    """Yield the events behind an `@` and a dotted name, which may be empty."""
     for word in ("start", "end", "fail"):
         yield _item(word, Kind.Event)
+    if path:
+        yield from _declared_events(program.type_of(path, owner))
+        return
     for type_ in () if owner is None else supertypes(owner):
         for name, member in type_.members.items():
             if isinstance(member, EventSymbol):
@@ -304,12 +283,38 @@ def _events(owner: TypeSymbol | None, program: _Program) -> Iterator[lsp.Complet
                     yield _item(name, Kind.Field, declaration(member))
 
 
-def _units(program: _Program) -> Iterator[lsp.CompletionItem]:
-    for unit in () if program.model is None else program.model.known_units:
+def _declared_events(owner: TypeSymbol | None) -> Iterator[lsp.CompletionItem]:
+    for type_ in () if owner is None else supertypes(owner):
+        for name, member in type_.members.items():
+            if isinstance(member, EventSymbol):
+                yield _item(name, Kind.Event, declaration(member))
+
+
+def _expected(cursor: Cursor, owner: TypeSymbol | None, program: Program) -> str:
+    """Return the type that the number at the cursor should have; empty if that is open."""
+    compared = _COMPARED.search(cursor.before)
+    if compared and compared[1] not in _CONDITIONS:
+        return program.value_of(compared[1], owner)
+    if cursor.call is None:
+        declared = _FIELD_VALUE.match(cursor.before)
+        return declared[1] if declared else ""
+    if cursor.call.callee in ("elapsed", "every", "wait"):
+        return "time"
+    parameters = _parameters(cursor.call, cursor, owner, program)
+    name = cursor.call.argument.partition(":")[0].strip() if ":" in cursor.call.argument else ""
+    by_place = [type_ for _, type_ in parameters[cursor.call.index : cursor.call.index + 1]]
+    found = dict(parameters).get(name, "") if name else "".join(by_place)
+    return found.removeprefix("range of ")
+
+
+def _units(type_: str, program: Program) -> Iterator[lsp.CompletionItem]:
+    """Yield the units of a type; all units if it has none."""
+    known = () if program.model is None else program.model.known_units
+    for unit in [each for each in known if str(each.type) == type_] or known:
         yield _item(unit.name, Kind.Unit, str(unit.type))
 
 
-def _types(program: _Program) -> Iterator[lsp.CompletionItem]:
+def _types(program: Program) -> Iterator[lsp.CompletionItem]:
     for symbol in program.of((TypeSymbol, EnumSymbol)):
         if not isinstance(symbol, ModifierSymbol):
             yield _item(symbol.name, Kind.Class, declaration(symbol))
@@ -323,7 +328,7 @@ def _types(program: _Program) -> Iterator[lsp.CompletionItem]:
 
 def signature(text: str, offset: int, model: SemanticModel | None) -> lsp.SignatureHelp | None:
     """Return the parameters of the call in whose parentheses an offset is."""
-    cursor, program = cursor_at(text, offset), _Program(model, offset)
+    cursor, program = cursor_at(text, offset), Program(model, offset)
     call = cursor.call
     if call is None:
         return None

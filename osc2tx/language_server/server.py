@@ -168,13 +168,14 @@ def _questions(server: OscServer) -> None:
         ]
 
     @server.feature(
-        lsp.TEXT_DOCUMENT_COMPLETION, lsp.CompletionOptions(trigger_characters=[".", "@", "(", ":"])
+        lsp.TEXT_DOCUMENT_COMPLETION,
+        lsp.CompletionOptions(trigger_characters=[".", "@", "(", ":", '"']),
     )
     def completion(params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
         document = server.of(params.text_document)
         offset = offset_of(document.source, params.position)
         model = server.project.model_near(path_of(document.uri), offset)
-        return completions(document.text, offset, model)
+        return completions(document.text, offset, model, document.job)
 
     @server.feature(
         lsp.TEXT_DOCUMENT_SIGNATURE_HELP, lsp.SignatureHelpOptions(trigger_characters=["(", ","])

@@ -222,6 +222,34 @@ def test_completion_in_unfinished_texts(editor: Editor) -> None:
     assert "scenario" in completed(editor, "empty.osc", "import osc.standard\n|")
 
 
+def test_completion_fits_the_place(editor: Editor) -> None:
+    """Units of the expected type, events to emit, members of `it`, maps and modules."""
+
+    def offered(line: str) -> list[str]:
+        text = FINE.replace("    do parallel:", f"    event done\n    do parallel:\n{line}")
+        return completed(editor, "places/fitting.osc", text)
+
+    all_units = {"kph", "m", "s", "deg"}
+
+    def units(line: str) -> set[str]:
+        return all_units & set(offered(line))
+
+    assert units("        ego.change_speed(5|") == {"kph"}
+    assert units("        wait ego.space_gap(leader) > 5|") == {"m"}
+    assert units("        wait elapsed(5|") == {"s"}
+    assert units("        wait 5|") == all_units
+    assert offered("        emit |") == ["done"]
+    assert set(offered("        wait @leader.|")) == {"start", "end", "fail"}
+    head = FINE.replace(
+        "    ego: vehicle", "    road: map with:\n        keep(it.|)\n    ego: vehicle"
+    )
+    assert "map_file" in completed(editor, "places/it.osc", head)
+    named = head.replace("it.|", 'it.map_file == "|"')
+    assert "highway.xodr" in completed(editor, "places/maps.osc", named)
+    modules = completed(editor, "places/modules.osc", "import |\n")
+    assert {"osc.standard", "fitting"} <= set(modules)
+
+
 def test_signatures(editor: Editor) -> None:
     text = FINE.replace("drive(duration: 5s)", "change_lane(1, )")
     uri = editor.open("signature.osc", text)

@@ -42,7 +42,7 @@ def ask_everything(project: Project, path: Path, text: str, offset: int) -> int:
     decorations.lenses(document, uri)
     model = project.model_near(path, offset)
     signature(text, offset, model)
-    return len(completions(text, offset, model))
+    return len(completions(text, offset, model, document.job))
 
 
 @pytest.mark.slow

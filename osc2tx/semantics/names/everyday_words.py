@@ -112,7 +112,6 @@ UNITS: Mapping[str, str] = {
     "ms2": "mpss",
     "mps2": "mpss",
     "mss": "mpss",
-    "kmph": "kph",
     "m_s": "mps",
     "degrees": "deg",
 }
