@@ -588,3 +588,53 @@ def test_a_heading_counts_from_the_road_on_both_carriageways(shell: Shell) -> No
     assert end["x"] == pytest.approx(start["x"], abs=1e-6)
     assert (start["lane"] < 0.0) is not (end["lane"] < 0.0)
     assert abs(end["y"] - start["y"]) == pytest.approx(9.0, abs=1e-3)
+
+
+def test_one_that_is_kept_relative_to_another_enters_with_its_speed(shell: Shell) -> None:
+    """Its place at the start and at the end are stated, its speed is open."""
+    run = Run(
+        shell,
+        """    do parallel:
+        lead.drive(duration: 8s) with:
+            lane(2, at: start)
+            position(100m, at: start)
+            speed(20mps)
+        serial:
+            wait elapsed(2s)
+            npc.drive(duration: 6s) with:
+                lane(side_of: lead, side: left)
+                position(25m, behind: lead, at: start)
+                position(15m, ahead_of: lead, at: end)
+""",
+    )
+    assert run.ended.code == 0, run.ended.err
+    assert run.at("npc", 2.0)["v"] == pytest.approx(20.0, abs=1e-6)
+    for time, ahead in ((2.0, -25.0), (8.0, 15.0)):
+        assert run.at("npc", time)["x"] - run.at("lead", time)["x"] == pytest.approx(ahead, abs=0.1)
+    assert run.moves_steadily("npc")
+
+
+@pytest.mark.parametrize("seed", ["0", "1", "2", "3"])
+def test_what_holds_at_the_end_of_a_range_of_durations_is_planned(shell: Shell, seed: str) -> None:
+    run = Run(
+        shell,
+        """    do parallel:
+        lead.drive() with:
+            lane(2, at: start)
+            position(100m, at: start)
+            speed(20mps)
+        npc.drive(duration: [4s..6s]) with:
+            lane(3, at: start)
+            position(30m, ahead_of: lead, at: start)
+            speed(20mps, at: start)
+            lane(2, at: end)
+            position(40m, ahead_of: lead, at: end)
+""",
+        "--seed",
+        seed,
+    )
+    assert run.ended.code == 0, run.ended.err
+    lead, npc = run.states("lead")[-1], run.states("npc")[-1]
+    assert 4.0 < npc["t"] < 6.0
+    assert npc["x"] - lead["x"] == pytest.approx(40.0, abs=0.1)
+    assert npc["y"] == pytest.approx(lead["y"], abs=0.05)

@@ -115,7 +115,7 @@ def test_a_place_on_a_route(position: str) -> None:
     assert placed[:2] == pytest.approx((at.x, at.y))
 
 
-def test_at_the_end_of_its_road_an_entity_has_no_track() -> None:
+def test_at_the_end_of_its_road_an_entity_stands() -> None:
     evaluator = Evaluator(TEXT, MAP, 0.05)
     body = next(iter(evaluator.bodies.values()))
     body.v = 50.0
@@ -125,4 +125,5 @@ def test_at_the_end_of_its_road_an_entity_has_no_track() -> None:
     body.note_motion(body.here, 1.0)
     assert (body.v, body.beyond) == (0.0, 2.0)
     evaluator.play(1.0)
-    assert evaluator.track[body.name] == []
+    assert evaluator.ends == {body.name: 0.0}
+    assert {row[1:] for row in evaluator.track[body.name]} == {(*body.here[:2], 0.0)}

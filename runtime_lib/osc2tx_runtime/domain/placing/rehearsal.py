@@ -108,7 +108,7 @@ class Rehearsal(Entries):
         here = world.state(actor.id)
         fixed = any(isinstance(m, Position | Along | AlongTrajectory | OnPath) for m in demands)
         initial = self._placed(actor, demands, None if fixed else here)
-        speed = self._kept_speed(demands) if initial.speed is None else initial.speed
+        speed = self._open_speed(action) if initial.speed is None else initial.speed
         self.arrivals[actor.id] = Arrival(
             *(actor.id, self._context.step, initial.at, speed, initial.heading, initial.tilt),
             *(fixed, actor.shape, world.limits(actor.id), actor.lane_bound),
@@ -135,12 +135,18 @@ class Rehearsal(Entries):
         draws = self._context.random_for(f"{actor.id} start")
         return Placer(world).initial_state(actor, demands, here, taken_by=taken_by, draws=draws)
 
-    def _kept_speed(self, demands: Sequence[Modifier]) -> float:
-        """Return the speed (m/s) of an actor whose place is kept relative to another one."""
-        for each in demands:
-            if isinstance(each, Position) and each.reference is not None and each.at == "all":
-                return self._context.world.state(each.reference.id).v
-        return 0.0
+    def _open_speed(self, action: BaseAction) -> float:
+        """Return the speed (m/s) of an actor for which nothing states one.
+
+        It is that of the reference relative to which its place is kept, or is to be at the start
+        and at the end.
+        """
+        places = [m for m in action.modifiers if isinstance(m, Position) and m.reference]
+        references = {place.reference.id for place in places if place.reference is not None}
+        times = {place.at for place in places}
+        if len(references) != 1 or not ("all" in times or times == {"start", "end"}):
+            return 0.0
+        return self._context.world.state(references.pop()).v
 
 
 def _missed(road_map: RoadMap, here: ActorState, there: LanePosition | Pose) -> float:

@@ -271,4 +271,7 @@ class ModifiedMotion(MotionAction):
         if self._phase is not None:
             return self._phase.left * self.context.dt
         known = super().time_left()
+        if known is None and self._limits is not None and self.registered.ends == "open":
+            steps = self._limits.open_left
+            known = None if steps is None else steps * self.context.dt
         return self.planned - self.elapsed if known is None and self.planned else known

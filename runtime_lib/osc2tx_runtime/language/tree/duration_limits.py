@@ -107,6 +107,13 @@ class DurationLimits:
         """Steps until the least duration is over."""
         return self._low[0] - self._node.context.step
 
+    @property
+    def open_left(self) -> int | None:
+        """Steps until the end of open-ended content; None if something else may end it."""
+        if self.until or self._node.context.first_come or math.isinf(self._seconds[1]):
+            return None
+        return self._end[0] - self._node.context.step
+
     def is_early(self, late: float) -> bool:
         """Return whether an end at this step is before the least duration is over.
 
