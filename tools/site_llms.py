@@ -13,19 +13,28 @@ from typing import Any
 NAME = "llms.txt"
 LONGEST = 160  # characters of a description
 _PROSE = re.compile(r"(?m)^(?![#|>!<`\-*:]|\d+\.|\s)\S.*(?:\n(?![#|>!<`\-*:\n]).*)*")
+_TITLE = re.compile(r"(?m)^# (.+)$")
 _LINK = re.compile(r"\[([^\]]+)\]\([^)]*\)")
 
 _text = ""
 
 
-def on_nav(nav: Any, config: Any, **_: Any) -> Any:
+def on_nav(nav: Any, config: Any, files: Any) -> Any:
     """List the pages; called by mkdocs."""
     global _text
     sections: dict[str, list[str]] = {}
+    in_nav = set()
     for section, title, page in _pages(nav.items, ""):
+        in_nav.add(page.file.src_uri)
         sections.setdefault(section, []).append(
             line_of(title, page.file.url, page.file.content_string)
         )
+    for file in files.documentation_pages():  # those of single diagnostics, by their folder
+        if file.src_uri not in in_nav:
+            section = file.src_uri.partition("/")[0].capitalize()
+            title = _TITLE.search(file.content_string)
+            line = line_of(title[1] if title else file.name, file.url, file.content_string)
+            sections.setdefault(section, []).append(line)
     _text = document(config.site_name, config.site_description, sections)
     return nav
 

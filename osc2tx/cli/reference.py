@@ -43,15 +43,16 @@ def _told(found: list[Topic], *, is_long: bool) -> list[str]:
 
 
 @click.command()
-@click.argument("name", required=False, shell_complete=_complete)
+@click.argument("words", nargs=-1, metavar="[NAME]", shell_complete=_complete)
 @click.option("--json", "as_json", is_flag=True, help="Print plain data.")
-def reference(name: str | None, as_json: bool) -> None:
+def reference(words: tuple[str, ...], as_json: bool) -> None:
     """Describe a name of the library or a construct of the language.
 
     NAME is `drive`, `vehicle.drive`, `action vehicle.drive`, a method such as `space_gap`, a word
     of the language such as `until`, a unit, or the code of a diagnostic. Without it, the
     declarations of the library and the constructs of the language are listed.
     """
+    name = " ".join(words) or None
     code = None if name is None else find_code(name)
     if code is not None:
         if as_json:

@@ -82,6 +82,24 @@ def test_the_list_for_language_models_has_a_sentence_for_each_page() -> None:
     assert without == []
 
 
+def test_the_list_for_language_models_has_every_page() -> None:
+    def file(place: str, text: str) -> SimpleNamespace:
+        url = place.replace(".md", ".html")
+        return SimpleNamespace(src_uri=place, url=url, name=place, content_string=text)
+
+    start, code = file("index.md", "# Start\n\nIt compiles.\n"), "diagnostics/osc100.md"
+    files = [start, file(code, "# OSC100: syntax\n\nA text is wrong.\n")]
+    page = SimpleNamespace(is_section=False, is_page=True, title="Start", file=start)
+    LLMS["on_nav"](
+        SimpleNamespace(items=[page]),
+        SimpleNamespace(site_name="osc2tx", site_description="Compiles."),
+        SimpleNamespace(documentation_pages=lambda: files),
+    )
+    text = LLMS["on_nav"].__globals__["_text"]
+    assert "## Start\n\n- [Start](index.html): It compiles\n" in text
+    assert "- [OSC100: syntax](diagnostics/osc100.html): A text is wrong\n" in text
+
+
 @pytest.mark.slow
 def test_a_picture_shows_what_the_run_does() -> None:
     """One lane to the right within 3 s, from the second lane of the highway, 3.5 m away."""

@@ -92,7 +92,7 @@ def test_bundled_packages_have_one_version_each() -> None:
 @pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
 @pytest.mark.skipif(not BUNDLE.is_file(), reason="not bundled: `make vscode`")
 def test_the_bundle_starts_the_server_and_shows_all(tmp_path: Path) -> None:
-    """In place of VS Code, whose downloads need its maker's hosts, a stand-in of its module."""
+    """With a stand-in of the module `vscode`; `tests/vscode` has a session of VS Code itself."""
     pytest.importorskip("pygls")
     path = tmp_path / "cut_in.osc"
     text = (REPOSITORY / "docs/recipes/cut_in_at_gap.osc").read_text(encoding="utf-8")

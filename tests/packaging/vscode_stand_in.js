@@ -27,7 +27,7 @@ function anything() {
     get(target, name) {
       if (name in target || typeof name === "symbol" || name === "then") return target[name];
       if (/^on[A-Z]/.test(name)) return event;
-      if (/^register|^create/.test(name)) return () => disposable;
+      if (/^register|^create/.test(name)) return () => partly(disposable);
       if (!known.has(name)) known.set(name, anything());
       return known.get(name);
     },
