@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from functools import lru_cache
+from typing import NamedTuple
 
 from osc2tx.diagnostics import InternalCompilerError
 
@@ -35,10 +37,68 @@ def format_module(text: str) -> str:
     except SyntaxError as error:
         raise InternalCompilerError(f"generated module is not valid Python: {error}") from error
     lines = text.split("\n")
-    for statement in reversed([*_doubtful(tree.body, lines)]):
-        first, last = _first_line(statement) - 1, statement.end_lineno
-        lines[first:last] = _in_style(lines[first:last], statement.col_offset)
+    parts = [part for each in _doubtful(tree.body, lines) for part in _parts(each, lines)]
+    for part in reversed(parts):
+        written = tuple(lines[part.first : part.last])
+        in_style = _argument_in_style if part.is_argument else _in_style
+        lines[part.first : part.last] = in_style(written, part.column)
     return "\n".join(lines)
+
+
+class _Part(NamedTuple):
+    """Lines that black is asked for.
+
+    Attributes:
+        first: The first line, from 0 on.
+        last: The line behind the last one.
+        column: Where they begin.
+        is_argument: They are not a statement, but one of several arguments, with its comma.
+    """
+
+    first: int
+    last: int
+    column: int
+    is_argument: bool
+
+
+def _parts(statement: ast.stmt, lines: Sequence[str]) -> list[_Part]:
+    """Return what black is asked for of a statement: doubtful arguments, or else all of it.
+
+    Black lays each of several arguments out by itself, once their call has several lines.
+    """
+    assert statement.end_lineno is not None, "it was parsed"
+    whole = _Part(_first_line(statement) - 1, statement.end_lineno, statement.col_offset, False)
+    arguments = sorted(_arguments(statement, lines), key=lambda part: part.last - part.first)
+    found: set[_Part] = set()
+    for number in range(whole.first, whole.last):
+        if _may_change(lines[number], *_beside(lines, number, number + 1)):
+            around = (each for each in arguments if each.first <= number < each.last)
+            found.add(next(around, whole))
+    outer = [each for each in found if not any(_is_inside(each, other) for other in found)]
+    return sorted(outer) if outer else [whole]
+
+
+def _is_inside(part: _Part, other: _Part) -> bool:
+    return part != other and other.first <= part.first and part.last <= other.last
+
+
+def _arguments(statement: ast.stmt, lines: Sequence[str]) -> Iterator[_Part]:
+    """Yield the arguments that have lines of their own, with a comma, and no comments beside."""
+    for call in ast.walk(statement):
+        if not isinstance(call, ast.Call) or len(call.args) + len(call.keywords) < 2:
+            continue
+        for each in (*call.args, *call.keywords):
+            assert each.end_lineno is not None, "it was parsed"
+            first, last = each.lineno - 1, each.end_lineno
+            is_alone = not lines[first][: each.col_offset].strip()
+            has_comma = lines[last - 1].encode()[each.end_col_offset :] == b","
+            if is_alone and has_comma and not any(map(_is_comment, _beside(lines, first, last))):
+                yield _Part(first, last, each.col_offset, True)
+
+
+def _beside(lines: Sequence[str], first: int, last: int) -> tuple[str, str]:
+    """Return the line above some lines, and the one below them."""
+    return lines[first - 1] if first else "", lines[last] if last < len(lines) else ""
 
 
 def _doubtful(body: Iterable[ast.stmt], lines: list[str]) -> Iterator[ast.stmt]:
@@ -83,7 +143,14 @@ def _is_comment(line: str) -> bool:
     return line.lstrip().startswith("#")
 
 
-def _in_style(lines: list[str], column: int) -> list[str]:
+@lru_cache(maxsize=1024)  # many scenarios of a project have the same conditions
+def _argument_in_style(lines: tuple[str, ...], column: int) -> list[str]:
+    """Return what black makes of an argument beside another one."""
+    outer, inner = " " * (column - INDENT), " " * column
+    return _in_style((f"{outer}_(", f"{inner}_,", *lines, f"{outer})"), column - INDENT)[2:-1]
+
+
+def _in_style(lines: tuple[str, ...], column: int) -> list[str]:
     """Return what black makes of the lines of a statement, in classes down to its column."""
     from black import format_str
     from black.mode import Mode, TargetVersion
