@@ -11,7 +11,7 @@ from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.player.courses import Course, number
 from osc2tx.xosc.player.errors import Unplayable
-from osc2tx_runtime.opendrive import LanePosition, RoadMap, Route
+from osc2tx_runtime.opendrive import LaneCursor, LanePosition, RoadMap, Route
 from osc2tx_shared.classes import dataclass
 
 LONGITUDINAL, LATERAL = "longitudinal", "lateral"
@@ -54,6 +54,9 @@ class Body:
         beyond: Seconds since then.
         behind: Which body tows it, with the metres from that one's reference point back to the
             hitch, and from the coupler to its own reference point.
+        cursor: Moves it along its lane; made with the first step.
+        located: For what pose, place and direction of its lane it was looked up last, and where
+            it is then. Several conditions of a step ask for that.
     """
 
     name: str
@@ -77,6 +80,8 @@ class Body:
     is_at_end: bool = False
     beyond: float = 0.0
     behind: tuple[Body, float, float] | None = None
+    cursor: LaneCursor | None = None
+    located: tuple[Pose, LanePosition | None, int, LanePosition | None] | None = None
 
     @property
     def here(self) -> Pose:
@@ -91,9 +96,13 @@ class Body:
 
     def lane(self, road_map: RoadMap) -> LanePosition | None:
         """Return the driving lane in which its reference point is, else that of its nearest one."""
-        x, y, h = self.here
-        h = h if self.along > 0 else h + math.pi
-        return road_map.locate(x, y, None, h, hint=self.place)
+        pose, place, along, known = self.here, self.place, self.along, self.located
+        if known is not None and known[0] is pose and known[1] is place and known[2] == along:
+            return known[3]
+        h = pose.h if along > 0 else pose.h + math.pi
+        found = road_map.locate(pose.x, pose.y, None, h, hint=place)
+        self.located = pose, place, along, found
+        return found
 
     def in_lane(self, road_map: RoadMap) -> LanePosition:
         """Return the same lane, which there has to be.
@@ -144,10 +153,14 @@ class Body:
         if way == 0.0 and aside == 0.0:
             return
         onward = math.copysign(math.sqrt(max(way * way - aside * aside, 0.0)), way) * self.along
-        ahead = road_map.advance(self.place, onward, self.route)
-        left = abs(onward) - abs(ahead.travelled)
-        self.place = ahead.position._replace(offset=self.place.offset + aside)
-        pose = road_map.pose(self.place)
+        cursor = self.cursor = self.cursor or road_map.cursor()
+        place, left = cursor.moved(self.place, onward, self.place.offset + aside), 0.0
+        if place is None:
+            ahead = road_map.advance(self.place, onward, self.route)
+            left = abs(onward) - abs(ahead.travelled)
+            place = ahead.position._replace(offset=self.place.offset + aside)
+        self.place = place
+        pose = cursor.pose(place)
         turned = math.atan2(aside * self.along, abs(onward)) if onward else 0.0
         h = (pose.h if self.along > 0 else pose.h + math.pi) + turned
         self.pose = Pose(pose.x, pose.y, h)

@@ -251,8 +251,20 @@ class TraceWriter:
         """Write the lines of one instant: states, events, actions, then the other kinds."""
         if not self.enabled:
             return
+        if self._on_states is not None:
+            self._on_states(time, states)
+            states = ()
+            if not (self._events or self._actions or self._environment or self._others):
+                return
         t = f'{{"t":{number(time)},'
-        lines = self._lines_of_states(t, time, states)
+        lines: list[str] = []
+        written = self._written
+        for actor_id, state in states:
+            before = written.get(actor_id)
+            if before is None or before[0] != state:  # an actor at standstill is written once
+                text = f'"kind":"state","actor":{quoted(actor_id)},{state_json(state)}}}'
+                before = written[actor_id] = (state, text)
+            lines.append(t + before[1])
         for name, arguments in sorted(self._events):
             lines.append(f'{t}"kind":"event","name":{json.dumps(name)}{arguments}}}')
         lines.extend(f"{t}{text}}}" for _, _, text in sorted(self._actions))
@@ -265,21 +277,6 @@ class TraceWriter:
         self._actions.clear()
         self._others.clear()
         self._hand_over(lines)
-
-    def _lines_of_states(
-        self, t: str, time: float, states: Iterable[tuple[str, ActorState]]
-    ) -> list[str]:
-        if self._on_states is not None:
-            self._on_states(time, states)
-            return []
-        lines, written = [], self._written
-        for actor_id, state in states:
-            before = written.get(actor_id)
-            if before is None or before[0] != state:  # an actor at standstill is written once
-                text = f'"kind":"state","actor":{quoted(actor_id)},{state_json(state)}}}'
-                before = written[actor_id] = (state, text)
-            lines.append(t + before[1])
-        return lines
 
     def tree(self, nodes: Iterable[tuple[object, Mapping[str, int | str]]]) -> None:
         """Write when each node of the tree ran, see `NodeRuns`; after the last instant."""
