@@ -85,9 +85,10 @@ def _is_inside(part: _Part, other: _Part) -> bool:
 def _arguments(statement: ast.stmt, lines: Sequence[str]) -> Iterator[_Part]:
     """Yield the arguments that have lines of their own, with a comma, and no comments beside."""
     for call in ast.walk(statement):
-        if not isinstance(call, ast.Call) or len(call.args) + len(call.keywords) < 2:
+        if not isinstance(call, ast.Call):
             continue
-        for each in (*call.args, *call.keywords):
+        arguments: list[ast.expr | ast.keyword] = [*call.args, *call.keywords]
+        for each in arguments if len(arguments) > 1 else ():
             assert each.end_lineno is not None, "it was parsed"
             first, last = each.lineno - 1, each.end_lineno
             is_alone = not lines[first][: each.col_offset].strip()
