@@ -13,12 +13,17 @@ from osc2tx.importing.program import Statement
 from osc2tx.importing.routes import Routes
 from osc2tx.importing.speeds import Speeds
 from osc2tx.importing.surroundings import Surroundings
+from osc2tx.importing.synchrony import Synchrony
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Unresolved
 
 
 class Actions:
-    """Reads the actions of a document."""
+    """Reads the actions of a document.
+
+    Attributes:
+        readings: What their readers share.
+    """
 
     def __init__(
         self,
@@ -28,10 +33,10 @@ class Actions:
         name_of_mark: Callable[[str, str], str],
         emitted: set[str],
     ) -> None:
-        readings = Readings(values, places, actors)
+        self.readings = readings = Readings(values, places, actors)
         self._actors = actors
         self._speeds, self._offsets = Speeds(readings), Offsets(readings)
-        self._routes = Routes(readings)
+        self._routes, self._synchrony = Routes(readings), Synchrony(readings)
         self._surroundings = Surroundings(values, name_of_mark, emitted)
 
     @property
@@ -83,6 +88,6 @@ class Actions:
                 actor.is_under_test = True
                 node.use_all()
             case "SynchronizeAction":
-                yield from self._routes.synchronize(node, actor)
+                yield from self._synchrony.effects(node, said, actor)
             case _:
                 node.leave_out("the language has no such action")

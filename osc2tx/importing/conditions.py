@@ -63,6 +63,19 @@ class Trigger:
         """Whether nothing is waited for."""
         return not self.groups or any(not group for group in self.groups)
 
+    @property
+    def time(self) -> float:
+        """The time (s) up to which it waits, as far as times say it; nominal."""
+        return max(
+            (
+                each.quantity.value
+                for group in self.groups
+                for each in group
+                if each.quantity is not None
+            ),
+            default=0.0,
+        )
+
 
 class Conditions:
     """Reads the triggers of a document.

@@ -77,16 +77,7 @@ class Document:
         """Return the document as `resolved`, with other values of some parameters."""
         if not values:
             return self.resolved
-        declarations = [
-            (
-                node.with_children(*(_with_value(each, values) for each in node.children))
-                if node.tag == "ParameterDeclarations"
-                else node
-            )
-            for node in self.root.children
-        ]
-        other = Document(self.root.with_children(*declarations), self.path, (), self._folders)
-        return other.resolved
+        return Document(with_values(self.root, values), self.path, (), self._folders).resolved
 
     @property
     def folder(self) -> Path:
@@ -211,6 +202,19 @@ class Document:
             return find_map(relative.name, self._folders.maps)
         except ScenarioError:
             return None
+
+
+def with_values(root: Element, values: Mapping[str, str]) -> Element:
+    """Return a document with other values of some of its parameters."""
+    children = [
+        (
+            node.with_children(*(_with_value(each, values) for each in node.children))
+            if node.tag == "ParameterDeclarations"
+            else node
+        )
+        for node in root.children
+    ]
+    return root.with_children(*children)
 
 
 def _with_value(node: Element, values: Mapping[str, str]) -> Element:

@@ -44,6 +44,7 @@ class Readings:
         lanes: The lanes in which actors are by now; `None`: not known.
         offsets: The offsets (m) last commanded, to the left.
         speeds: The speeds last commanded; `None`: not known.
+        begin: Time (s) at which the event at hand starts, as far as times say it.
     """
 
     values: Values
@@ -52,6 +53,7 @@ class Readings:
     lanes: dict[str, int | None] = field(default_factory=dict)
     offsets: dict[str, float] = field(default_factory=dict)
     speeds: dict[str, Quantity | None] = field(default_factory=dict)
+    begin: float = 0.0
 
 
 class Reader:
@@ -60,7 +62,7 @@ class Reader:
     def __init__(self, readings: Readings) -> None:
         self._values, self._places, self._actors = readings.values, readings.places, readings.actors
         self._lanes, self._speeds = readings.lanes, readings.speeds
-        self._offsets = readings.offsets
+        self._offsets, self._readings = readings.offsets, readings
 
 
 def of_dynamics(node: Node) -> Dimension:

@@ -11,7 +11,7 @@ from osc2tx.importing.conditions import Conditions
 from osc2tx.importing.cursor import Ledger
 from osc2tx.importing.declarations import Declarations
 from osc2tx.importing.distributions import Distribution
-from osc2tx.importing.document import NOWHERE, Document, Folders, Refused
+from osc2tx.importing.document import NOWHERE, Document, Folders, Refused, with_values
 from osc2tx.importing.expressions import Untyped
 from osc2tx.importing.names import Names, snake
 from osc2tx.importing.places import Places
@@ -88,6 +88,8 @@ def import_document(
         raise Refused(f"<{root.tag}> is no document of OpenSCENARIO XML", root.place)
     if not any(child.tag == "Storyboard" for child in root.children):
         raise Refused("it has no storyboard", root.place)
+    if distribution is not None:  # what no parameter can stand for is that of the first run
+        root = with_values(root, distribution.first)
     document = Document(root, path, comments, folders)
     said = name or (path.stem if path else "scenario")
     try:

@@ -11,19 +11,19 @@ from collections.abc import Sequence
 from dataclasses import field
 from itertools import pairwise
 
-from osc2tx.importing.cast import bodies_of
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import ANGLE, LENGTH, PRODUCT, SUM, Quantity, literal
 from osc2tx.importing.document import Document
+from osc2tx.importing.ground import Ground
 from osc2tx.importing.names import Names
 from osc2tx.importing.program import declaration
 from osc2tx.importing.starting import STRAIGHT, privates, teleports, wrapped
 from osc2tx.importing.values import Values
-from osc2tx.xosc.element import Element, Unresolved
-from osc2tx.xosc.player.bodies import Body, Pose, body_of
+from osc2tx.xosc.element import Unresolved
+from osc2tx.xosc.player.bodies import Pose
 from osc2tx.xosc.player.errors import Unplayable
-from osc2tx.xosc.player.places import place_of, waypoints
-from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap, read_map
+from osc2tx.xosc.player.places import waypoints
+from osc2tx_runtime.opendrive import LanePosition, MapError
 from osc2tx_shared.classes import dataclass
 
 
@@ -42,75 +42,21 @@ class Spot:
     yaw: str = ""
 
 
-class Places:
+class Places(Ground):
     """Positions of a document.
 
     Attributes:
-        map: The map; `None` without it.
-        bodies: The entities where they are at the start, as far as that is known.
         lines: Declarations of the points in the world.
     """
 
     def __init__(
         self, document: Document, values: Values, names: Names, actors: dict[str, str]
     ) -> None:
-        self._document, self._values, self._names = document, values, names
+        super().__init__(document)
+        self._values, self._names = values, names
         self._actors = actors
         self.lines: list[str] = []
-        self.map: RoadMap | None = None
-        if document.map_file is not None:
-            try:
-                self.map = read_map(document.map_file)
-            except MapError:
-                self.map = None
-        self.bodies: dict[str, Body] = {}
         self._declared: dict[tuple[float, float], str] = {}
-        self._place_bodies()
-
-    def _place_bodies(self) -> None:
-        """Put the entities at their places of `Init`, references before what is beside them."""
-        for element in bodies_of(self._document):
-            try:
-                body = body_of(element)
-            except (Unplayable, Unresolved, ValueError):
-                body = Body(element.get("name") or "", "Vehicle", 3.7, 0.9, 1.9, {})
-            self.bodies[body.name] = body
-        waiting = {
-            private.get("entityRef") or "": teleport
-            for private in privates(self._document.resolved)
-            for teleport in teleports(private)
-        }
-        for _ in range(len(waiting)):
-            for name, position in list(waiting.items()):
-                refs = [node.get("entityRef") for node in position.walk()]
-                if any(ref in waiting and ref != name for ref in refs):
-                    continue
-                del waiting[name]
-                found = self._static(position)
-                body_ = self.bodies.get(name)
-                if found is not None and body_ is not None and self.map is not None:
-                    try:
-                        body_.put(self.map, *found)
-                    except (Unplayable, MapError, ArithmeticError, LookupError):
-                        continue
-
-    def _static(self, position: Element) -> tuple[LanePosition | Pose, float | None] | None:
-        """Return the place of a resolved position at the start; `None` if it is not known."""
-        try:
-            inner = position.inner
-            if self.map is None and inner.tag != "WorldPosition":
-                return None
-            return place_of(inner, self.bodies, self.map)  # type: ignore[arg-type]
-        except (
-            Unplayable,
-            Unresolved,
-            MapError,
-            ValueError,
-            LookupError,
-            AssertionError,
-            AttributeError,
-        ):
-            return None
 
     # --- forms ------------------------------------------------------------------------------------
 
@@ -188,14 +134,10 @@ class Places:
                 node_pose = None
         if node_pose is None:
             return Spot(text, yaw=self._yaw(node, 0.0, 0.0))
-        found = self._static_of(node)
+        found = self.static_of(node)
         h = found[1] if found is not None and found[1] is not None else node_pose.h
         node.find("Orientation") and node.find("Orientation").use_all()  # type: ignore[union-attr]
         return Spot(text, yaw=_absolute(h))
-
-    def _static_of(self, inner: Node) -> tuple[LanePosition | Pose, float | None] | None:
-        wrapped = Element.of((), (self._document._resolve(inner.element),))
-        return self._static(wrapped)
 
     def _beside(self, node: Node, name: str, at_start: bool) -> Spot | None:
         """Return a place in lanes and metres beside another actor."""
@@ -206,7 +148,7 @@ class Places:
         lanes = int(self._values.nominal(node, "dLane"))
         if abs(self._values.nominal(node, "offset")) > 1e-9:
             return None
-        body, found = self.bodies.get(said), self._static_of(node)
+        body, found = self.bodies.get(said), self.static_of(node)
         direction = 1
         if self.map is not None and at_start:
             if (
@@ -238,7 +180,7 @@ class Places:
     def _beside_in_road(self, node: Node) -> Spot | None:
         """Return a place on the road of another actor, whose own place says where that is."""
         said = node.said("entityRef")
-        body, found = self.bodies.get(said), self._static_of(node)
+        body, found = self.bodies.get(said), self.static_of(node)
         start = next(
             (
                 position.inner
@@ -296,7 +238,7 @@ class Places:
     def _known(self, position: Node, name: str) -> Spot | None:
         """Return a place that is known: a point of a road, or of the world."""
         inner = position.inner
-        found = self._static_of(inner)
+        found = self.static_of(inner)
         if found is None:
             return None
         for element in inner.element.walk():
@@ -370,21 +312,6 @@ class Places:
         )
         self.lines.append(f"{made}: route = road.create_route([{points}])")
         return made
-
-    def coordinates(self, position: Node) -> tuple[float, float] | None:
-        """Return where a place is in the world, if that is known."""
-        found = self._static_of(position.inner)
-        if found is None:
-            return None
-        where, _ = found
-        if isinstance(where, LanePosition):
-            assert self.map is not None
-            try:
-                pose = self.map.pose(where)
-            except (MapError, LookupError):
-                return None
-            return pose.x, pose.y
-        return where.x, where.y
 
 
 def _odr_point(road: str, lane: str, s: str, t: str) -> str:

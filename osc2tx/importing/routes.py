@@ -6,14 +6,15 @@ from collections.abc import Iterator
 
 from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
-from osc2tx.importing.dimensions import SPEED, TIME, literal
-from osc2tx.importing.effects import BOTH, LATERAL, LONGITUDINAL, Effect, Reader
+from osc2tx.importing.dimensions import LENGTH, TIME, literal
+from osc2tx.importing.effects import BOTH, LATERAL, Effect, Reader
 from osc2tx.importing.places import Spot
 from osc2tx.importing.program import Statement
+from osc2tx.xosc.player.shapes import CHORD
 
 
 class Routes(Reader):
-    """Reads teleports, routes, trajectories and synchronizations."""
+    """Reads teleports, routes and trajectories."""
 
     def teleport(self, node: Node, said: str, actor: Actor) -> Iterator[Effect]:
         """Return what a teleport in the run does."""
@@ -73,36 +74,18 @@ class Routes(Reader):
         node.leave_out("the language has no such action")
 
     def _trajectory(self, node: Node, said: str, actor: Actor) -> Iterator[Effect]:
-        lines = [each for each in node.element.walk() if each.tag == "Polyline"]
-        if not lines:
-            node.leave_out("of trajectories only polylines are imported yet")
+        way = self._places.trajectory(node)
+        if way is None:
+            node.leave_out("the trajectory is not known before the run")
             return
-        points, times = [], []
-        for holder in node.children("TrajectoryRef", "Trajectory"):
-            trajectory = holder if holder.tag == "Trajectory" else holder.find("Trajectory")
-            if trajectory is None:
-                continue
-            for shape in trajectory.children("Shape"):
-                for vertex in (
-                    each for line in shape.children("Polyline") for each in line.children("Vertex")
-                ):
-                    found = self._places.coordinates(vertex.one("Position"))
-                    if found is None:
-                        node.leave_out("a corner of the trajectory is not known before the run")
-                        return
-                    vertex.use_all()
-                    if any(
-                        text.startswith("$")
-                        for each in vertex.element.walk()
-                        for _, text in each.attributes
-                    ):
-                        vertex.approximate("the corner keeps the place of its nominal values")
-                    times.append(self._values.nominal(vertex, "time"))
-                    points.append(self._places.pose(*found, actor.name))
+        if any(text.startswith("$") for each in node.element.walk() for _, text in each.attributes):
+            node.approximate("the trajectory is that of its nominal values")
+        if not any(each.tag == "Polyline" for each in self._places.resolved(node).walk()):
+            node.approximate(f"the curve is a polyline with chords {CHORD:g} m from it at most")
+        times = [time for time, _ in way]
+        points = [self._places.pose(pose.x, pose.y, actor.name) for _, pose in way]
         timed = any(each.tag == "Timing" for each in node.element.walk())
-        for name in ("initialDistanceOffset",):
-            if abs(self._values.nominal(node, name)) > 1e-9:
-                node.approximate(f"{name} has no counterpart in the DSL")
+        offset = self._values.quantity(node, "initialDistanceOffset", LENGTH)
         node.use_all()
         listed = ", ".join(points)
         told = f"points: [{listed}], interpolation: straight_line"
@@ -112,25 +95,8 @@ class Routes(Reader):
             made = f"trajectory(absolute: road.create_trajectory({told}, time_stamps: [{stamps}]))"
             length = times[-1] if times else None
         else:
-            made = f"path(absolute: road.create_path({told}))"
-        yield Effect(Statement(f"{actor.name}.replay_{made}", length=length), actor.name, BOTH)
+            begin = f", start_offset: {offset.text}" if offset.is_open or offset.value else ""
+            made = f"path(absolute: road.create_path({told}){begin})"
+        slots = BOTH if timed else frozenset((LATERAL,))
+        yield Effect(Statement(f"{actor.name}.replay_{made}", length=length), actor.name, slots)
         self._lanes[said] = None
-
-    def synchronize(self, node: Node, actor: Actor) -> Iterator[Effect]:
-        """Return what a synchronization does."""
-        final = node.find("FinalSpeed")
-        speed = None if final is None else next(final.children("AbsoluteSpeed"), None)
-        node.approximate(
-            "the time at which both reach their positions has no counterpart in the DSL; the actor"
-            " takes its final speed"
-        )
-        if speed is not None:
-            target = self._values.quantity(speed, "value", SPEED)
-            node.use_all()
-            yield Effect(
-                Statement(f"{actor.name}.change_speed(target: {target.text})"),
-                actor.name,
-                frozenset((LONGITUDINAL,)),
-            )
-        else:
-            node.leave_out("the actor goes on as it does")

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from osc2tx.importing.actions import Actions
 from osc2tx.importing.cast import Cast
 from osc2tx.importing.cursor import Node
+from osc2tx.importing.effects import LATERAL
 from osc2tx.importing.places import Places, Spot
 from osc2tx.importing.program import Statement, composed
 from osc2tx.importing.routes import Routes
@@ -33,6 +34,7 @@ class Starts:
         self._spots: dict[str, tuple[Spot, Node]] = {}
         self._speeds: dict[str, Statement] = {}
         self._ways: dict[str, Statement] = {}
+        self._paths: dict[str, Statement] = {}
         self._others: dict[str, list[Statement]] = {}
         self._references: dict[str, set[str]] = {}
         init = storyboard.find("Init")
@@ -76,7 +78,9 @@ class Starts:
                     self._ways[said] = way
                 continue
             for effect in self._actions.effects(action, (said,), at_start=True):
-                if effect.statement.text.startswith(f"{actor.name}.assign_speed("):
+                if effect.slots == {LATERAL} and effect.statement.length is None:
+                    self._paths[said] = effect.statement
+                elif effect.statement.text.startswith(f"{actor.name}.assign_speed("):
                     self._speeds[said] = effect.statement
                 else:
                     self._others.setdefault(said, []).append(effect.statement)
@@ -114,7 +118,7 @@ class Starts:
 
     def places(self, said: str) -> bool:
         """Whether an entity is put anywhere, or does anything."""
-        return said in self._spots or bool(self._others.get(said))
+        return said in self._spots or said in self._paths or bool(self._others.get(said))
 
     def starts(self, places: Places) -> dict[str, tuple[str, int, float]]:
         """Return the lanes in which actors are put, with the s (m) along their roads.
@@ -182,11 +186,15 @@ class Starts:
 
     def ways(self) -> list[Statement]:
         """Return what takes entities along routes from the start on."""
-        return list(self._ways.values())
+        return [*self._ways.values(), *self._paths.values()]
 
     def has_way(self, said: str) -> bool:
         """Whether an entity has a route from the start on."""
-        return said in self._ways
+        return said in self._ways or said in self._paths
+
+    def has_path(self, said: str) -> bool:
+        """Whether an entity is on a path from the start on, at any speed."""
+        return said in self._paths
 
     def lasting(self, said: str) -> list[Statement]:
         """Return what an entity does from the start on, and goes on with."""
@@ -203,7 +211,7 @@ class Starts:
         actor = self._cast.actors[said]
         return (
             []
-            if actor.is_free or said in self._ways
+            if said not in self._paths and (actor.is_free or said in self._ways)
             else [Statement(actor.goes_on, length=math.inf)]
         )
 

@@ -195,6 +195,7 @@ class BoardReader:
             return
         label = self._names.new(said, kind="event", base=short(said))
         effects: list[Effect] = []
+        self._actions.readings.begin = max(act.time, trigger.time)
         for action in event.children("Action"):
             for each in action.children():
                 effects += self._actions.effects(each, actors)

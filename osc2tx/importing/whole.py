@@ -80,6 +80,7 @@ class Whole:
                 beside = [each for said in branch_said for each in inits.lasting(said)]
                 later = composed("serial", branch.members)
                 content = [*before, composed("parallel", [*beside, later])]
+            content = self._held(content, [s for s in branch_said if inits.has_path(s)])
             last = [
                 each
                 for said, actor in actors
@@ -94,6 +95,16 @@ class Whole:
         if not members and not leading:
             members = [wait(f"elapsed({LONGEST})")]
         return self._ended(structure, leading, members, end, is_open=is_open, branches=branches)
+
+    def _held(self, content: list[Statement], said: Sequence[str]) -> list[Statement]:
+        """Return statements with a first wait during which actors hold their speeds."""
+        if not said or not content or not content[0].text.startswith("wait "):
+            return content
+        until = f"until {content[0].text.removeprefix('wait ')}"
+        holds = [Statement(self._cast.actors[each].goes_on) for each in said]
+        held = composed("parallel", holds)
+        held.modifiers.append(until)
+        return [held, *content[1:]]
 
     def _ended(
         self,

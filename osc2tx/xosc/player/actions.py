@@ -45,6 +45,8 @@ class Stage:
                 return None
             case "LongitudinalAction":
                 return self._take(self._speeds.begin(body, inner.inner))
+            case "SynchronizeAction":
+                return self._take(self._speeds.begin(body, inner))
             case "LateralAction":
                 return self._take(self._offsets.begin(body, inner.inner))
             case "RoutingAction":

@@ -206,6 +206,7 @@ class Running:
         gap: The action that keeps a distance.
         side: 1 if that is kept behind the other one or to its left, -1 on the other side.
         relative: The action that keeps a speed relative to that of another one.
+        master: Of a synchronized entity: the master, the action, and the places of both.
         driven: Metres along the way so far.
         done: It is over.
     """
@@ -222,6 +223,7 @@ class Running:
     gap: Element | None = None
     side: int = 1
     relative: Element | None = None
+    master: tuple[Body, Element, LanePosition | Pose, LanePosition | Pose] | None = None
     driven: float = 0.0
     done: bool = False
 

@@ -10,6 +10,7 @@ from osc2tx.xosc.element import Element
 from osc2tx.xosc.player.bodies import Body, Pose
 from osc2tx.xosc.player.courses import number
 from osc2tx.xosc.player.errors import Unplayable
+from osc2tx.xosc.player.shapes import Way, lengths_of, on_way, way_of
 from osc2tx_runtime.opendrive import LanePosition, RoadMap
 
 Place = tuple[LanePosition | Pose, float | None]  # with the heading (rad), if it says one
@@ -46,6 +47,8 @@ def place_of(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> Pl
             where = _beside(node, bodies[node.said("entityRef")], road_map)
         case "RoutePosition":
             where = _on_route(node, bodies, road_map)
+        case "TrajectoryPosition":
+            where = _on_trajectory(node, bodies, road_map)
         case "GeoPosition":
             latitude, longitude = (_degrees(node, name) for name in ("latitude", "longitude"))
             where = Pose(*road_map.geo_reference.project(latitude, longitude), 0.0)
@@ -155,6 +158,28 @@ def _on_route(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> L
         offset = number(position, "laneOffset") * road_map.travel_direction(at.road, lane)
         return LanePosition(at.road, lane, at.s, offset)
     return _flat(road_map.road_pose(at.road, at.s, number(position, "t")))
+
+
+def trajectory_way(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> Way:
+    """Return the corners of the trajectory in an element."""
+
+    def pose_of(position: Element) -> Pose:
+        where, h = place_of(position.inner, bodies, road_map)
+        pose = where if isinstance(where, Pose) else _flat(road_map.pose(where))
+        return pose if h is None else pose._replace(h=h)
+
+    shape = next((each for each in node.walk() if each.tag == "Shape"), None)
+    if shape is None:
+        raise Unplayable("its trajectory is in no catalog", node.place)
+    return way_of(shape, pose_of)
+
+
+def _on_trajectory(node: Element, bodies: Mapping[str, Body], road_map: RoadMap) -> Pose:
+    """Return a place by metres along a trajectory, and across it."""
+    way = trajectory_way(node.one(xml.TrajectoryRef), bodies, road_map)
+    x, y, h = on_way(way, lengths_of(way), number(node, "s"))
+    t = number(node, "t")
+    return Pose(x - t * math.sin(h), y + t * math.cos(h), h)
 
 
 def beside(road_map: RoadMap, from_: LanePosition, along: int, count: int) -> LanePosition:

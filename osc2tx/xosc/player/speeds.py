@@ -15,6 +15,7 @@ from osc2tx.xosc.player.bodies import LONGITUDINAL, Body, Running
 from osc2tx.xosc.player.courses import Course, between, number, shaped, with_jerk
 from osc2tx.xosc.player.errors import Unplayable
 from osc2tx.xosc.player.scene import GAP_REACHED, STILL, Scene
+from osc2tx.xosc.player.synchrony import Synchrony
 
 
 class Speeds:
@@ -22,6 +23,7 @@ class Speeds:
 
     def __init__(self, scene: Scene, *, carries: bool) -> None:
         self._scene, self._carries = scene, carries
+        self._synchrony = Synchrony(scene)
         self._next: dict[str, float] = {}  # of the next step, as far as they are known
 
     def step(self) -> dict[str, float]:
@@ -38,6 +40,8 @@ class Speeds:
                 return self._speed(body, node)
             case "SpeedProfileAction":
                 return self._profile(body, node)
+            case "SynchronizeAction":
+                return self._synchrony.begin(body, node)
             case "LongitudinalDistanceAction":
                 side = self._scene.side(body, node, "longitudinal")
                 if node.find(xml.DynamicConstraints) is None and node.get("continuous") != "true":
@@ -130,6 +134,8 @@ class Speeds:
         time = self._scene.time + self._scene.dt - run.begun
         if run.relative is not None:
             return self._nearing(body, run.relative)
+        if run.master is not None:
+            return self._synchrony.next_speed(body, run)
         if run.gap is not None:
             return self._closing(body, run, run.gap)
         assert run.speed is not None and run.length is not None

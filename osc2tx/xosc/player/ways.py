@@ -10,8 +10,9 @@ from osc2tx.xosc.element import Element
 from osc2tx.xosc.player.bodies import LATERAL, LONGITUDINAL, Body, Pose, Running
 from osc2tx.xosc.player.courses import between, number
 from osc2tx.xosc.player.errors import Unplayable
-from osc2tx.xosc.player.places import place_of
+from osc2tx.xosc.player.places import place_of, trajectory_way
 from osc2tx.xosc.player.scene import STILL, Scene
+from osc2tx.xosc.player.shapes import lengths_of, on_way
 from osc2tx_runtime.opendrive import LanePosition
 
 
@@ -35,39 +36,21 @@ class Ways:
             return None
         if not (node.tag == "FollowTrajectoryAction"):
             raise Unplayable(f"<{node.tag}> is not played", node.place)
-        way = []
-        for vertex in node.below(xml.Vertex):
-            where, h = place_of(vertex.one(xml.Position).inner, self._scene.bodies, self._scene.map)
-            pose = where if isinstance(where, Pose) else Pose(*self._scene.map.pose(where)[:2], 0.0)
-            way.append((number(vertex, "time"), pose if h is None else pose._replace(h=h)))
-        if len(way) < 2:
-            raise Unplayable("of trajectories only polylines are played", node.place)
+        way = trajectory_way(node, self._scene.bodies, self._scene.map)
         timing = node.one(xml.TimeReference).find(xml.Timing)
         is_timed = timing is not None
         domains = (LATERAL, LONGITUDINAL) if is_timed else (LATERAL,)
         run = Running(body, domains, self._scene.time, None, way=way, is_timed=is_timed)
-        lengths = [math.dist(a[:2], b[:2]) for (_, a), (_, b) in pairwise(way)]
-        run.points = [0.0]
-        for length in lengths:
-            run.points.append(run.points[-1] + length)
+        run.points = lengths_of(way)
+        run.driven = number(node, "initialDistanceOffset")
         if timing is not None:
             if timing.domainAbsoluteRelative != "relative":
                 raise Unplayable("only times since the start of the action are played", node.place)
             run.length = way[-1][0]
         body.place = None
         if not is_timed or way[0][0] == 0.0:
-            body.pose = self._on_way(run, 0.0)
+            body.pose = on_way(run.way, run.points, run.driven)
         return run
-
-    def _on_way(self, run: Running, driven: float) -> Pose:
-        """Return the pose so far (m) along a way; it looks along it."""
-        last = len(run.way) - 2
-        index = next((i for i in range(last) if driven < run.points[i + 1]), last)
-        (_, a), (_, b) = run.way[index], run.way[index + 1]
-        length = run.points[index + 1] - run.points[index]
-        part = (driven - run.points[index]) / length if length else 1.0
-        h = math.atan2(b.y - a.y, b.x - a.x) if length else a.h
-        return Pose(a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), h)
 
     def _at_time(self, run: Running, time: float) -> Pose:
         times = [t for t, _ in run.way]
@@ -76,8 +59,8 @@ class Ways:
         if any(a == b for a, b in pairwise(run.points)):  # it waits on its way
             xs = between([(t, p.x) for t, p in run.way], time)
             ys = between([(t, p.y) for t, p in run.way], time)
-            return Pose(xs, ys, self._on_way(run, driven).h)
-        return self._on_way(run, driven)
+            return Pose(xs, ys, on_way(run.way, run.points, driven).h)
+        return on_way(run.way, run.points, driven)
 
     def follow(self, body: Body, run: Running, way: float, time: float) -> None:
         """Move a body along its path, by metres or to a time of it."""
@@ -89,7 +72,7 @@ class Ways:
             run.done = time >= run.length - STILL
         else:
             run.driven += way
-            body.pose = self._on_way(run, run.driven)
+            body.pose = on_way(run.way, run.points, run.driven)
             run.done = run.driven >= run.points[-1] - STILL
         if run.done and body.kind == "Vehicle":  # from here on it keeps its lane
             place = self._scene.map.locate(*body.pose[:2], heading=body.pose.h, max_distance=0.0)

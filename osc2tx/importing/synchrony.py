@@ -1,0 +1,126 @@
+"""Synchronized actors: what one does when another one, the master, is at some distance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from osc2tx.importing.cast import Actor
+from osc2tx.importing.cursor import Node
+from osc2tx.importing.dimensions import LENGTH, SPEED, TIME, Quantity, literal
+from osc2tx.importing.effects import LONGITUDINAL, Effect, Reader
+from osc2tx.importing.program import Statement, composed
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.element import Unresolved
+from osc2tx.xosc.player.errors import Unplayable
+from osc2tx.xosc.player.synchrony import Plan, final_of, plan, way_left
+from osc2tx_runtime.opendrive import LanePosition, MapError
+
+EVEN = 0.01  # m/s: a speed nearer than this to the present one is no change
+
+
+class Synchrony(Reader):
+    """Reads synchronizations.
+
+    An actor begins to change its speed when the master is at the distance that it drives in the
+    meantime, at the speed it has then. How far both have to go is known from their starts.
+    """
+
+    def effects(self, node: Node, said: str, actor: Actor) -> Iterator[Effect]:
+        """Return what a synchronization does."""
+        final = node.find("FinalSpeed")
+        speed = None if final is None else next(final.children("AbsoluteSpeed"), None)
+        target = None if speed is None else self._values.quantity(speed, "value", SPEED)
+        found = self._planned(node, said)
+        node.use_all()
+        if found is None:
+            node.leave_out("when both come to their places is not known before the run")
+            return
+        node.approximate("how its speed changes on the way is the tool's; here it changes evenly")
+        steps, last = found
+        end = target or Quantity(literal(round(last, 6), SPEED), last)
+        statement = self._statement(steps, actor, node, end)
+        self._speeds[said] = end
+        yield Effect(statement, actor.name, frozenset((LONGITUDINAL,)))
+
+    def _planned(self, node: Node, said: str) -> tuple[Plan, float] | None:
+        """Return the plan at nominal values, and the final speed (m/s)."""
+        action, road_map = self._places.resolved(node), self._places.map
+        bodies = self._places.bodies
+        body, master = bodies.get(said), bodies.get(action.get("masterEntityRef") or "")
+        if body is None or master is None or road_map is None:
+            return None
+        speeds = [self._speeds.get(each.name) for each in (body, master)]
+        body.v, master.v = (0.0 if each is None else each.value for each in speeds)
+        try:
+            places = [
+                self._places.known(action.one(kind))
+                for kind in (xml.TargetPosition, xml.TargetPositionMaster)
+            ]
+            if None in places or master.v <= EVEN:
+                return None
+            own, theirs = (
+                way_left(each, place, road_map)  # type: ignore[arg-type]
+                for each, place in zip((body, master), places, strict=True)
+            )
+            theirs -= master.v * self._readings.begin
+            own -= body.v * self._readings.begin
+            final, steady = final_of(action, body.v, master)
+        except (Unplayable, Unresolved, MapError, LookupError):
+            return None
+        if own <= 0.0 or theirs <= 0.0:
+            return None
+        return plan(own, theirs / master.v, body.v, final, steady), final
+
+    def _statement(self, steps: Plan, actor: Actor, node: Node, end: Quantity) -> Statement:
+        """Return what the actor does."""
+        change = f"{actor.name}.change_speed"
+        members: list[Statement] = []
+        profile = "rate_profile: constant"
+        if steps.through is not None and abs(steps.through - end.value) > EVEN:
+            half = literal(round(0.5 * steps.change, 6), TIME)
+            middle = literal(round(steps.through, 6), SPEED)
+            members.append(Statement(f"{change}(target: {middle}, {profile}, duration: {half})"))
+            members.append(Statement(f"{change}(target: {end.text}, {profile}, duration: {half})"))
+        elif steps.through is None and steps.change > 0.0:
+            if steps.hold > 0.0:
+                until = f"until {self._is_near(node, steps)}"
+                members.append(Statement(actor.goes_on, modifiers=[until]))
+            time = literal(round(steps.change, 6), TIME)
+            members.append(Statement(f"{change}(target: {end.text}, {profile}, duration: {time})"))
+        elif steps.through is not None:
+            members.append(self._held(actor, steps.change))
+        if steps.steady > 0.0:
+            members.append(self._held(actor, steps.steady))
+        return composed("serial", members)
+
+    @staticmethod
+    def _held(actor: Actor, time: float) -> Statement:
+        call = actor.goes_on.removesuffix("()")
+        return Statement(f"{call}(duration: {literal(round(time, 6), TIME)})", length=time)
+
+    def _is_near(self, node: Node, steps: Plan) -> str:
+        """Return the condition that the master is at the distance of the change."""
+        action, road_map = self._places.resolved(node), self._places.map
+        assert road_map is not None
+        said = action.said("masterEntityRef")
+        master, body = self._actors[said].name, self._places.bodies[said]
+        place = self._places.known(action.one(xml.TargetPositionMaster))
+        ahead = literal(round(steps.change + steps.steady, 6), TIME)
+        if (
+            isinstance(place, LanePosition)
+            and body.place is not None
+            and place.road == body.place.road
+        ):
+            direction = road_map.travel_direction(place.road, body.place.lane) * body.along
+            at = literal(place.s, LENGTH)
+            if direction > 0:
+                return f"{master}.get_s_coord() >= {at} - {ahead} * {master}.speed"
+            return f"{master}.get_s_coord() <= {at} + {ahead} * {master}.speed"
+        here = self._places.ahead_of_start(body, steps.hold * body.v)
+        assert place is not None
+        there = self._places.pose_of(place)
+        near = literal(round(math.dist(here[:2], there[:2]), 3), LENGTH)
+        x, y = (literal(round(value, 6), LENGTH) for value in there[:2])
+        point = f"point: road.create_xyz_point(x: {x}, y: {y}, z: 0m)"
+        return f"{master}.distance_to_xyz_point({point}, direction: euclidean) <= {near}"
