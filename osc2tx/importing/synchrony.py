@@ -117,7 +117,7 @@ class Synchrony(Reader):
             if direction > 0:
                 return f"{master}.get_s_coord() >= {at} - {ahead} * {master}.speed"
             return f"{master}.get_s_coord() <= {at} + {ahead} * {master}.speed"
-        here = self._places.ahead_of_start(body, steps.hold * body.v)
+        here = self._places.ahead_of_start(body, (self._readings.begin + steps.hold) * body.v)
         assert place is not None
         there = self._places.pose_of(place)
         near = literal(round(math.dist(here[:2], there[:2]), 3), LENGTH)

@@ -25,7 +25,7 @@ CYCLE = (
     [
         ('maximumExecutionCount="1">', 'maximumExecutionCount="2">', "repeated is not played"),
         ("</RoadNetwork>", CYCLE, "cycle that takes no time"),
-        ("LanePosition", "TrajectoryPosition", "<TrajectoryPosition> is not played"),
+        ("TeleportAction", "VisibilityAction", "<VisibilityAction> is not played"),
     ],
 )
 def test_what_is_not_played_is_refused_with_a_reason(before: str, after: str, reason: str) -> None:
