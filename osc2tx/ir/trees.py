@@ -36,7 +36,7 @@ def _beside(body: Behavior, node: Invoke, way: int) -> Invoke | None:
     return None
 
 
-def is_first(body: Behavior, node: Invoke) -> bool:
+def is_first(body: Behavior, node: Invoke | InvokeScenario) -> bool:
     """Whether an invocation begins with the run."""
     match body:
         case Serial(members=members):

@@ -89,7 +89,8 @@ _SCENARIO_RUNNER_IGNORES = {
     "CustomCommandAction": "it runs a command of the shell",
     "DistanceCondition/alongRoute": "its planner raises an error on a road that nothing follows",
     "DistanceCondition/freespace": "it counts between reference points",
-    "FollowTrajectoryAction": "its controller of vehicles raises an error where the way ends",
+    "FollowTrajectoryAction/MiscObject": "objects have no controller",
+    "FollowTrajectoryAction/Vehicle": "its controller raises an error where the way ends",
     "LaneChangeActionDynamics/time": "only a distance is understood",
     "LateralDistanceAction": "it comes to another distance and never ends",
     "LongitudinalDistanceAction": "it passes the vehicle straight ahead and never ends",
@@ -107,6 +108,10 @@ _SCENARIO_RUNNER_IGNORES = {
     "state/runningState": "it raises an error",
 }
 _SCENARIO_RUNNER_DEVIATES = {
+    "FollowTrajectoryAction/Pedestrian": (
+        "walkers turn to the next point of a way 1 m before each, and walk on behind the last one",
+        "off by 1 m at corners and at the end, which comes so much earlier",
+    ),
     "LaneChangeActionDynamics": (
         "the change is over when the plan of its way is",
         "it begins at the right time and may be over 2.2 s early, beside the middle of the lane",

@@ -39,11 +39,13 @@ def adapted(ctx: Context, acts: Sequence[Act], end: Flow) -> tuple[tuple[Act, ..
         name, span = ctx.names.new("end_of_the_run"), ctx.scenario.span
         acts[-1].add(None, Event(name, (ctx.mark(name),), end, span))
         end = single(state_of("event", name))
+    kinds = {member.name: member.kind for member in ctx.entities}
     for act in acts:
-        for event in act.all_events():
-            for part in (*event.actions, *_conditions(event)):
-                for node in part.walk():
-                    _check(ctx, event, node)
+        for actor, events in act.events.items():
+            for event in events:
+                for part in (*event.actions, *_conditions(event)):
+                    for node in part.walk():
+                        _check(ctx, event, node, kinds.get(actor or "", ""))
     if not ctx.profile.has_delays:
         acts = _Watch(ctx).through(acts)
     if ctx.profile.begins_with_texts:
@@ -75,10 +77,11 @@ def _conditions(event: Event) -> Iterator[Element]:
         yield from (test.condition for test in group)
 
 
-def _features(node: Element) -> Iterator[str]:
-    """Yield what an element asks of a tool, as in `ToolProfile.unsupported` and `deviates`."""
-    for kind in ("dynamicsDimension", "relativeDistanceType", "rule"):
-        yield f"{node.tag}/{node.get(kind)}"
+def _features(node: Element, kind: str) -> Iterator[str]:
+    """Yield what an element asks of a tool for an entity of a kind, as in `ToolProfile`."""
+    yield f"{node.tag}/{kind}"
+    for name in ("dynamicsDimension", "relativeDistanceType", "rule"):
+        yield f"{node.tag}/{node.get(name)}"
     yield f"state/{node.get('state')}"
     for flag in ("alongRoute", "freespace"):
         if node.get(flag) == "true":
@@ -87,11 +90,11 @@ def _features(node: Element) -> Iterator[str]:
         yield node.tag
 
 
-def _check(ctx: Context, event: Event, node: Element) -> None:
-    """Report what a tool does not carry out, or carries out in another way."""
+def _check(ctx: Context, event: Event, node: Element, kind: str) -> None:
+    """Report what a tool does not carry out for an entity, or carries out in another way."""
     profile, span = ctx.profile, event.place
     construct = ctx.report.construct_at(span, "action ")
-    for feature in _features(node):
+    for feature in _features(node, kind):
         if feature in profile.unsupported:
             reason = f"{profile.name} does not carry out {feature}: {profile.unsupported[feature]}"
             ctx.report.cannot(construct, span, reason, GENERIC)

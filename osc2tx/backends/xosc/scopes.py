@@ -178,11 +178,10 @@ class _Opener:
         for declaration in scenario.declarations:
             if isinstance(declaration, ir.Actor) and declaration.name not in handed_in:
                 self._join(declaration, scope)
-        first = _first_invocations(scenario.body)
         for node in ir.walk_behaviors(scenario.body):
             if isinstance(node, ir.InvokeScenario) and node.key not in place.around:
                 inner = self._invoke(node, scope, place.around)
-                inner.is_first = scope.is_first and node.span in first
+                inner.is_first = scope.is_first and ir.is_first(scenario.body, node)
         return scope
 
     def _join(self, actor: ir.Actor, scope: Scope) -> None:
@@ -226,16 +225,3 @@ class _Opener:
         if node.label is not None:
             scope.by_label[node.label] = inner
         return inner
-
-
-def _first_invocations(node: ir.Behavior) -> frozenset[Hashable]:
-    """Return the places of the invoked scenarios that begin when a member does."""
-    match node:
-        case ir.Serial(members=members):
-            return _first_invocations(members[0])
-        case ir.Parallel(members=members) | ir.OneOf(members=members):
-            return frozenset[Hashable]().union(*map(_first_invocations, members))
-        case ir.InvokeScenario(span=span):
-            return frozenset((span,))
-        case _:
-            return frozenset()

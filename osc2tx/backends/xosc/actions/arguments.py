@@ -77,6 +77,16 @@ class Arguments:
         count = self.count("lane")
         return count if self.member("side", "left") == "left" else -count
 
+    def beside_lane(self) -> tuple[CastMember | None, int]:
+        """Return beside whose lane `lane` is, and how many lanes to the left of that one."""
+        same, side = self.entity("same_as"), self.entity("side_of")
+        return same or side, 0 if side is None else self.lanes_to_left()
+
+    def ahead_of(self) -> tuple[CastMember | None, bool]:
+        """Return ahead of whom `position` is, and whether it is behind instead."""
+        ahead, behind = self.entity("ahead_of"), self.entity("behind")
+        return ahead or behind, behind is not None
+
     def offsets(self) -> tuple[float, float]:
         """Return the metres that are left out at the start and the end of a way."""
         return self.number("start_offset") or 0.0, self.number("end_offset") or 0.0

@@ -11,7 +11,12 @@ from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
-from osc2tx.xosc.literals import DirectionalDimension, Rule
+from osc2tx.xosc.literals import (
+    CoordinateSystem,
+    DirectionalDimension,
+    RelativeDistanceType,
+    Rule,
+)
 
 
 class Comparison(NamedTuple):
@@ -80,6 +85,59 @@ def relative_speed(
         entityRef=other, rule=rule, value=value, direction=direction
     )
     return ((of_entity(actor, condition),),)
+
+
+KINDS: Mapping[str, RelativeDistanceType] = {
+    "euclidean": "euclidianDistance",
+    "longitudinal": "longitudinal",
+    "lateral": "lateral",
+}
+"""Directions of the library -> literals."""
+
+
+def relative_distance(
+    ctx: Context,
+    c: Comparison,
+    direction: str,
+    system: CoordinateSystem | None,
+    *,
+    freespace: bool,
+) -> xml.ByEntityCondition:
+    """Return the condition on the distance of two actors, which has no sign."""
+    newer = ctx.version >= "1.1"
+    kind = KINDS[direction]
+    condition = xml.RelativeDistanceCondition(
+        entityRef=c.reference(),
+        relativeDistanceType="cartesianDistance" if not newer and system is None else kind,
+        coordinateSystem=system if newer else None,
+        value=c.value,
+        freespace=freespace,
+        rule=c.rule,
+    )
+    return of_entity(c.actor, condition)
+
+
+def distance_to(
+    ctx: Context,
+    place: xml.PositionPart,
+    value: float,
+    rule: Rule,
+    system: CoordinateSystem | None = None,
+    direction: str | None = None,
+    *,
+    freespace: bool = False,
+) -> xml.DistanceCondition:
+    """Return the condition on the distance (m) to a place; without a direction it is straight."""
+    newer = ctx.version >= "1.1"
+    return xml.DistanceCondition(
+        xml.Position(place),
+        value=value,
+        freespace=freespace,
+        rule=rule,
+        alongRoute=None if newer else system is not None,
+        coordinateSystem=system if newer else None,
+        relativeDistanceType=None if direction is None or not newer else KINDS[direction],
+    )
 
 
 MIRRORED: Mapping[Rule, Rule] = {

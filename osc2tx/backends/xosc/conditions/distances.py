@@ -2,65 +2,56 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from math import cos, pi, sin
 
-from osc2tx.backends.xosc.conditions.comparisons import MIRRORED, Comparison, Groups, of_entity
+from osc2tx.backends.xosc.conditions.comparisons import (
+    MIRRORED,
+    Comparison,
+    Groups,
+    Measure,
+    distance_to,
+    of_entity,
+    relative_distance,
+)
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.start_lanes import faces_along, standing_heading
 from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.xosc import elements as xml
-from osc2tx.xosc.literals import CoordinateSystem, RelativeDistanceType, Rule
-
-AXES: Mapping[str, RelativeDistanceType] = {"longitudinal": "longitudinal", "lateral": "lateral"}
-"""Members of the directions of the library -> literals."""
+from osc2tx.xosc.literals import CoordinateSystem, Rule
 
 
 def object_distance(ctx: Context, c: Comparison) -> Groups:
     """Compare a distance in the axes of the actor (§8.7.3)."""
     direction = c.member("direction", "euclidean")
     freespace = c.member("mode", "reference_points") == "bounding_boxes"
-    if direction != "euclidean":
-        what = f"a {direction} distance in the axes of an object"
-        ctx.require(what, "1.1", c.source.span, "`road_distance` is in all versions")
-        if direction == "vertical":
-            raise Inexpressible("there is no condition on a vertical distance", c.source.span)
-        return _signed(ctx, c, direction, freespace, "entity", ahead_is_positive=True)
-    kind: RelativeDistanceType = (
-        "euclidianDistance" if ctx.version >= "1.1" else "cartesianDistance"
-    )
-    condition = xml.RelativeDistanceCondition(
-        entityRef=c.reference(),
-        relativeDistanceType=kind,
-        value=c.value,
-        freespace=freespace,
-        rule=c.rule,
-    )
-    return ((of_entity(c.actor, condition),),)
+    if direction == "euclidean":
+        return ((relative_distance(ctx, c, direction, None, freespace=freespace),),)
+    what = f"a {direction} distance in the axes of an object"
+    ctx.require(what, "1.1", c.source.span, "`road_distance` is in all versions")
+    if direction == "vertical":
+        raise Inexpressible("there is no condition on a vertical distance", c.source.span)
+    return _signed(ctx, c, direction, freespace, "entity", ahead_is_positive=True)
 
 
-def road_distance(ctx: Context, c: Comparison) -> Groups:
-    """Compare a distance along or across the road, positive if the reference is ahead or left."""
-    freespace = c.member("mode", "reference_points") == "bounding_boxes"
-    direction = c.member("direction", "longitudinal")
-    return _signed(ctx, c, direction, freespace, "road", ahead_is_positive=True)
+def along_road(
+    *, ahead_is_positive: bool, freespace: bool | None = None, direction: str | None = None
+) -> Measure:
+    """Return the measure of a distance along or across the road, with a sign.
 
+    Args:
+        ahead_is_positive: It is positive if the reference is ahead of the actor, or left of it.
+        freespace: Between bounding boxes; `None`: as the argument `mode` says.
+        direction: `None`: as the argument says.
+    """
 
-def space_gap(ctx: Context, c: Comparison) -> Groups:
-    """Compare the space between facing ends or sides, positive if the actor is ahead or left."""
-    direction = c.member("direction", "longitudinal")
-    return _signed(ctx, c, direction, True, "road", ahead_is_positive=False)
+    def measure(ctx: Context, c: Comparison) -> Groups:
+        is_free = c.member("mode", "reference_points") == "bounding_boxes"
+        is_free = is_free if freespace is None else freespace
+        along = direction or c.member("direction", "longitudinal")
+        return _signed(ctx, c, along, is_free, "road", ahead_is_positive=ahead_is_positive)
 
-
-def ahead_of(ctx: Context, c: Comparison) -> Groups:
-    """Compare by how much the actor is ahead along the road."""
-    return _signed(ctx, c, "longitudinal", False, "road", ahead_is_positive=False)
-
-
-def behind(ctx: Context, c: Comparison) -> Groups:
-    """Compare by how much the actor is behind along the road."""
-    return _signed(ctx, c, "longitudinal", False, "road", ahead_is_positive=True)
+    return measure
 
 
 FAR = 10000.0
@@ -106,17 +97,8 @@ def _signed(
             )
             raise Inexpressible(reason, c.source.span, remedy)
         return ((is_clear(ctx, me, other, ahead=is_ahead is rule.startswith("less")),),)
-    distance = of_entity(
-        me,
-        xml.RelativeDistanceCondition(
-            entityRef=other,
-            relativeDistanceType=AXES[direction],
-            coordinateSystem=system if ctx.version >= "1.1" else None,
-            value=value,
-            freespace=freespace,
-            rule=rule,
-        ),
-    )
+    amount = c._replace(rule=rule, value=value)
+    distance = relative_distance(ctx, amount, direction, system, freespace=freespace)
     return in_order(ctx, c, distance, direction, is_ahead, rule, f"{value:g} m")
 
 
@@ -175,14 +157,7 @@ def _shifted(
         dy=round(FAR * sin(angle), 6),
         dz=0.0,
     )
-    condition = xml.DistanceCondition(
-        xml.Position(place),
-        value=FAR + c.value,
-        rule=c.rule,
-        freespace=False,
-        coordinateSystem=system,
-        relativeDistanceType=AXES[direction],
-    )
+    condition = distance_to(ctx, place, FAR + c.value, c.rule, system, direction)
     return ((of_entity(c.actor, condition),),)
 
 

@@ -93,10 +93,11 @@ def _is_before(watcher: Path, site: Path) -> bool:
         if a is not b or i != j:
             break
         shared += 1
-    return all(_begins_at_once(node, index) for node, index in watcher[shared:])
+    return all(begins_at_once(node, index) for node, index in watcher[shared:])
 
 
-def _begins_at_once(node: ir.Behavior, index: int) -> bool:
+def begins_at_once(node: ir.Behavior, index: int) -> bool:
+    """Whether a member of a composition, by its index, begins when the composition does."""
     match node:
         case ir.Serial(members=members):
             return all(is_instant(member) for member in members[:index])

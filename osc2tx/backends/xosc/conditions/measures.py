@@ -15,24 +15,23 @@ from osc2tx.backends.xosc.conditions.comparisons import (
     Comparison,
     Groups,
     Measure,
+    distance_to,
     of_entity,
+    relative_distance,
     relative_speed,
 )
 from osc2tx.backends.xosc.conditions.distances import (
-    ahead_of,
-    behind,
+    along_road,
     in_order,
     note_facing,
     object_distance,
     overhang,
-    road_distance,
-    space_gap,
     space_headway,
 )
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.xosc import elements as xml
-from osc2tx.xosc.literals import CoordinateSystem, DirectionalDimension, RelativeDistanceType, Rule
+from osc2tx.xosc.literals import CoordinateSystem, DirectionalDimension
 
 Motion: TypeAlias = xml.SpeedCondition | xml.AccelerationCondition
 
@@ -146,26 +145,16 @@ def time_to_collision(ctx: Context, c: Comparison) -> Groups:
     if c.rule.startswith("less"):
         if ctx.profile.latches_conditions:  # it wants each of two conditions once: one has to do
             return ((time,),)
-        beside = _across(ctx, c, "lessThan")
+        beside = relative_distance(
+            ctx, c._replace(value=TOUCHING, rule="lessThan"), "lateral", "entity", freespace=True
+        )
         return ((time, beside), (beside, time)) if c.is_edge else ((time, beside),)
     along: DirectionalDimension | None = "longitudinal" if ctx.version >= "1.2" else None
-    away = relative_speed(c.actor, c.reference(), "lessThan", TOUCHING, along)
-    return ((time,), (_across(ctx, c, "greaterThan"),), *away)
-
-
-def _across(ctx: Context, c: Comparison, rule: Rule) -> xml.ByEntityCondition:
-    """Return the condition on the space between the sides of two actors."""
-    return of_entity(
-        c.actor,
-        xml.RelativeDistanceCondition(
-            entityRef=c.reference(),
-            relativeDistanceType="lateral",
-            coordinateSystem="entity" if ctx.version >= "1.1" else None,
-            value=TOUCHING,
-            freespace=True,
-            rule=rule,
-        ),
+    apart = relative_distance(
+        ctx, c._replace(value=TOUCHING, rule="greaterThan"), "lateral", "entity", freespace=True
     )
+    away = relative_speed(c.actor, c.reference(), "lessThan", TOUCHING, along)
+    return ((time,), (apart,), *away)
 
 
 # --- points ---------------------------------------------------------------------------------------
@@ -188,7 +177,7 @@ def distance_to_road_point(ctx: Context, c: Comparison) -> Groups:
 def _distance_to(ctx: Context, c: Comparison, direction: str, system: CoordinateSystem) -> Groups:
     """Return the condition on the distance to a point, which the XML measures without sign."""
     point = xml_position(ctx, c.arguments.get("point"))
-    newer, is_free = ctx.version >= "1.1", direction == "euclidean"
+    is_free = direction == "euclidean"
     rule, value = c.rule, c.value
     if not is_free:
         if direction == "lateral":
@@ -202,23 +191,10 @@ def _distance_to(ctx: Context, c: Comparison, direction: str, system: Coordinate
                 "conditions on distances have no sign",
                 f"differs only once the point is passed by more than {value:g} m",
             )
-    condition = xml.DistanceCondition(
-        xml.Position(point.element),
-        value=value,
-        rule=rule,
-        freespace=c.member("mode", "reference_points") == "bounding_boxes",
-        alongRoute=None if newer else not is_free,
-        coordinateSystem=system if newer and not is_free else None,
-        relativeDistanceType=_KINDS[direction] if newer else None,
-    )
+    freespace = c.member("mode", "reference_points") == "bounding_boxes"
+    axes = None if is_free else system
+    condition = distance_to(ctx, point.element, value, rule, axes, direction, freespace=freespace)
     return ((of_entity(c.actor, condition),),)
-
-
-_KINDS: Mapping[str, RelativeDistanceType] = {
-    "euclidean": "euclidianDistance",
-    "longitudinal": "longitudinal",
-    "lateral": "lateral",
-}
 
 
 ASIDE = 100.0
@@ -246,16 +222,8 @@ def _coordinate(ctx: Context, c: Comparison, direction: str, aside: float) -> Gr
     if road is None or c.member("route_type", "on_road") != "on_road":
         reason = "a condition on coordinates of a road needs a map with just one road"
         raise Inexpressible(reason, c.source.span)
-    newer = ctx.version >= "1.1"
-    condition = xml.DistanceCondition(
-        xml.Position(xml.RoadPosition(roadId=road, s=0.0, t=-aside)),
-        value=c.value + aside,
-        rule=c.rule,
-        freespace=False,
-        alongRoute=None if newer else True,
-        coordinateSystem="road" if newer else None,
-        relativeDistanceType=_KINDS[direction] if newer else None,
-    )
+    place = xml.RoadPosition(roadId=road, s=0.0, t=-aside)
+    condition = distance_to(ctx, place, c.value + aside, c.rule, "road", direction)
     return ((of_entity(c.actor, condition),),)
 
 
@@ -270,10 +238,10 @@ MEASURES: Mapping[str, Measure] = {
     "acceleration.translational.z": _part_of(xml.AccelerationCondition, "vertical"),
     "acceleration.translational.norm": _part_of(xml.AccelerationCondition, None),
     "object_distance": object_distance,
-    "road_distance": road_distance,
-    "space_gap": space_gap,
-    "ahead_of": ahead_of,
-    "behind": behind,
+    "road_distance": along_road(ahead_is_positive=True),
+    "space_gap": along_road(ahead_is_positive=False, freespace=True),
+    "ahead_of": along_road(ahead_is_positive=False, freespace=False, direction="longitudinal"),
+    "behind": along_road(ahead_is_positive=True, freespace=False, direction="longitudinal"),
     "space_headway": space_headway,
     "time_gap": time_gap,
     "time_headway": time_headway,

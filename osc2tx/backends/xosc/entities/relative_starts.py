@@ -147,20 +147,13 @@ def _said(ctx: Context, start: Start) -> Said:
     lane, position = start.modifiers.get("lane"), start.modifiers.get("position")
     in_lane_of, number, lanes = None, None, 0
     if lane is not None:
-        same, side_of = lane.entity("same_as"), lane.entity("side_of")
-        in_lane_of = same or side_of
-        if side_of is not None:
-            lanes = lane.lanes_to_left()
-        elif same is None:
+        in_lane_of, lanes = lane.beside_lane()
+        if in_lane_of is None:
             number = lane_number(start)
-    ahead_of = behind = None
-    distance: float | None = None
-    if position is not None:
-        ahead_of, behind = position.entity("ahead_of"), position.entity("behind")
-        distance = position.number("distance")
-    reference = ahead_of or behind
+    reference, is_behind = (None, False) if position is None else position.ahead_of()
+    distance = None if position is None else position.number("distance")
     if reference is not None and distance is None:
-        distance = _distance_in_time(ctx, start, reference, is_behind=behind is not None)
+        distance = _distance_in_time(ctx, start, reference, is_behind=is_behind)
     if position is not None and distance is None:
         raise Inexpressible("no distance is stated", position.source.span)
     along = 0.0 if distance is None or reference is None else distance
@@ -169,7 +162,7 @@ def _said(ctx: Context, start: Start) -> Said:
         lanes=lanes,
         number=number,
         ahead_of=reference,
-        along=-along if behind is not None else along,
+        along=-along if is_behind else along,
         from_entry=distance if reference is None else None,
     )
 

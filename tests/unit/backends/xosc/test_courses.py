@@ -4,9 +4,11 @@ import pytest
 
 from osc2tx.backends.xosc.actions.position.position_modifiers import Arrival
 from osc2tx.backends.xosc.actions.speed.acceleration import Ramp
+from osc2tx.backends.xosc.actions.speed.speed_changes import through_points
 from osc2tx.backends.xosc.facts.actors import Linear, Quintic
 from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve
 from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.xosc import elements as xml
 
 
 def way(course: Arrival | Ramp, pieces: int = 1000) -> float:
@@ -36,6 +38,13 @@ def test_who_has_to_arrive_covers_the_way(missing: float) -> None:
     arrival = Arrival(15.0, missing, 6.0)
     assert way(arrival) == pytest.approx(90.0 + missing, abs=1e-4)
     assert arrival.value(6.0) == pytest.approx(15.0 + 1.5 * missing / 6.0)
+
+
+def test_points_on_a_straight_line_are_left_out() -> None:
+    """esmini joins such entries, and never ends while it has fewer than there were."""
+    course = Ramp(10.0, Linear(0.0, -2.0, 1.0), 4.0)  # jerk for 1 s, then -2 m/s^2 for 3 s
+    entries = list(through_points(course, 8).below(xml.SpeedProfileEntry))
+    assert [(each.time, each.speed) for each in entries] == [(0.5, 9.75), (0.5, 9.0), (3.0, 3.0)]
 
 
 POINTS = (

@@ -292,7 +292,9 @@ def test_other_versions_say_why_they_cannot(id_: str) -> None:
 # What ScenarioRunner does with elements that others carry out as they stand.
 IN_SCENARIO_RUNNER = {
     "//Event//AssignRouteAction | //Event//AcquirePositionAction": "inexpressible",
-    "//Event//FollowTrajectoryAction": "inexpressible",
+    "//ManeuverGroup[Actors/EntityRef/@entityRef=//ScenarioObject[not(Pedestrian)]/@name]"
+    "//FollowTrajectoryAction": "inexpressible",
+    "//Event//FollowTrajectoryAction": "approximated",
     "//OpenSCENARIO[//Vehicle]//Event//TeleportAction": "inexpressible",
     "//LateralDistanceAction": "inexpressible",
     "//TrafficSignalControllerAction": "inexpressible",

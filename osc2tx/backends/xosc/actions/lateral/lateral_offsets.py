@@ -150,10 +150,9 @@ def _change_lane(leaf: Leaf, call: Call) -> Changes:
 
 @modifier("lane")
 def _lane(leaf: Leaf, call: Call) -> Changes:
-    reference = call.entity("same_as") or call.entity("side_of")
+    reference, lanes = call.beside_lane()
     if reference is None:
         return _numbered(leaf, call)
-    lanes = call.lanes_to_left() if "side_of" in call else 0
     own = lanes_to(leaf, reference, lanes)
     if own == 0:
         return ()

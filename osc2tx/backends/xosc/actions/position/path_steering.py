@@ -20,13 +20,16 @@ from osc2tx.backends.xosc.report import Metres, Remedy
 NEAR = 0.05
 """Metres beside its line that count as on it."""
 
+ON_LINES = "FollowTrajectoryAction/Vehicle"
+"""Feature of tools, as in `ToolProfile.unsupported`."""
+
 ON_THE_LINE = Remedy(
     instead="`replay_path`, or `physical_movement(prefer_non_physical)`, is on the line exactly",
-    asks=("FollowTrajectoryAction",),
+    asks=(ON_LINES,),
 )
 JUMPING = Remedy(
     instead="`replay_trajectory`, or `physical_movement(prefer_non_physical)`, jumps like the XML",
-    asks=("FollowTrajectoryAction",),
+    asks=(ON_LINES,),
 )
 
 

@@ -230,7 +230,7 @@ def follow(
 ) -> xml.PrivateAction:
     """Return the action along a polyline; a tool that ignores times cannot do a timed one."""
     if is_timed:
-        leaf.ctx.require_support("FollowTrajectoryAction", leaf.node.span)
+        leaf.ctx.require_support(f"FollowTrajectoryAction/{leaf.member.kind}", leaf.node.span)
     older = leaf.ctx.version == "1.0"
     trajectory = xml.Trajectory(
         xml.Shape(

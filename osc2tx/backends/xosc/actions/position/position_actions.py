@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from osc2tx.backends.xosc.actions.arguments import Arguments, Call
+from osc2tx.backends.xosc.actions.arguments import Call
 from osc2tx.backends.xosc.actions.lateral.lanes import lane_of
 from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance
 from osc2tx.backends.xosc.actions.position.path_steering import note_steering
@@ -60,11 +60,18 @@ def _beside(leaf: Leaf) -> XmlPosition:
         with leaf.ctx.report_as(call.construct, call.span):
             match call.name:
                 case "lane":
-                    lanes, other = _lanes(call)
+                    other, lanes = call.beside_lane()
+                    otherwise = "a lane by its number, at a place that is only known during the run"
                 case "position":
-                    along, other = _distance(call)
+                    other, is_behind = call.ahead_of()
+                    distance = call.number("distance")
+                    other = None if distance is None else other
+                    along = -(distance or 0.0) if is_behind else distance or 0.0
+                    otherwise = "only a distance ahead of or behind an actor can be said"
                 case _:
                     raise Inexpressible(f"`{call.name}` of a place to be put to")
+            if other is None:
+                raise Inexpressible(otherwise)
             call.finish()
             references.append(other)
     if not references or len({each.name for each in references}) > 1:
@@ -78,24 +85,6 @@ def _beside(leaf: Leaf) -> XmlPosition:
         if on is None:
             raise Inexpressible(f"there is no such lane beside that of {reference.name}")
     return XmlPosition(place, on, None)
-
-
-def _lanes(arguments: Arguments) -> tuple[int, CastMember]:
-    same, side = arguments.entity("same_as"), arguments.entity("side_of")
-    if same is not None:
-        return 0, same
-    if side is None:
-        raise Inexpressible("a lane by its number, at a place that is only known during the run")
-    return arguments.lanes_to_left(), side
-
-
-def _distance(arguments: Arguments) -> tuple[float, CastMember]:
-    ahead, behind = arguments.entity("ahead_of"), arguments.entity("behind")
-    distance = arguments.number("distance")
-    reference = ahead or behind
-    if reference is None or distance is None:
-        raise Inexpressible("only a distance ahead of or behind an actor can be said")
-    return (distance if ahead is not None else -distance), reference
 
 
 def beside(

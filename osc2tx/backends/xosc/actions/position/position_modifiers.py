@@ -26,8 +26,7 @@ from osc2tx_shared.classes import dataclass, replace
 def _position(leaf: Leaf, call: Call) -> Changes:
     if "at_point" in call:
         return _at_point(leaf, call)
-    ahead, behind = call.entity("ahead_of"), call.entity("behind")
-    reference = ahead or behind
+    reference, is_behind = call.ahead_of()
     if reference is None:
         along = call.size("distance")
         if along is None:
@@ -41,7 +40,7 @@ def _position(leaf: Leaf, call: Call) -> Changes:
         raise Inexpressible("neither a distance nor a time is stated")
     size = distance if distance is not None else time
     assert size is not None
-    side = "ahead" if ahead is not None else "behind"
+    side = "behind" if is_behind else "ahead"
     if size < 0.0:
         size, side = -size, "behind" if side == "ahead" else "ahead"
     gap = Gap(reference, side, size, distance is None, "points")

@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 
 from osc2tx.backends.xosc.actions.arguments import Arguments
-from osc2tx.backends.xosc.conditions.comparisons import of_entity
+from osc2tx.backends.xosc.conditions.comparisons import distance_to, of_entity
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.values.constants import Constant, MethodResult, Named, as_number
 from osc2tx.xosc import elements as xml
-from osc2tx.xosc.literals import Rule
 from osc2tx_shared.classes import dataclass
 
 REACHED = 1.0
@@ -69,10 +68,10 @@ def at_place(
     if before is None or lane is None or roads is None or ctx.profile.latches_conditions:
         bound = Metres(REACHED, "before the place, where it counts as there")
         said.approximate("a place is a circle about a point", bound)
-        return (of_entity(actor, _distance(ctx, place, REACHED, "lessThan")),)
+        return (of_entity(actor, distance_to(ctx, place, REACHED, "lessThan")),)
     apart = math.dist(roads.pose(before)[:3], roads.pose(lane)[:3])  # less in a bend than on it
-    far = _distance(ctx, lane_place(roads, before), round(apart - SURE, 6), "greaterThan")
-    near = _distance(ctx, place, BEFORE, "lessThan")
+    far = distance_to(ctx, lane_place(roads, before), round(apart - SURE, 6), "greaterThan")
+    near = distance_to(ctx, place, BEFORE, "lessThan")
     return of_entity(actor, near), of_entity(actor, far)
 
 
@@ -106,18 +105,6 @@ def relative_lane(
         dsLane=None if is_old else along,
         ds=along if is_old else None,
         offset=offset,
-    )
-
-
-def _distance(
-    ctx: Context, place: xml.PositionPart, metres: float, rule: Rule
-) -> xml.DistanceCondition:
-    return xml.DistanceCondition(
-        xml.Position(place),
-        value=metres,
-        freespace=False,
-        rule=rule,
-        alongRoute=False if ctx.version == "1.0" else None,
     )
 
 

@@ -7,7 +7,7 @@ which has the limits of acceleration and jerk, or any course through points. Bef
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.speed.speed_elements import longitudinal, speed_action
@@ -33,6 +33,7 @@ from osc2tx.backends.xosc.facts.actors import (
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, ActorState, Demand, Interval, known
 from osc2tx.xosc import elements as xml
+from osc2tx.xosc.expressions import Symbol
 from osc2tx.xosc.literals import DynamicsShape
 from osc2tx_shared.classes import replace
 
@@ -40,6 +41,9 @@ POINTS = 12
 """Points of a smooth course; the way it covers is within 2 cm for changes of 30 m/s."""
 
 RATE = "SpeedActionDynamics/rate"
+
+STRAIGHT = 1e-5
+"""m/s^2 by which accelerations before and after a point may differ on a straight line."""
 
 
 def may_jump(leaf: Leaf) -> bool:
@@ -237,10 +241,26 @@ def within_limits(target: float, limits: Limits, pace: Pace) -> xml.PrivateActio
 
 
 def through_points(course: Course, count: int = POINTS) -> xml.PrivateAction:
-    """Return a course through points, with times since the point before."""
+    """Return a course through points, with times since the point before.
+
+    Points on the straight line between others are left out: esmini does so too, and then waits for
+    as many as there are entries.
+    """
     step = course.duration / count
-    entries = [
-        xml.SpeedProfileEntry(time=round(step, 9), speed=round(course.value(index * step), 9))
-        for index in range(1, count + 1)
-    ]
+    speeds = [course.value(index * step) for index in range(count + 1)]
+    entries, last = [], 0
+    for index in range(1, count + 1):
+        if index < count and _is_straight(speeds[index - 1 : index + 2], step):
+            continue
+        time, speed = round((index - last) * step, 9), round(speeds[index], 9)
+        entries.append(xml.SpeedProfileEntry(time=time, speed=speed))
+        last = index
     return longitudinal(xml.SpeedProfileAction(*entries, followingMode="position"))
+
+
+def _is_straight(speeds: Sequence[float], step: float) -> bool:
+    """Whether three speeds, a step (s) apart, lie on a line for all values of open parameters."""
+    before, here, after = speeds
+    if any(isinstance(speed, Symbol) for speed in speeds):
+        return False
+    return abs(before - 2.0 * here + after) < STRAIGHT * step

@@ -10,7 +10,11 @@ from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 
 from osc2tx import ir
-from osc2tx.backends.xosc.conditions.event_conditions import early_triggers, triggers_of
+from osc2tx.backends.xosc.conditions.event_conditions import (
+    begins_at_once,
+    early_triggers,
+    triggers_of,
+)
 from osc2tx.backends.xosc.conditions.expressions import condition_flow
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Test, at_time, single
 from osc2tx.backends.xosc.context import Context
@@ -238,7 +242,7 @@ def _always_there(node: ir.Behavior) -> Iterator[ir.Behavior]:
     yield node
     if isinstance(node, ir.Parallel) and not node.until and node.duration is None:
         for index, member in enumerate(node.members):
-            if index == 0 or (node.start_to_start is None and node.overlap in (None, "start")):
+            if begins_at_once(node, index):
                 yield from _always_there(member)
 
 

@@ -59,6 +59,8 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     if performance.lasts is not None:
         start = builder.latched(start, builder.name_of(node))
     leaf.demand_of(performance.changes)
+    if performance.ends == "open":  # it takes time, in which a tool sees that the jump is over
+        ctx.states[member.name] = replace(ctx.states[member.name], jumped=False)
     actions = tuple(action for change in performance.changes for action in change.actions)
     goal = start
     is_cut = bool(node.until or overriding or builder.is_race)
