@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 
 from osc2tx.diagnostics import Label
+from osc2tx.diagnostics.fixes import Help, Remedy, insert, write
 from osc2tx.diagnostics.suggestions import name_meant
 from osc2tx.semantics.assignability import check_condition, check_value
 from osc2tx.semantics.bodies.constraints import paths_of, root_of
@@ -112,7 +113,7 @@ def _item_type(r: Resolution, arguments: Arguments, env: Environment) -> Type:
             "OSC412",
             name.span,
             "the name of an item is an identifier",
-            help=f"write `<name>, expression: {name.span.text}`" if name is expression else None,
+            help=_named(name) if name is expression else None,
         )
     if expression is None or (expression is name and isinstance(name, ast.StringLiteral)):
         return ERROR
@@ -123,13 +124,33 @@ def _item_type(r: Resolution, arguments: Arguments, env: Environment) -> Type:
     return ERROR
 
 
+def _named(value: ast.Expression) -> Remedy:
+    """Return the remedy that gives an item a name: that of the member which it samples."""
+    text = value.span.text
+    name = text.replace(".", "_")
+    if not name.isidentifier():
+        return Remedy(f"write `<name>, expression: {text}`")
+    return write(value.span, f"{name}, expression: {text}", is_safe=False)
+
+
+def _with_unit(r: Resolution, node: ast.CoverageDeclaration, type_: PhysicalType) -> Help:
+    """Return the remedy that adds the SI unit of an item."""
+    units = (each for each in r.scope.all_units() if each.type == type_)
+    names = [each.name for each in units if (each.factor, each.offset) == (1.0, 0.0)]
+    if not names or not node.arguments:
+        return None
+    unit = min(names, key=lambda name: (len(name), name))
+    return insert(node.arguments[-1].span, f", unit: {unit}", f"add `unit: {unit}`", is_safe=False)
+
+
 def _check_unit(
     r: Resolution, node: ast.CoverageDeclaration, arguments: Arguments, item: Type
 ) -> None:
     unit = arguments.get("unit")
     if unit is None:
         if isinstance(item, PhysicalType):
-            r.report("OSC412", node.span, f"an item of type `{item}` needs `unit:`")
+            message = f"an item of type `{item}` needs `unit:`"
+            r.report("OSC412", node.span, message, help=_with_unit(r, node, item))
         return
     if not isinstance(unit, ast.NameExpression):
         r.report("OSC412", unit.span, "`unit` takes the name of a unit")

@@ -61,16 +61,23 @@ MODIFIERS: Mapping[str, str] = {
     "velocity": "speed",
 }
 # Names that are no behaviors, or no modifiers, and what to write instead.
-NO_BEHAVIORS: Mapping[str, str] = dict.fromkeys(
-    ("turn", "turn_left", "turn_right"),
-    "a turn is a matter of the route: `drive` with the modifier `along`, on a route that turns",
-)
+_GAP = "a gap is kept by an action: `….keep_space_gap(…)` or `….keep_time_gap(…)`"
+NO_BEHAVIORS: Mapping[str, str] = {
+    **dict.fromkeys(
+        ("turn", "turn_left", "turn_right"),
+        "a turn is a matter of the route: `drive` with the modifier `along`, on a route that turns",
+    ),
+    **dict.fromkeys(
+        ("wait", "sleep", "pause"), "`wait elapsed(3s)` is a statement of its own, without an actor"
+    ),
+}
 NO_MODIFIERS: Mapping[str, str] = {
     "ahead_of": "a parameter of `position`: `position(20m, ahead_of: …)`",
     "behind": "a parameter of `position`: `position(20m, behind: …)`",
     "in_front_of": "a parameter of `position`: `position(20m, ahead_of: …)`",
     "faster_than": "a parameter of `speed`: `speed(10kph, faster_than: …)`",
     "slower_than": "a parameter of `speed`: `speed(10kph, slower_than: …)`",
+    **dict.fromkeys(("keep_distance", "keep_gap", "follow", "following"), _GAP),
     "left_of": "a parameter of `lateral` and `lane`: `lane(1, side_of: …, side: left)`",
     "right_of": "a parameter of `lateral` and `lane`: `lane(1, side_of: …, side: right)`",
     "same_lane": "`lane(same_as: …)`",
@@ -82,12 +89,15 @@ NO_MODIFIERS: Mapping[str, str] = {
 }
 # For a word several, of which a behavior or modifier has one.
 PARAMETERS: Mapping[str, tuple[str, ...]] = {
+    "acceleration": ("rate_peak",),
     "after": ("behind",),
     "before": ("ahead_of",),
+    "deceleration": ("rate_peak",),
     "front_of": ("ahead_of",),
     "in_front_of": ("ahead_of",),
     "lanes": ("num_of_lanes",),
     "number_of_lanes": ("num_of_lanes",),
+    "rate": ("rate_peak",),
     "relative_to": ("reference", "side_of"),
     "speed": ("target",),
     "target_speed": ("target", "speed"),
