@@ -629,6 +629,7 @@ def test_what_holds_at_the_end_of_a_range_of_durations_is_planned(shell: Shell, 
             speed(20mps, at: start)
             lane(2, at: end)
             position(40m, ahead_of: lead, at: end)
+            speed(22mps, at: end)
 """,
         "--seed",
         seed,
@@ -637,4 +638,5 @@ def test_what_holds_at_the_end_of_a_range_of_durations_is_planned(shell: Shell, 
     lead, npc = run.states("lead")[-1], run.states("npc")[-1]
     assert 4.0 < npc["t"] < 6.0
     assert npc["x"] - lead["x"] == pytest.approx(40.0, abs=0.1)
+    assert npc["v"] == pytest.approx(22.0, abs=0.1)
     assert npc["y"] == pytest.approx(lead["y"], abs=0.05)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 
 from osc2tx import ir
@@ -124,4 +125,8 @@ def _timing(node: ir.Invoke) -> Timing:
     """Return facts about the length; without a duration the phase around may state it."""
     if node.duration is None:
         return Timing(has_duration=False, end_is_known=None)
-    return Timing(has_duration=True, end_is_known=not isinstance(node.duration, ir.RangeValue))
+    if not isinstance(node.duration, ir.RangeValue):
+        return Timing(has_duration=True, end_is_known=True)
+    # An end is drawn from a range, unless something else ends the action.
+    endless = ir.constant(node.duration.upper) == math.inf
+    return Timing(has_duration=True, end_is_known=not (node.until or endless))

@@ -264,14 +264,19 @@ class ModifiedMotion(MotionAction):
     @property
     def end_is_known(self) -> bool:
         """Whether it is known in advance when the action ends."""
-        return self.fixed_duration() is not None or self._phase is not None
+        return self.fixed_duration() is not None or self._phase is not None or self._ends_open
+
+    @property
+    def _ends_open(self) -> bool:
+        """Whether its end is drawn from a range of durations."""
+        open_ended = self.registered.ends == "open"
+        return open_ended and self._limits is not None and self._limits.ends_open
 
     def time_left(self) -> float | None:
         """Seconds until the end, where it is known or planned."""
         if self._phase is not None:
             return self._phase.left * self.context.dt
         known = super().time_left()
-        if known is None and self._limits is not None and self.registered.ends == "open":
-            steps = self._limits.open_left
-            known = None if steps is None else steps * self.context.dt
+        if known is None and self._limits is not None and self._ends_open:
+            known = self._limits.open_left * self.context.dt
         return self.planned - self.elapsed if known is None and self.planned else known

@@ -108,10 +108,13 @@ class DurationLimits:
         return self._low[0] - self._node.context.step
 
     @property
-    def open_left(self) -> int | None:
-        """Steps until the end of open-ended content; None if something else may end it."""
-        if self.until or self._node.context.first_come or math.isinf(self._seconds[1]):
-            return None
+    def ends_open(self) -> bool:
+        """Whether it ends open-ended content, at a time that is known from the start on."""
+        return not self.until and not math.isinf(self._seconds[1])
+
+    @property
+    def open_left(self) -> int:
+        """Steps until the end of open-ended content."""
         return self._end[0] - self._node.context.step
 
     def is_early(self, late: float) -> bool:
