@@ -34,29 +34,33 @@ else:
         def decorate(cls):
             if cls.__doc__ is None:
                 cls.__doc__ = cls.__qualname__  # else it would be the signature, which is slow
-            made = _bare(cls, frozen, slots, kw_only)
-            own = dataclasses.fields(made)
+            fields = _fields(cls, frozen, slots, kw_only)
+            own = list(fields.values())
             methods = {
                 "__init__": _init_first,
-                "__signature__": _Signature(),
-                "__match_args__": tuple(f.name for f in own if f.init and not f.kw_only),
+                "__signature__": _SIGNATURE,
+                "__match_args__": tuple([f.name for f in own if f.init and not f.kw_only]),
             }
             if repr:
                 methods["__repr__"] = _repr
             if eq:
-                compared = [f.name for f in own if f.compare]
-                made._compared = attrgetter(*compared) if compared else staticmethod(_nothing)
                 methods["__eq__"] = _eq
-                if "__hash__" not in cls.__dict__:
-                    made.__hash__ = _hash if frozen else None
+                methods["__hash__"] = _hash if frozen else None
             if frozen:
                 methods["__setattr__"] = methods["__delattr__"] = _refuse
                 if slots:
                     methods |= {"__getstate__": _get_state, "__setstate__": _set_state}
-            for name, method in methods.items():
-                if name not in cls.__dict__:
-                    setattr(made, name, method)
-            return made
+            content = {name: each for name, each in methods.items() if name not in cls.__dict__}
+            content["__dataclass_fields__"] = fields
+            content["__dataclass_params__"] = _FROZEN if frozen else _NOT_FROZEN
+            if eq:
+                compared = [f.name for f in own if f.compare]
+                content["_compared"] = attrgetter(*compared) if compared else staticmethod(_nothing)
+            if slots:
+                return _with_slots(cls, content)
+            for name, each in content.items():
+                setattr(cls, name, each)
+            return cls
 
         return decorate if cls is None else decorate(cls)
 
@@ -96,8 +100,11 @@ class _Parameters:
         self.frozen = frozen
 
 
-def _bare(cls: Any, frozen: bool, slots: bool, kw_only: bool) -> Any:
-    """Return the class with its fields and slots, and without methods."""
+_FROZEN, _NOT_FROZEN = _Parameters(True), _Parameters(False)
+
+
+def _fields(cls: Any, frozen: bool, slots: bool, kw_only: bool) -> dict[str, Any]:
+    """Return the fields of a class; without slots, their defaults become its attributes."""
     found: dict[str, Any] = {}
     for base in cls.__mro__[-1:0:-1]:
         if "__dataclass_params__" in base.__dict__:
@@ -110,16 +117,12 @@ def _bare(cls: Any, frozen: bool, slots: bool, kw_only: bool) -> Any:
         for name, annotation in get_annotations(cls).items()
         if not (isinstance(annotation, str) and annotation.startswith("ClassVar"))
     }
-    found.update(own)
-    made = _with_slots(cls, found) if slots else cls
-    for name, field in own.items():
-        if not slots and field.default is not MISSING:
+    for name, field in () if slots else own.items():
+        if field.default is not MISSING:
             setattr(cls, name, field.default)
-        elif not slots and name in cls.__dict__:
+        elif name in cls.__dict__:
             delattr(cls, name)
-    made.__dataclass_fields__ = found
-    made.__dataclass_params__ = _Parameters(frozen)
-    return made
+    return found | own
 
 
 def _field(cls: Any, name: str, annotation: object, kw_only: bool) -> Any:
@@ -133,15 +136,15 @@ def _field(cls: Any, name: str, annotation: object, kw_only: bool) -> Any:
     return field
 
 
-def _with_slots(cls: Any, fields: dict[str, Any]) -> Any:
-    """Return a class like another one, with slots instead of a `__dict__`."""
+def _with_slots(cls: Any, methods: dict[str, Any]) -> Any:
+    """Return a class like another one, with slots instead of a `__dict__`, and with methods."""
+    fields = methods["__dataclass_fields__"]
     inherited = {slot for base in cls.__mro__[1:-1] for slot in base.__dict__.get("__slots__", ())}
-    content = {
-        name: value
-        for name, value in cls.__dict__.items()
-        if name not in fields and name not in ("__dict__", "__weakref__")
-    }
-    content["__slots__"] = tuple(name for name in fields if name not in inherited)
+    content = {name: value for name, value in cls.__dict__.items() if name not in fields}
+    content.pop("__dict__", None)
+    content.pop("__weakref__", None)
+    content |= methods
+    content["__slots__"] = tuple([name for name in fields if name not in inherited])
     made = type(cls)(cls.__name__, cls.__bases__, content)
     made.__qualname__ = cls.__qualname__
     return made
@@ -158,6 +161,9 @@ class _Signature:
             owner.__init__ = _constructor(owner)
         found = signature(cls.__init__)
         return found.replace(parameters=list(found.parameters.values())[1:])
+
+
+_SIGNATURE = _Signature()
 
 
 def _owner(cls: Any) -> Any:
