@@ -1,7 +1,8 @@
 """What a run refuses before its first step: `check` prepares runs as `run` does.
 
 Only scenarios that name a map that is found are prepared, and none that would call code of the
-user's own: a check reads files, it does not execute them.
+user's own: a check reads files, it does not execute them. Packages with actions are loaded when
+such an action is invoked, so a scenario that surely invokes none is prepared beside one that does.
 """
 
 from __future__ import annotations
@@ -16,6 +17,8 @@ from osc2tx.compilation.imports import look_up
 from osc2tx.compilation.map_files import named_control_files, named_maps
 from osc2tx.compilation.needed_modules import sibling_drafts, siblings_of
 from osc2tx.diagnostics import CODES, Diagnostic, Severity, Span
+from osc2tx.ir.behaviors import Invoke, InvokeScenario
+from osc2tx.ir.verify import walk_behaviors
 from osc2tx.support.paths import real_path
 from osc2tx_shared.classes import replace
 from osc2tx_shared.map_files import SHIPPED, map_places, places_in_project
@@ -43,19 +46,36 @@ def report_refused_starts(compilation: Compilation, texts: RunTexts) -> None:
         *map(Path, compilation.options.xml.map_path),
         real_path(compilation.path).parent,
     ]
-    names = [each.name for each in module.scenarios if _can_start(compilation, each, folders)]
-    if names and not any(map(_calls_own_code, (compilation, *siblings_of(compilation)))):
+    files = (compilation, *siblings_of(compilation))
+    if any(map(_calls_own_methods, files)):
+        return
+    has_own_actions = any(each.ir is not None and each.ir.actions for each in files)
+    names = [
+        each.name
+        for each in module.scenarios
+        if not (has_own_actions and _may_invoke_own_action(each))
+        and _can_start(compilation, each, folders)
+    ]
+    if names:
         _report(compilation, names, dict(texts), folders)
 
 
-def _calls_own_code(compilation: Compilation) -> bool:
+def _calls_own_methods(compilation: Compilation) -> bool:
     module = compilation.ir
     if module is None:
         return False
     scenarios = (*module.bases, *module.scenarios)
     methods = [method for scenario in scenarios for method in scenario.methods]
     methods += [method for each in module.types for method in each.methods]
-    return bool(module.actions) or any(method.external is not None for method in methods)
+    return any(method.external is not None for method in methods)
+
+
+def _may_invoke_own_action(scenario: ir.Scenario) -> bool:
+    """Whether a scenario invokes an action of a package, or another scenario that may do so."""
+    return any(
+        isinstance(each, InvokeScenario) or (isinstance(each, Invoke) and each.is_own)
+        for each in walk_behaviors(scenario.body)
+    )
 
 
 def _can_start(compilation: Compilation, scenario: ir.Scenario, folders: Sequence[Path]) -> bool:

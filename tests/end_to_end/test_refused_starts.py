@@ -205,6 +205,26 @@ def test_code_of_the_user_is_not_run(shell: Shell) -> None:
     assert "OSC8" not in checked.err + checked.out, checked.err
 
 
+OWN_ACTION = "action vehicle.creep inherits vehicle.drive\n\n"
+
+
+def test_a_scenario_beside_one_with_an_action_of_a_package(shell: Shell) -> None:
+    """The package alone could tell about the second one, and a check does not load it."""
+    own = TOP.replace("top", "second") + both("ego.creep()")
+    shell.write("top.osc", HEAD + OWN_ACTION + TOP + CASES["beyond the road"] + "\n" + own)
+    refused = LINE.findall(shell("run", "--scenario", "top", "top.osc").err)
+    assert [code for _, code, _ in refused] == ["OSC802"]
+    assert LINE.findall(shell("check", "top.osc").err) == refused
+
+
+def test_a_scenario_that_may_invoke_an_action_of_a_package(shell: Shell) -> None:
+    own = TOP.replace("top", "inner") + both("ego.creep()")
+    outer = TOP + both("inner(road: road, ego: ego, npc: npc)", how="serial")
+    shell.write("top.osc", HEAD + OWN_ACTION + own + "\n" + outer)
+    checked = shell("check", "top.osc")
+    assert checked.code == 0 and "OSC8" not in checked.err, checked.err
+
+
 def test_invoked_scenarios_do_not_run_alone(shell: Shell) -> None:
     inner = TOP.replace("top", "inner") + "    v: speed\n"
     text = HEAD + inner + CASES["open speed"].partition("\n")[2]
