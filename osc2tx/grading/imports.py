@@ -127,6 +127,8 @@ class _Case:
         worst, worst_actor, at, since = 0.0, "", 0.0, math.inf
         for said, rows in played.track.items():
             actor = self.names.get(said, "")
+            # The standard says nothing of what is behind the end of a road.
+            rows = [row for row in rows if row[0] < played.ends.get(said, math.inf)]
             place, when, first = _apart(run.track.get(actor, ()), rows, dt, round(late / dt))
             since = min(since, first)
             if place > worst:
