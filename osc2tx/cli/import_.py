@@ -280,7 +280,9 @@ def _measure(result: Result, compilation: Compilation) -> None:
     except (NoEvidence, ScenarioError) as error:
         imported.report.measure(None, str(error))
         return
-    measured = Measured(found.place, found.actor, found.at, found.time, found.is_exact)
+    measured = Measured(
+        found.place, found.actor, found.at, found.time, found.is_exact, found.off_road
+    )
     imported.report.measure(measured)
 
 

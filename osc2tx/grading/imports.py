@@ -12,7 +12,7 @@ from pathlib import Path
 
 from osc2tx.grading.comparison import EXACT, ROUNDING, Recording, Row, hops
 from osc2tx.grading.plain import plain
-from osc2tx.grading.runs import NoEvidence, cached_map, run_in_player, run_in_world
+from osc2tx.grading.runs import Failed, NoEvidence, cached_map, run_in_player, run_in_world
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.player import BY_THE_STANDARD
@@ -40,6 +40,7 @@ class ImportDeviation:
         since: First time (s) at which an actor is off; infinite if none is.
         time: Difference of the ends (s); zero if both go on.
         late: Time (s) by which events may come later.
+        off_road: The actor with which the comparison ends, at the end of its road.
     """
 
     place: float
@@ -48,6 +49,7 @@ class ImportDeviation:
     since: float
     time: float
     late: float
+    off_road: str = ""
 
     @property
     def is_exact(self) -> bool:
@@ -122,8 +124,15 @@ class _Case:
             set=dict(self.values),
             spawn=self.starts,
         )
-        run = run_in_world(self.scenario, settings).recording
         late = (1 + max(hops(self.document).values(), default=0)) * dt
+        off_road = ""
+        try:
+            run = run_in_world(self.scenario, settings).recording
+        except Failed as failure:
+            run = failure.recording
+            off_road = self._at_end_of_road(run, played, late + dt)
+            if not off_road:
+                raise
         worst, worst_actor, at, since = 0.0, "", 0.0, math.inf
         for said, rows in played.track.items():
             actor = self.names.get(said, "")
@@ -133,8 +142,20 @@ class _Case:
             since = min(since, first)
             if place > worst:
                 worst, worst_actor, at = place, actor, when
-        time = 0.0 if self.is_endless else abs(min(run.end, longest) - min(played.end, longest))
-        return ImportDeviation(worst, worst_actor, at, since, time, late)
+        time = abs(min(run.end, longest) - min(played.end, longest))
+        time = 0.0 if self.is_endless or off_road else time
+        return ImportDeviation(worst, worst_actor, at, since, time, late, off_road)
+
+    def _at_end_of_road(self, run: Recording, played: Recording, late: float) -> str:
+        """Return the actor whose road ends when a run fails, if it does in the player too.
+
+        The standard says nothing of ends of roads: the player stops an entity there, a scenario
+        fails.
+        """
+        for said, end in played.ends.items():
+            if abs(end - run.end) <= late:
+                return self.names.get(said, "")
+        return ""
 
     def _played(self, dt: float, longest: float) -> Recording:
         road_map = cached_map(self.map_file)

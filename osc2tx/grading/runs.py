@@ -38,6 +38,19 @@ class NoEvidence(Exception):
         super().__init__(_LINES.sub("", reason))
 
 
+class Failed(NoEvidence):
+    """A run in the world that fails.
+
+    Attributes:
+        recording: What happened up to there, which is its end.
+    """
+
+    def __init__(self, reason: str, recording: Recording) -> None:
+        """Take the reason, and what happened."""
+        super().__init__(reason)
+        self.recording = recording
+
+
 @dataclass(frozen=True)
 class WorldRun:
     """A run in the embedded world.
@@ -66,7 +79,8 @@ def run_in_world(scenario: type[Scenario], settings: RunSettings) -> WorldRun:
     """Run a scenario in the embedded world.
 
     Raises:
-        NoEvidence: The run fails.
+        Failed: The run fails.
+        NoEvidence: It cannot be carried out.
     """
     track: dict[str, list[Row]] = {}
 
@@ -82,8 +96,6 @@ def run_in_world(scenario: type[Scenario], settings: RunSettings) -> WorldRun:
         result = run_scenario(scenario, settings, on_states=keep, read=cached_map)
     except (ScenarioError, ArithmeticError) as error:
         raise NoEvidence(f"the run in the world fails: {error}") from error
-    if result.status == "failure":
-        raise NoEvidence(f"the run in the world fails: {result.reason}")
     starts: dict[str, float] = {}
     choices: dict[str, str] = {}
     acted = 0.0
@@ -95,6 +107,9 @@ def run_in_world(scenario: type[Scenario], settings: RunSettings) -> WorldRun:
                     starts.setdefault(line["source"], line["t"])
             case "choice":
                 choices[line["name"]] = line["chosen"]
+    if result.status == "failure":
+        recording = Recording(result.time, starts, track, choices)
+        raise Failed(f"the run in the world fails: {result.reason}", recording)
     is_whole = result.status == "success"
     end = result.time if is_whole else math.inf
     if not is_whole:  # what it awaits never happens, and its actors stop where their road ends

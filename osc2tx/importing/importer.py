@@ -24,6 +24,7 @@ from osc2tx.importing.structure import Structure
 from osc2tx.importing.values import Parameter, Values
 from osc2tx.importing.whole import Whole, is_endless
 from osc2tx.xosc import Element, Unreadable, read
+from osc2tx.xosc import elements as xml
 from osc2tx.xosc.checking import problems, version_of
 from osc2tx.xosc.element import Unresolved
 from osc2tx.xosc.reader import Comment
@@ -120,6 +121,11 @@ class _Import:
         self._values = Values(document, self._names)
         self._cast = Cast(document, self._values, self._ledger, self._names, libraries)
         self._marks: dict[tuple[str, str], str] = {}
+        self._measured = {
+            node.get("variableRef")
+            for node in document.root.below(xml.VariableCondition)
+            if node.get("rule") != "equalTo"
+        }
         self._emitted: set[str] = set()
         self._comments: dict[object, list[str]] = {}
         for comment in document.comments:
@@ -203,8 +209,12 @@ class _Import:
         return found
 
     def _mark(self, name: str, value: str) -> str:
-        """Return the event that stands for a variable with a value."""
-        key = (name, value)
+        """Return the event that stands for a variable with a value.
+
+        A variable that is compared otherwise than for equality has one event for all values.
+        """
+        key = (name, "" if name in self._measured else value)
+        value = key[1]
         if key not in self._marks:
             base = snake(name) if value.lower() in ("true", "1", "") else snake(f"{name}_{value}")
             self._marks[key] = self._names.new("", kind="event", base=base)

@@ -10,7 +10,12 @@ from osc2tx.importing.report import ImportReport
 from osc2tx.options import STANDARDS
 from osc2tx.stdlib import LIBRARY, library_source
 
-_WORD = re.compile(r"[A-Z]+(?=[A-Z][a-z])|[A-Z]?[a-z]+\d*|[A-Z]+\d*|\d+")
+_WORD = re.compile(
+    r"[A-Z]\d[A-Z]+(?![a-z])"  # C2C, V2X
+    r"|[A-Z]{2,}s(?![a-z])"  # a plural: VRUs
+    r"|\d+[a-z]+\d*"  # a value with its unit: 50kph
+    r"|[A-Z]+(?=[A-Z][a-z])|[A-Z]?[a-z]+\d*|[A-Z]+\d*|\d+"
+)
 _DECLARED = re.compile(r"^(?:enum|struct|actor|unit) (\w+)", re.MULTILINE)
 _WORDS = (
     "import namespace use export struct actor action scenario modifier enum unit type extend def"

@@ -52,6 +52,7 @@ class Measured:
         at: Time (s) of that distance.
         time: Difference of the ends (s).
         is_exact: Whether places and ends are the same.
+        off_road: The actor with which the comparison ends, at the end of its road.
     """
 
     place: float
@@ -59,6 +60,7 @@ class Measured:
     at: float
     time: float
     is_exact: bool
+    off_road: str = ""
 
     @property
     def difference(self) -> str:
@@ -105,6 +107,12 @@ class ImportReport:
             reason: Why there is none.
         """
         self.measured, self.unmeasured = found, reason
+        if found is not None and found.off_road:
+            reason = (
+                f"it fails where {found.off_road} comes to the end of its road, of which the"
+                " standard says nothing; up to there it was compared"
+            )
+            self.findings.append(Finding("approximated", "the scenario", reason, None))
         if found is not None and not found.is_exact:
             bound = math.ceil(found.place * 100.0) / 100.0
             what = Finding("approximated", "the scenario", found.difference, None, bound=bound)
@@ -142,6 +150,7 @@ class ImportReport:
             "actor": found.actor,
             "at_s": round(found.at, 3),
             "end_s": round(found.time, 3),
+            **({"until_end_of_road_of": found.off_road} if found.off_road else {}),
         }
 
     def to_json(self) -> str:

@@ -54,7 +54,7 @@ class Speeds(Reader):
         dynamics.text("followingMode")
         if (target_node.text("continuous") or "false").lower() in ("true", "1"):
             return self._as_fast_as(node, target_node, dynamics, actor)
-        standing = Quantity(literal(0.0, SPEED), 0.0) if at_start else None
+        standing = Quantity(literal(0.0, SPEED), 0.0)
         before = self._speeds.get(said, standing)
         self._speeds[said] = target
         value = self._values.quantity(dynamics, "value", of_dynamics(dynamics))
@@ -66,6 +66,10 @@ class Speeds(Reader):
             dynamics.approximate("a cubic course of the speed is smooth here")
         arguments = f"target: {target.text}, rate_profile: {PROFILES.get(shape, 'constant')}"
         call = f"{actor.name}.change_speed"
+        limit = self._limit_within(said, before, target, shape, value.value, dimension)
+        if limit is not None:
+            dynamics.approximate("the change is held to what the vehicle can do")
+            value, dimension = Quantity(literal(limit, ACCELERATION), limit), "rate"
         if dimension == "time":
             return Statement(f"{call}({arguments}, duration: {value.text})", length=value.value)
         if dimension == "rate":
@@ -90,6 +94,24 @@ class Speeds(Reader):
             return Statement(f"{call}({arguments}, duration: {time.text})", length=time.value)
         dynamics.approximate("the way of the change is that of its usual rate")
         return Statement(f"{call}(target: {target.text})")
+
+    def _limit_within(
+        self,
+        said: str,
+        before: Quantity | None,
+        target: Quantity,
+        shape: str,
+        value: float,
+        dimension: str,
+    ) -> float | None:
+        """Return the acceleration (m/s^2) that a vehicle has at most, if a change asks for more."""
+        body = self._places.bodies.get(said)
+        if body is None or before is None or dimension == "distance":
+            return None
+        change = target.value - before.value
+        limit = body.limits.get("maxAcceleration" if change > 0.0 else "maxDeceleration", math.inf)
+        asked = value if dimension == "rate" else _peak(shape) * abs(change) / value
+        return limit if change and asked > limit + 1e-9 else None
 
     def _target(self, node: Node, at_start: bool) -> Quantity:
         if node.tag == "AbsoluteTargetSpeed":
@@ -237,6 +259,8 @@ class Speeds(Reader):
             f"lane(same_as: {reference})",
             f"position({where}, {side}: {reference})",
         ]
+        if abs(own.place.offset) > 1e-9:
+            node.approximate("it is in the middle of its lane after it was put there")
         return Statement(f"{actor.name}.assign_position()", modifiers=modifiers, length=0.0)
 
 

@@ -1,0 +1,49 @@
+"""What vehicles can do, ends of roads, and the names of things."""
+
+import json
+
+import pytest
+
+from osc2tx.importing.names import short, snake
+from osc2tx.importing.report import ImportReport, Measured
+from tests.importing.documents import at_time, document, event, imported, speed_change
+
+
+@pytest.mark.parametrize(
+    ("said", "name"),
+    [
+        ("NCAP_AEB_C2C_CCRs", "ncap_aeb_c2c_ccrs"),
+        ("V2XMessage", "v2x_message"),
+        ("CCRb_40m_2ms2", "cc_rb_40m_2ms2"),
+        ("CutInVehicle_1", "cut_in_vehicle_1"),
+        ("EgoSpeed50kph", "ego_speed50_kph"),
+    ],
+)
+def test_names(said: str, name: str) -> None:
+    assert snake(said) == name
+
+
+def test_names_of_events_leave_out_that_they_are_events() -> None:
+    assert short("BrakeEvent") == "brake"
+
+
+def test_a_change_is_held_to_what_the_vehicle_can_do() -> None:
+    """The car has at most 10 m/s^2: 15 m/s more take 1.5 s, not 1 s."""
+    found = imported(document(event("Faster", speed_change("30", "1"), at_time("1"))))
+    assert "other.change_speed(target: 30mps, rate_profile: constant, rate_peak: 10mpss)" in (
+        " ".join(found.text.split()).replace("( ", "(").replace(" )", ")")
+    )
+    assert any("can do" in each.reason for each in found.report.findings)
+
+
+def test_a_change_within_that_keeps_its_time() -> None:
+    found = imported(document(event("Faster", speed_change("30", "2"), at_time("1"))))
+    assert "duration: 2s" in found.text
+
+
+def test_a_run_up_to_the_end_of_a_road_is_no_exact_one() -> None:
+    report = ImportReport("a.xosc")
+    report.measure(Measured(0.0, "ego", 0.0, 0.0, True, off_road="ego"))
+    assert report.grade == "approximated"
+    assert "end of its road" in report.findings[0].reason
+    assert json.loads(report.to_json())["measured"]["until_end_of_road_of"] == "ego"
