@@ -81,7 +81,7 @@ def _hover_literal(document: Document, offset: int) -> lsp.Hover | None:
 
 
 def si_value(literal: ast.PhysicalLiteral, model: SemanticModel | None) -> str:
-    """Return the value of a quantity in SI units, `13.89 m s^-1`."""
+    """Return the value of a quantity in SI units, `13.89 m/s`."""
     unit = None if model is None else model.units.get(literal)
     if unit is None:
         return literal.span.text

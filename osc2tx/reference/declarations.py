@@ -8,6 +8,7 @@ from functools import cache, partial
 
 from osc2tx.stdlib import LIBRARY, library_file, member_meanings
 from osc2tx.syntax import ast
+from osc2tx.syntax.si_notation import si_notation
 from osc2tx_shared.classes import dataclass
 
 OLD, NEW = "2.1", "2.2"
@@ -143,15 +144,12 @@ def _declaration(
                 "modifier", statement, statement.behavior, _members(statement, "parameter")
             )
         case ast.PhysicalTypeDeclaration():
-            meaning = " ".join(
-                f"{each.base}^{each.exponent}" if each.exponent != 1 else each.base
-                for each in statement.exponents
-            )
+            unit = si_notation((each.base, each.exponent) for each in statement.exponents)
             return Declaration(
                 kind="type",
                 name=str(statement.name),
                 section="8.14.1",
-                meaning=f"A physical type; in SI units {meaning or '1'}.",
+                meaning=f"A physical type; in SI units {unit}.",
                 units=tuple(units.get(str(statement.name), ())),
             )
         case _:

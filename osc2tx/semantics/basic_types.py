@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from osc2tx.syntax.si_notation import si_notation
 from osc2tx_shared.classes import dataclass
 
 SI_BASES = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
@@ -27,13 +28,8 @@ class Dimension:
         return Dimension(tuple(a - b for a, b in zip(self.exponents, other.exponents, strict=True)))
 
     def __str__(self) -> str:
-        """SI notation, `m s^-1`; `1` if dimensionless."""
-        parts = [
-            base if exponent == 1 else f"{base}^{exponent}"
-            for base, exponent in zip(SI_BASES, self.exponents, strict=True)
-            if exponent
-        ]
-        return " ".join(parts) or "1"
+        """SI notation, `m/s`; `1` if dimensionless."""
+        return si_notation(zip(SI_BASES, self.exponents, strict=True))
 
 
 DIMENSIONLESS = Dimension()

@@ -24,7 +24,14 @@ MAY_IMPORT: dict[str, set[str]] = {
     "syntax": {"diagnostics", "support"},
     "stdlib": {"diagnostics", "syntax", "version"},
     "catalogue": set(),
-    "semantics": {"catalogue", "diagnostics", "stdlib", "support", "syntax.ast"},
+    "semantics": {
+        "catalogue",
+        "diagnostics",
+        "stdlib",
+        "support",
+        "syntax.ast",
+        "syntax.si_notation",
+    },
     "analysis": {"catalogue", "diagnostics", "options", "semantics", "syntax.ast"},
     "ir": {"diagnostics"},
     "lowering": {"analysis", "catalogue", "ir", "semantics", "syntax.ast"}
