@@ -57,9 +57,14 @@ class Arguments:
         return None if expression is None else self._ctx.values.number(expression)
 
     def required(self, name: str) -> float:
-        """Return a number, in SI units, that the library requires: no call is without it."""
+        """Return a number, in SI units, that the library requires.
+
+        Raises:
+            Inexpressible: It is left out.
+        """
         number = self.number(name)
-        assert number is not None, f"{self.construct} without {name}"
+        if number is None:
+            raise self._missing(name)
         return number
 
     def size(self, name: str) -> float | None:
@@ -134,10 +139,18 @@ class Arguments:
         return self._ctx.cast[value.name]
 
     def required_entity(self, name: str) -> CastMember:
-        """Return an actor that the library requires."""
+        """Return an actor that the library requires.
+
+        Raises:
+            Inexpressible: It is left out.
+        """
         entity = self.entity(name)
-        assert entity is not None, f"{self.construct} without {name}"
+        if entity is None:
+            raise self._missing(name)
         return entity
+
+    def _missing(self, name: str) -> Inexpressible:
+        return Inexpressible(f"`{name}` is not stated", self.span)
 
     def approximate(self, reason: str, bound: Metres | str, remedy: Remedy = NOTHING) -> None:
         """Report that the action or modifier means nearly the same in the XML."""

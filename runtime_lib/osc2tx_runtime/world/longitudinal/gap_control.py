@@ -37,10 +37,11 @@ class GapRun:
     to an edge. It does not reverse.
     """
 
-    __slots__ = ("_command", "_failed", "_held", "_limits", "_other")
+    __slots__ = ("_command", "_failed", "_held", "_least_time", "_limits", "_other")
 
     def __init__(self, command: KeepGap, limits: Limits) -> None:
         self._command = command
+        self._least_time = float(command.time or 0.0)  # it may be a measured one, with a tolerance
         self._limits = limits
         self._other = Tracked(command.reference, command.projected)
         self._held = 0.0  # s for which the gap has been as it should
@@ -107,8 +108,7 @@ class GapRun:
 
     def _times(self) -> tuple[float, float]:
         """Least and greatest time (s) allowed."""
-        time = self._command.time or 0.0
-        return time, time + self._command.spread
+        return self._least_time, self._least_time + self._command.spread
 
     def _closing(self, error: float, drift: float = 0.0) -> float:
         """Rate (m/s) at which to close an error (m), which drifts by so much until it counts."""
