@@ -198,7 +198,8 @@ def _field_values(values: tuple[FieldValue, ...]) -> Iterator[str]:
 
 
 def _placement(placement: Placement) -> Iterator[str]:
-    yield f"place {placement.actor} @{placement.span.line}"
+    implied = " implied" if placement.is_implied else ""
+    yield f"place {placement.actor}{implied} @{placement.span.line}"
     yield from _indented(_modifier(modifier) for modifier in placement.modifiers)
 
 

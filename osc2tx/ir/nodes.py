@@ -22,6 +22,9 @@ class Placement:
         of_map: It is about roads.
         is_throughout: All of it holds later as well, so a scenario that another invokes in the
             middle of a run can do without.
+        is_implied: Nothing states it; it suits the first action of the actor. It is void if
+            something else says how the actor starts, or if the actor is there already.
+        is_later: That action does not begin with the scenario.
     """
 
     actor: str
@@ -30,6 +33,8 @@ class Placement:
     comments: tuple[str, ...] = ()
     of_map: bool = False
     is_throughout: bool = False
+    is_implied: bool = False
+    is_later: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

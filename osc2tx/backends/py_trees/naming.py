@@ -38,6 +38,7 @@ SCENARIO_ATTRIBUTES = frozenset(
         "has_drawn_values",
         "is_abstract",
         "is_main",
+        "implied_starts",
         "invoke",
         "invoked",
         "keep",

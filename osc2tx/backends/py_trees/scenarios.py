@@ -255,7 +255,8 @@ class ScenarioWriter:
         actor = code(self._calls.expressions.field(placement.actor))
         # A placement mentions the start anyway.
         modifiers = (self._calls.modifier(replace(m, at="all")) for m in placement.modifiers)
-        later = (code(literal(True), "throughout"),) if placement.is_throughout else ()
+        flags = {"throughout": placement.is_throughout, "implied": placement.is_implied}
+        later = (code(literal(True), name) for name, is_set in flags.items() if is_set)
         method = _self("require" if placement.of_map else "place")
         call = CallView(method, (actor, *modifiers, *later))
         return StatementView(None, ArgumentView(call=call), comments(placement.comments))

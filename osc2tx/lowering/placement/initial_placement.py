@@ -8,7 +8,7 @@ it has to hold by then.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import field
 
 from osc2tx import ir
@@ -16,6 +16,7 @@ from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import Label, Span
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.placement.carla_paths import START
+from osc2tx.lowering.placement.implied_starts import implied_start
 from osc2tx.lowering.values.shape_arguments import first_value, says_start
 from osc2tx_shared.classes import dataclass, replace
 
@@ -45,11 +46,12 @@ class PlacementLowering:
         """Take the place for complaints."""
         self._ctx = ctx
         self._found: dict[str, _Found] = {}
+        self._implied: dict[str, ir.Placement] = {}
         self._in_one_of: bool = False
 
     def split(self, body: ir.Behavior) -> tuple[tuple[ir.Placement, ...], ir.Behavior | None]:
         """Return the placements in source order, and the tree without them."""
-        rest = self._rewrite(body, is_start=True)
+        rest = self._rewrite(body, None, is_start=True)
         placements = tuple(
             ir.Placement(
                 actor=actor,
@@ -61,47 +63,53 @@ class PlacementLowering:
             for actor, found in self._found.items()
             if found.modifiers
         )
-        return placements, rest
+        implied = (each for each in self._implied.values() if each.modifiers)
+        return (*placements, *implied), rest
 
-    def _rewrite(self, node: ir.Behavior, *, is_start: bool) -> ir.Behavior | None:
+    def _rewrite(
+        self, node: ir.Behavior, time: ir.Expression | None, *, is_start: bool
+    ) -> ir.Behavior | None:
+        """Rewrite a node that has a time, its own or that of what it is a member of."""
         match node:
             case ir.Serial():
-                return self._composition(node, self._serial_members(node, is_start=is_start))
-            case ir.OneOf() if not self._in_one_of:
-                self._in_one_of = is_start
-                found = self._composition(
-                    node, (self._rewrite(member, is_start=is_start) for member in node.members)
-                )
-                self._in_one_of = False
-                return found
+                return self._composition(node, self._serial_members(node, time, is_start=is_start))
             case ir.Parallel() | ir.OneOf():
-                members = (self._rewrite(member, is_start=is_start) for member in node.members)
+                time = node.duration or time
+                before = self._in_one_of
+                self._in_one_of = before or (is_start and isinstance(node, ir.OneOf))
+                members = [self._rewrite(each, time, is_start=is_start) for each in node.members]
+                self._in_one_of = before
                 return self._composition(node, members)
             case ir.Invoke():
-                return self._lift(node) if is_start else self._later(node)
+                time = node.duration or time
+                return self._lift(node, time) if is_start else self._later(node, time)
             case ir.InvokeScenario() | ir.Wait() | ir.Emit() | ir.Finish() | ir.Call() | ir.On():
                 return node
 
-    def _serial_members(self, node: ir.Serial, *, is_start: bool) -> Iterator[ir.Behavior | None]:
+    def _serial_members(
+        self, node: ir.Serial, time: ir.Expression | None, *, is_start: bool
+    ) -> Iterator[ir.Behavior | None]:
+        last = [member for member in node.members if not is_instant(member)]
+        time = (node.duration or time) if len(last) == 1 else None
         for member in node.members:
-            yield self._rewrite(member, is_start=is_start)
+            yield self._rewrite(member, time, is_start=is_start)
             is_start = is_start and is_instant(member)
 
     def _composition(
-        self, node: ir.Composition, members: Iterator[ir.Behavior | None]
+        self, node: ir.Composition, members: Iterable[ir.Behavior | None]
     ) -> ir.Composition | None:
         left = tuple(member for member in members if member is not None)
         return replace(node, members=left) if left else None
 
-    def _lift(self, node: ir.Invoke) -> ir.Invoke | None:
+    def _lift(self, node: ir.Invoke, time: ir.Expression | None) -> ir.Invoke | None:
         if not isinstance(node.actor, ir.FieldRef):
             return node
         actor = node.actor.name
         node = self._begin_on_path(node, actor)
         placing = [first_value(m) for m in node.modifiers if _places(m) and m.at != "end"]
-        placing += open_start_speed(node.qualified_name, node.modifiers)
         if actor not in self._found:
             placing += [*_followed_lane(node), *_followed_line(node)]
+        self._imply(node, actor, time, is_later=False)
         if not placing:
             return node
         found = self._found.setdefault(actor, _Found(node.span))
@@ -121,6 +129,20 @@ class PlacementLowering:
             return None
         return replace(node, modifiers=rest)
 
+    def _imply(
+        self, node: ir.Invoke, actor: str, time: ir.Expression | None, *, is_later: bool
+    ) -> None:
+        """Note the start that suits the first action of an actor, where nothing states one."""
+        if is_instant(node):
+            return
+        modifiers = implied_start(node, time)
+        found = ir.Placement(
+            actor=actor, modifiers=modifiers, span=node.span, is_implied=True, is_later=is_later
+        )
+        first = self._implied.setdefault(actor, found)
+        if self._in_one_of and not ir.means_same(first.modifiers, modifiers):
+            self._implied[actor] = replace(first, modifiers=())  # which of them runs is drawn
+
     def _check_alternatives(
         self, first: ir.ModifierCall | None, second: ir.ModifierCall, actor: str
     ) -> None:
@@ -135,10 +157,12 @@ class PlacementLowering:
                 help="let an action before the `one_of` place it",
             )
 
-    def _later(self, node: ir.Invoke) -> ir.Invoke:
+    def _later(self, node: ir.Invoke, time: ir.Expression | None) -> ir.Invoke:
         """Leave an action where it stands; but for its path, which places its actor anyway."""
         if isinstance(node.actor, ir.FieldRef):
-            node = self._begin_on_path(node, node.actor.name)
+            actor = node.actor.name
+            node = self._begin_on_path(node, actor)
+            self._imply(node, actor, time, is_later=True)
         return node
 
     def _begin_on_path(self, node: ir.Invoke, actor: str) -> ir.Invoke:
@@ -216,12 +240,16 @@ def report_twice(ctx: LoweringContext, first: ir.ModifierCall, second: ir.Modifi
 def merged(ctx: LoweringContext, placements: Sequence[ir.Placement]) -> tuple[ir.Placement, ...]:
     """Return one placement for each actor, at its first position; those of maps stay apart."""
     by_actor: dict[str, ir.Placement] = {}
+    implied: list[ir.Placement] = []
     same = {field.name: each.other.name for field, each in ctx.same_actors.items()}
     for number, placement in enumerate(placements):
         while placement.actor in same:  # another name of an actor that has its own place here
             placement = replace(placement, actor=same[placement.actor])
         if placement.of_map:
             by_actor[f"{placement.actor} {number}"] = placement
+            continue
+        if placement.is_implied:
+            implied.append(placement)
             continue
         first = by_actor.get(placement.actor)
         if first is not None:
@@ -235,7 +263,15 @@ def merged(ctx: LoweringContext, placements: Sequence[ir.Placement]) -> tuple[ir
                 is_throughout=first.is_throughout and placement.is_throughout,
             )
         by_actor[placement.actor] = placement
-    return tuple(by_actor.values())
+    left = (_beyond(each, by_actor.get(each.actor)) for each in implied)
+    return (*by_actor.values(), *(each for each in left if each.modifiers))
+
+
+def _beyond(implied: ir.Placement, stated: ir.Placement | None) -> ir.Placement:
+    """Return what is implied of a start on which what is stated is silent."""
+    known = {_subject(modifier) for modifier in stated.modifiers} if stated is not None else set()
+    left = (modifier for modifier in implied.modifiers if _subject(modifier) not in known)
+    return replace(implied, modifiers=tuple(left))
 
 
 def is_instant(node: ir.Behavior) -> bool:
@@ -314,52 +350,3 @@ def _followed_line(node: ir.Invoke) -> Iterator[ir.ModifierCall]:
 
 def _is_zero(argument: ir.Argument) -> bool:
     return ir.constant(argument.value) == 0.0
-
-
-REFERENCES = ("ahead_of", "behind")
-_TIMES = ("start", "all", "end")
-
-
-def open_start_speed(
-    action: str, modifiers: Sequence[ir.ModifierCall]
-) -> tuple[ir.ModifierCall, ...]:
-    """Return the speed with which the actor of an action starts; empty if something says it.
-
-    Args:
-        action: Its action from the start on.
-        modifiers: All of that action.
-    """
-    entries = catalogue().modifiers
-    entry = catalogue().actions.get(action)
-    if entry is None or entry.ends != "open" or entry.paces:
-        return ()
-    positions = [each for each in modifiers if each.name == "position"]
-    others = [each for each in modifiers if each not in positions]
-    if not all(each.name in entries for each in others):
-        return ()  # actions of a dialect
-    if any(entries[each.name].paces for each in others):
-        return ()
-    reference = _kept_reference(positions)
-    if reference is None:
-        return ()
-    same = ir.Argument(
-        parameter="same_as", value=reference.value, is_positional=False, span=reference.span
-    )
-    return (ir.ModifierCall(span=reference.span, name="speed", arguments=(same,), at="start"),)
-
-
-def _kept_reference(positions: Sequence[ir.ModifierCall]) -> ir.Argument | None:
-    """Return the references of positions at all times, or at the start and the end."""
-    if any(argument.parameter == "shape" for each in positions for argument in each.arguments):
-        return None
-    found = {at: [r for p in positions if p.at == at for r in _reference(p)] for at in _TIMES}
-    given = [found[at] for at in _TIMES if found[at]]
-    first, *others = given or [[]]
-    if not all(len(each) == 1 for each in given) or not (found["all"] or len(given) == 2):
-        return None
-    same = all(other[0].value.span.text == first[0].value.span.text for other in others)
-    return first[0] if same else None
-
-
-def _reference(position: ir.ModifierCall) -> list[ir.Argument]:
-    return [argument for argument in position.arguments if argument.parameter in REFERENCES]

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 from osc2tx_runtime.domain.actors import Actor, Map
 from osc2tx_runtime.domain.map.objects import MapObject
-from osc2tx_runtime.domain.modifiers import MapModifier, SetMapFile
-from osc2tx_runtime.domain.placing.entries import with_entries
+from osc2tx_runtime.domain.modifiers import MapModifier, Modifier, SetMapFile
+from osc2tx_runtime.domain.placing.entries import acting_at_once, with_entries
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.scenario import BaseScenario
@@ -13,7 +15,13 @@ from osc2tx_runtime.language.tree.base import Behaviour
 
 
 class Scenario(BaseScenario):
-    """A scenario. Generated classes write `declare`, `placement` and `behavior`."""
+    """A scenario. Generated classes write `declare`, `placement` and `behavior`.
+
+    Attributes:
+        implied_starts: What suits the first actions of actors that enter, by their ids.
+    """
+
+    implied_starts: Mapping[str, Sequence[Modifier]]
 
     def require(self, road_map: Map, *modifiers: MapModifier) -> None:
         """State the constraints on the declared roads and lanes of the map."""
@@ -21,8 +29,13 @@ class Scenario(BaseScenario):
 
     def completed(self, tree: Behaviour) -> Behaviour:
         """Return the whole tree of a run, with the actors that enter."""
-        placed = [placement.actor.id for placement in self.placements]
-        return with_entries(tree, placed, self.one_of == "race")
+        race = self.one_of == "race"
+        acting = acting_at_once(tree, race)
+        late = [each for each in self.placements if each.implied and each.actor.id not in acting]
+        self.implied_starts = {each.actor.id: each.modifiers for each in reversed(late)}
+        self.placements = [each for each in self.placements if each not in late]
+        placed = {each.actor.id for each in self.placements}
+        return with_entries(tree, acting | placed, self.implied_starts, race)
 
     def map_file(self) -> str | None:
         """Return the map file the scenario names; None if it leaves the map open.

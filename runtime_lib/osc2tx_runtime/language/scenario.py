@@ -104,7 +104,13 @@ class BaseScenario(ScenarioParts):
         shared: AnyT = self._shared_objects.setdefault(name, declared)
         return shared
 
-    def place(self, actor: BaseActor, *modifiers: Modifier, throughout: bool = False) -> None:
+    def place(
+        self,
+        actor: BaseActor,
+        *modifiers: Modifier,
+        throughout: bool = False,
+        implied: bool = False,
+    ) -> None:
         """Say where and how an actor starts.
 
         Args:
@@ -112,9 +118,11 @@ class BaseScenario(ScenarioParts):
             *modifiers: Conditions at the start.
             throughout: The first action establishes all of it anyway: where the scenario is invoked
                 in the middle of a run, no actor is placed.
+            implied: Nothing states it, but the first action of the actor needs it, or goes on with
+                it. Void if something else says how the actor starts, or if it is there already.
         """
         source = self._source_map.of_placement(len(self.placements))
-        self.placements.append(Placement(actor, modifiers, source, throughout))
+        self.placements.append(Placement(actor, modifiers, source, throughout, implied))
 
     def sample(
         self,

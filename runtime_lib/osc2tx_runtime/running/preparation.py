@@ -87,7 +87,7 @@ def rehearsed(
         scenario = scenario_class(quiet)
         root = scenario.create_tree()
         context = make_context(scenario, EmbeddedWorld(road_map, quiet.dt))
-        context.entries = rehearsal
+        context.entries, rehearsal.implied = rehearsal, scenario.implied_starts
         place_actors(scenario, context)
         setup_tree(root, context)
         with suppress(AllEnteredError, ScenarioError):  # what is wrong, the run itself tells

@@ -88,6 +88,8 @@ def starts_of(ctx: Context) -> list[Start]:
     found: dict[str, Start] = {}
     for scope in ctx.scope.all():
         for placement in scope.scenario.placements:
+            if placement.is_implied and (placement.is_later or not scope.is_first):
+                continue  # it acts already, or enters
             member = scope.cast.get(placement.actor)
             if is_map(ctx, placement.actor):
                 check_map(ctx, placement)
@@ -97,9 +99,12 @@ def starts_of(ctx: Context) -> list[Start]:
                     raise Inexpressible(f"`{placement.actor}` is no entity of the XML")
                 if not scope.is_first:
                     raise Inexpressible("the scenario that places it does not begin with the run")
-                if member.name in found:
+                if member.name not in found:
+                    found[member.name] = _start(ctx, scope, member, placement)
+                elif placement.is_implied:
+                    found[member.name] = _with_implied(ctx, found[member.name], placement)
+                else:
                     raise Inexpressible(f"{member.name} is placed twice")
-                found[member.name] = _start(ctx, scope, member, placement)
     tows = towing(ctx)
     starts = [
         found.get(member.name)
@@ -126,6 +131,18 @@ def _start(ctx: Context, scope: Scope, member: CastMember, placement: ir.Placeme
                 references.append(other.name)
                 is_beside = is_beside or modifier in BESIDE
     return Start(member, scope, placement, modifiers, tuple(references), is_beside)
+
+
+def _with_implied(ctx: Context, start: Start, implied: ir.Placement) -> Start:
+    """Return a start with what suits the first action of the actor, where it is silent."""
+    silent = tuple(m for m in implied.modifiers if m.name not in start.modifiers)
+    besides = _start(ctx, start.scope, start.member, replace(implied, modifiers=silent))
+    return replace(
+        start,
+        modifiers={**start.modifiers, **besides.modifiers},
+        references=tuple(dict.fromkeys((*start.references, *besides.references))),
+        is_beside=start.is_beside or besides.is_beside,
+    )
 
 
 def in_order(starts: list[Start]) -> list[Start]:

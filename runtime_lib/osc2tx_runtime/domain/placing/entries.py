@@ -7,7 +7,7 @@ stands for it in the tree. ADR 10 has the reasons.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.actors import MovableObject
@@ -22,6 +22,7 @@ from osc2tx_runtime.domain.modifiers import (
 from osc2tx_runtime.domain.modifiers.groups import PLACES
 from osc2tx_runtime.domain.paths.path_values import Path, Trajectory
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
+from osc2tx_runtime.domain.placing.start_order import with_implied
 from osc2tx_runtime.language.actions.action import Action
 from osc2tx_runtime.language.tree.base import RUNNING, SUCCESS, Behaviour, Leaf, Status
 from osc2tx_runtime.language.tree.invocation import started_at_once
@@ -155,15 +156,19 @@ class Enter(Leaf):
         return entries.ways.get(self.actor.id) if isinstance(entries, Entries) else None
 
 
-def with_entries(tree: Behaviour, placed: Sequence[str], race: bool) -> Behaviour:
+def with_entries(
+    tree: Behaviour, present: Set[str], implied: Mapping[str, Sequence[Modifier]], race: bool
+) -> Behaviour:
     """Return a tree with a node beside it for each actor that enters.
 
     Args:
         tree: The tree of the scenario that runs.
-        placed: Ids of the actors whose start the scenario states.
+        present: Ids of the actors that are placed, or do something when it starts.
+        implied: What suits the first actions of others where nothing is stated, by their ids.
         race: All members of a `one_of` start.
     """
-    found = [Enter(actor, source) for actor, source in _entering(tree, placed, race)]
+    late = _late(tree, implied, race)
+    found = [Enter(actor, source) for actor, source in late if actor.id not in present]
     if not found:
         return tree
     whole = Parallel(f"{tree.name}, with actors that enter", tree, *found)
@@ -176,30 +181,37 @@ def entering_actors(tree: Behaviour) -> tuple[str, ...]:
     return tuple(node.actor.id for node in tree.iterate() if isinstance(node, Enter))
 
 
-def _entering(
-    tree: Behaviour, placed: Sequence[str], race: bool
-) -> Iterator[tuple[MovableObject, str]]:
-    """Yield the actors that enter, with the first line that states how, in the order of the tree.
+def acting_at_once(tree: Behaviour, race: bool) -> set[str]:
+    """Return the ids of the actors that surely do something when a tree starts."""
+    return {
+        node.actor.id
+        for node, at_once in started_at_once(tree, race)
+        if at_once and isinstance(node, Action) and isinstance(node.actor, MovableObject)
+    }
 
-    They do nothing when the run starts.
-    """
-    present = set(placed)
+
+def _late(
+    tree: Behaviour, implied: Mapping[str, Sequence[Modifier]], race: bool
+) -> Iterator[tuple[MovableObject, str]]:
+    """Yield the actors that have to be somewhere later, with the first line that states it."""
     sources: dict[str, tuple[MovableObject, str]] = {}
     for node, at_once in started_at_once(tree, race):
-        if not isinstance(node, Action) or not isinstance(node.actor, MovableObject):
+        if at_once or not isinstance(node, Action) or not isinstance(node.actor, MovableObject):
             continue
-        if at_once:
-            present.add(node.actor.id)
-        elif start_demands(node):
+        if start_demands(node, implied.get(node.actor.id, ())):
             sources.setdefault(node.actor.id, (node.actor, node.source))
-    yield from (entry for actor, entry in sources.items() if actor not in present)
+    yield from sources.values()
 
 
-def start_demands(action: BaseAction) -> tuple[Modifier, ...]:
+def start_demands(action: BaseAction, implied: Sequence[Modifier] = ()) -> tuple[Modifier, ...]:
     """Return what an action states of its start; empty if it may begin from anywhere.
 
     What holds throughout holds at the start as well. By itself it lets an actor approach it, so
     only `at: start`, a position that is kept, and a path are reasons to be somewhere.
+
+    Args:
+        action: The first one of its actor.
+        implied: What suits it where nothing is stated.
     """
     if not isinstance(action, Action):
         return ()
@@ -209,10 +221,11 @@ def start_demands(action: BaseAction) -> tuple[Modifier, ...]:
     found = [m for m in action.modifiers if m.facts.placement and _holds_at_start(m)]
     if not any(isinstance(m, PLACES) for m in found):
         found += action.states_itself()
-    if not any(map(_is_reason, found)):
+    placed = any(isinstance(m, Position) for m in implied)
+    if not placed and not any(map(_is_reason, found)):
         return ()
     stated = {type(m) for m in found if m.is_start}
-    return tuple(m for m in found if m.is_start or type(m) not in stated)
+    return with_implied([m for m in found if m.is_start or type(m) not in stated], implied)
 
 
 def _is_reason(modifier: Modifier) -> bool:

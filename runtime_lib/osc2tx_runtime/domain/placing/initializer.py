@@ -130,7 +130,7 @@ class ScenarioInitializer(StartRoom[ActorStart]):
     def _starts(self, placements: Sequence[Placement]) -> list[ActorStart]:
         """One start per physical actor, in the order of the cast."""
         written: dict[str, Placement] = {}
-        for placement in placements:
+        for placement in sorted(placements, key=lambda each: each.implied):
             known = written.get(placement.actor.id)
             written[placement.actor.id] = placement if known is None else joined(known, placement)
         starts = []

@@ -47,6 +47,7 @@ class Rehearsal(Entries):
         waiting: Ids of the actors that enter.
 
     Attributes:
+        implied: What suits their first actions where nothing is stated, by actor.
         arrivals: Where the actors have to be, in the order in which they begin.
         missed: Distance (m) that an actor lacked.
         errors: Why there is no such place.
@@ -56,6 +57,7 @@ class Rehearsal(Entries):
     def __init__(self, ways: dict[str, WayIn], waiting: Sequence[str]) -> None:
         super().__init__(ways)
         self._waiting = set(waiting)
+        self.implied: Mapping[str, Sequence[Modifier]] = {}
         self.arrivals: dict[str, Arrival] = {}
         self.missed: dict[str, float] = {}
         self.errors: dict[str, PlacementError] = {}
@@ -88,7 +90,7 @@ class Rehearsal(Entries):
         actor = getattr(action, "actor", None)
         if isinstance(actor, MovableObject) and actor.id in self._waiting:
             self._waiting.discard(actor.id)
-            demands = start_demands(action)
+            demands = start_demands(action, self.implied.get(actor.id, ()))
             if demands:
                 try:
                     self._arrive(actor, demands, action)
@@ -108,7 +110,7 @@ class Rehearsal(Entries):
         here = world.state(actor.id)
         fixed = any(isinstance(m, Position | Along | AlongTrajectory | OnPath) for m in demands)
         initial = self._placed(actor, demands, None if fixed else here)
-        speed = self._open_speed(action) if initial.speed is None else initial.speed
+        speed = initial.speed or 0.0
         self.arrivals[actor.id] = Arrival(
             *(actor.id, self._context.step, initial.at, speed, initial.heading, initial.tilt),
             *(fixed, actor.shape, world.limits(actor.id), actor.lane_bound),
@@ -134,19 +136,6 @@ class Rehearsal(Entries):
 
         draws = self._context.random_for(f"{actor.id} start")
         return Placer(world).initial_state(actor, demands, here, taken_by=taken_by, draws=draws)
-
-    def _open_speed(self, action: BaseAction) -> float:
-        """Return the speed (m/s) of an actor for which nothing states one.
-
-        It is that of the reference relative to which its place is kept, or is to be at the start
-        and at the end.
-        """
-        places = [m for m in action.modifiers if isinstance(m, Position) and m.reference]
-        references = {place.reference.id for place in places if place.reference is not None}
-        times = {place.at for place in places}
-        if len(references) != 1 or not ("all" in times or times == {"start", "end"}):
-            return 0.0
-        return self._context.world.state(references.pop()).v
 
 
 def _missed(road_map: RoadMap, here: ActorState, there: LanePosition | Pose) -> float:

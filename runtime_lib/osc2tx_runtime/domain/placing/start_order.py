@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 from osc2tx_runtime.domain.actors import PhysicalObject, Vehicle
 from osc2tx_runtime.domain.modifiers import (
     Along,
+    AlongTrajectory,
     Lane,
     Location,
     Modifier,
+    OnPath,
     Position,
     TowTrailer,
 )
@@ -20,6 +22,10 @@ from osc2tx_shared.classes import replace
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.actions.placement import Placement
+
+
+_PLACES = (Position, Location, Along, AlongTrajectory, OnPath)
+"""Each of them says how far along the road an actor is."""
 
 
 class ActorStart:
@@ -77,6 +83,8 @@ def joined(first: Placement, second: Placement) -> Placement:
     Raises:
         PlacementError: They constrain the same motion, and differ.
     """
+    if second.implied:
+        return replace(first, modifiers=with_implied(first.modifiers, second.modifiers))
     said = {_subject(modifier): modifier for modifier in first.modifiers}
     for modifier in second.modifiers:
         if said.setdefault(_subject(modifier), modifier) != modifier:
@@ -85,6 +93,14 @@ def joined(first: Placement, second: Placement) -> Placement:
             )
     throughout = first.throughout and second.throughout
     return replace(first, modifiers=tuple(said.values()), throughout=throughout)
+
+
+def with_implied(stated: Sequence[Modifier], implied: Sequence[Modifier]) -> tuple[Modifier, ...]:
+    """Return what is stated of a start, and of what is implied that on which it is silent."""
+    known = {_subject(modifier) for modifier in stated}
+    if any(isinstance(modifier, _PLACES) for modifier in stated):
+        known |= {_subject(modifier) for modifier in implied if isinstance(modifier, _PLACES)}
+    return (*stated, *(modifier for modifier in implied if _subject(modifier) not in known))
 
 
 def _subject(modifier: Modifier) -> tuple[str, str]:

@@ -20,9 +20,11 @@ class Placement:
         modifiers: position, lane, speed and so on, as written.
         source: Position in the scenario.
         throughout: All of it holds later as well.
+        implied: Nothing states it; it suits the first action of the actor.
     """
 
     actor: BaseActor
     modifiers: tuple[Modifier, ...]
     source: str
     throughout: bool = False
+    implied: bool = False

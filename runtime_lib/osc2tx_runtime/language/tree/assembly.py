@@ -198,7 +198,9 @@ def invoked_placements(scenario: ScenarioParts, tree: Behaviour) -> list[Placeme
             found += node.scenario.placements
             continue
         for placement in node.scenario.placements:
-            if not placement.throughout:
+            if placement.implied:
+                found.append(placement)
+            elif not placement.throughout:
                 _state_at_start(node, placement, race)
     return found
 

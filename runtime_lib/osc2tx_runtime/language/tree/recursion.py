@@ -76,7 +76,8 @@ class Recursion(Node):
             return
         known = set(root.actors)
         made = self._make()
-        if set(root.actors) != known or made.scenario.placements:
+        places = any(not placement.implied for placement in made.scenario.placements)
+        if set(root.actors) != known or places:
             raise UnsupportedError(
                 f"{self._invoked.name} declares or places actors of its own in an invocation within"
                 " itself: hand them in",

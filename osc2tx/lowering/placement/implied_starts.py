@@ -1,0 +1,154 @@
+"""Implied starts: where and how fast an actor has to begin for its first action.
+
+An actor of which nothing states the start begins at rest and in a free place, unless its first
+action says how it goes on, or how it ends when its time is over: then it begins so that this can
+be, with the speed and beside the actor that it ends with.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from osc2tx import ir
+from osc2tx.catalogue import catalogue
+from osc2tx.diagnostics import Span
+from osc2tx.lowering.behavior.time_expressions import is_range
+from osc2tx_shared.classes import replace
+
+_REFERENCES = ("ahead_of", "behind")
+_TIMES = ("start", "all", "end")
+_SPEEDS = frozenset({"speed", "speed_range", "faster_than", "slower_than", "same_as", "factor"})
+_PLACES = frozenset({"position", "along", "along_trajectory", "location"})
+
+
+def implied_start(node: ir.Invoke, time: ir.Expression | None) -> tuple[ir.ModifierCall, ...]:
+    """Return how an actor has to begin for its first action, as far as that leaves it open.
+
+    Args:
+        node: The action.
+        time: What its time is limited to, if it is.
+    """
+    entries = catalogue().modifiers
+    entry = catalogue().actions.get(node.qualified_name)
+    if entry is None or entry.ends != "open" or entry.paces:
+        return ()
+    if not all(each.name in entries for each in node.modifiers):
+        return ()  # actions of a dialect
+    positions = [each for each in node.modifiers if each.name == "position"]
+    if any(argument.parameter == "shape" for each in positions for argument in each.arguments):
+        return ()
+    limited = None if time is None or is_range(time) else time
+    found = [] if _is_placed(node.modifiers) else _place_at_end(positions)
+    found += _open_speed(positions, _paces(node.modifiers), limited)
+    return tuple(each for each in found if not _changes(each))
+
+
+def _is_placed(modifiers: Sequence[ir.ModifierCall]) -> bool:
+    return any(each.name in _PLACES and each.at != "end" for each in modifiers)
+
+
+def _paces(modifiers: Sequence[ir.ModifierCall]) -> list[ir.ModifierCall]:
+    """Return what states a speed, or a place at each time, but for positions."""
+    entries = catalogue().modifiers
+    return [m for m in modifiers if m.name != "position" and entries[m.name].paces]
+
+
+def _place_at_end(positions: Sequence[ir.ModifierCall]) -> list[ir.ModifierCall]:
+    """Return the place relative to another actor at which an actor has to be at the end."""
+    if len(positions) == 1 and positions[0].at == "end" and _references(positions[0]):
+        return [_at_start(positions[0])]
+    return []
+
+
+def _open_speed(
+    positions: Sequence[ir.ModifierCall],
+    paces: Sequence[ir.ModifierCall],
+    time: ir.Expression | None,
+) -> list[ir.ModifierCall]:
+    """Return the speed of which the first action tells that it has to be the one at the start."""
+    later = [each for each in positions if each.at != "start"]
+    match [(each.name, each.at) for each in paces]:
+        case []:
+            reference = _kept_reference(positions)
+            if reference is not None:
+                return [_speed("same_as", reference.value, reference.span)]
+            return _mean_speed(positions, time)
+        case [("speed", "end")] if time is not None and not later:
+            plain = {argument.parameter for argument in paces[0].arguments} <= _SPEEDS
+            return [_at_start(paces[0])] if plain else []
+        case [("distance", "all")] if time is not None and not later:
+            distance = _value(paces[0], "distance")
+            if distance is not None:
+                return [_speed("speed", _of("/", distance, time, "speed"), paces[0].span)]
+        case [("speed", "end"), ("acceleration", "all")] | [
+            ("acceleration", "all"),
+            ("speed", "end"),
+        ]:
+            return [] if later or time is None else _speed_before(paces, time)
+    return []
+
+
+def _speed_before(paces: Sequence[ir.ModifierCall], time: ir.Expression) -> list[ir.ModifierCall]:
+    """Return the speed from which a steady acceleration leads to the one at the end."""
+    end, steady = sorted(paces, key=lambda each: each.name == "acceleration")
+    speed, acceleration = _value(end, "speed"), _value(steady, "acceleration")
+    if speed is None or acceleration is None or len(end.arguments) > 1:
+        return []
+    gained = _of("*", acceleration, time, "speed")
+    return [_speed("speed", _of("-", speed, gained, "speed"), end.span)]
+
+
+def _mean_speed(
+    positions: Sequence[ir.ModifierCall], time: ir.Expression | None
+) -> list[ir.ModifierCall]:
+    """Return the speed that leads from one place to another in a given time."""
+    places = {each.at: _value(each, "distance") for each in positions}
+    first, last = places.get("start"), places.get("end")
+    if len(positions) != 2 or first is None or last is None or time is None:
+        return []
+    way = _of("-", last, first, "length")
+    return [_speed("speed", _of("/", way, time, "speed"), positions[-1].span)]
+
+
+def _kept_reference(positions: Sequence[ir.ModifierCall]) -> ir.Argument | None:
+    """Return the one actor relative to which places are kept, or met at the end."""
+    found = {at: [r for p in positions if p.at == at for r in _references(p)] for at in _TIMES}
+    given = [found[at] for at in _TIMES if found[at]]
+    first, *others = given or [[]]
+    if not all(len(each) == 1 for each in given) or not (found["all"] or found["end"]):
+        return None
+    same = all(other[0].value.span.text == first[0].value.span.text for other in others)
+    return first[0] if same else None
+
+
+def _changes(modifier: ir.ModifierCall) -> bool:
+    """Whether a value is known only during the run."""
+    return any(ir.is_live(argument.value) for argument in modifier.arguments)
+
+
+def _references(position: ir.ModifierCall) -> list[ir.Argument]:
+    return [argument for argument in position.arguments if argument.parameter in _REFERENCES]
+
+
+def _value(modifier: ir.ModifierCall, parameter: str) -> ir.Expression | None:
+    """Return the only argument of a modifier, if it is this one and a single value."""
+    given = [argument.value for argument in modifier.arguments if argument.parameter == parameter]
+    if len(given) != 1 or len(modifier.arguments) != 1 or is_range(given[0]):
+        return None
+    return given[0]
+
+
+def _of(operator: str, left: ir.Expression, right: ir.Expression, quantity: str) -> ir.Binary:
+    type_ = ir.ValueType(ir.Kind.QUANTITY, quantity)
+    return ir.Binary(span=left.span, type=type_, operator=operator, left=left, right=right)
+
+
+def _speed(parameter: str, value: ir.Expression, span: Span) -> ir.ModifierCall:
+    argument = ir.Argument(
+        parameter=parameter, value=value, is_positional=parameter == "speed", span=span
+    )
+    return ir.ModifierCall(span=span, name="speed", arguments=(argument,), at="start")
+
+
+def _at_start(modifier: ir.ModifierCall) -> ir.ModifierCall:
+    return replace(modifier, at="start", comments=())
