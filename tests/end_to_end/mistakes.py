@@ -242,11 +242,18 @@ FAILURES = [
     ),
     Case(
         "too little time for what is inside",
-        "serial(duration: 2s):\n    ego.change_speed(target: 30mps, rate_profile: smooth)",
+        "serial(duration: 2s):\n    ego.change_speed(target: 30mps, rate_peak: 2mpss)",
         3.0,
         1,
         "not finished within 2 s; still running: ego.change_speed(target=30 * mps,"
-        ' rate_profile="smooth")',
+        " rate_peak=2 * mpss)",
+    ),
+    Case(
+        "a change that is too much for the time that is left",
+        "serial(duration: 1s):\n    ego.change_speed(target: 30mps, rate_profile: smooth)",
+        1.0,
+        2,
+        "10.0 to 30.0 m/s in 1 s takes more than 12 m/s^2",
     ),
     Case(
         "a road that ends",

@@ -109,6 +109,7 @@ class Leaf:
         arguments: Those of the action.
         state: What is known about the actor at the start.
         duration: Its length (s), if its own duration or one around it says so.
+        limit: What compositions leave it (s) to reach its goal; `None`: nothing limits it.
         event: Name of the event that will carry it out.
         is_start: It begins with the run.
         enters: It is the first action of an actor that nothing places at the start of the run.
@@ -128,8 +129,13 @@ class Leaf:
         *,
         is_start: bool,
         time_left: float | None = None,
+        time_limit: float | None = None,
     ) -> None:
-        """Take the invocation; `time_left` (s) is its length if compositions around it end it."""
+        """Take the invocation.
+
+        Compositions around it may end it: after `time_left` (s), or after `time_limit` (s) at the
+        most.
+        """
         self.ctx = ctx
         self.node = node
         self.member = member
@@ -137,6 +143,7 @@ class Leaf:
         self.state = ctx.states[member.name]
         own = None if node.duration is None else ctx.values.number(node.duration)
         self.duration = time_left if own is None else own
+        self.limit = time_limit
         self.event = event
         self.is_start = is_start
         self.enters = not is_start and member.name not in ctx.present
@@ -186,6 +193,12 @@ class Leaf:
         """Return how a change goes that has to be done when the invocation ends, if it has to."""
         is_free = pace.profile != "asap" and pace.peak is None
         return pace._replace(duration=self.duration) if call.at == "end" and is_free else pace
+
+    def within_limit(self, pace: Pace, own: float) -> Pace:
+        """Return how a change goes that takes `own` seconds where it has all the time it needs."""
+        is_free = pace == Pace(pace.profile) and pace.profile != "asap"
+        is_late = self.limit is not None and own > self.limit
+        return pace._replace(duration=self.limit) if is_free and is_late else pace
 
     @property
     def construct(self) -> str:

@@ -1,7 +1,8 @@
-"""The duration with which an open-ended action ends: that of the composition around it.
+"""The duration with which an action ends, or has to end: that of the composition around it.
 
 In `parallel(duration: 8s)` the members that never end by themselves end after 8 s, whenever the
-others do; what holds `at: end` for one of them has to hold then.
+others do; what holds `at: end` for one of them has to hold then. Those that end by themselves have
+8 s at the most.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.tree import Parallel, Serial
+from osc2tx_runtime.language.tree.base import Node
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.tree import Behaviour
@@ -36,6 +38,32 @@ def phase_of(action: BaseAction, *, strict: bool) -> DurationLimits | None:
             return None
         if limits is not None:
             return limits if limits.fixed is not None else None
+        node = parent
+    return None
+
+
+def limit_of(action: BaseAction) -> DurationLimits | None:
+    """The duration around an action in which it has to reach its goal.
+
+    Args:
+        action: The action.
+
+    Returns:
+        None if it has a duration of its own, or others have to follow it before the end.
+    """
+    if action.registered.ends != "goal" or action.duration is not None:
+        return None
+    node: Behaviour = action
+    while isinstance(node.parent, Serial | Parallel):
+        parent = node.parent
+        if isinstance(parent, Serial):
+            after = parent.children[parent.children.index(node) + 1 :]
+            if not all(isinstance(each, Node) and each.instant for each in after):
+                return None
+        elif not _is_plain(parent):
+            return None
+        if parent.limits is not None:
+            return parent.limits
         node = parent
     return None
 

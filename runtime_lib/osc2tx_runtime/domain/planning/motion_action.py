@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Unpack
@@ -11,13 +12,14 @@ from osc2tx_runtime.domain.modifiers import Modifier, MovementModifier, Orient, 
 from osc2tx_runtime.domain.modifiers.base import settled
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
+from osc2tx_runtime.domain.planning.enclosing_phase import limit_of
 from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.errors import PlacementError, ScenarioError
 from osc2tx_runtime.language.actions.action import Action, ActionOptions
 from osc2tx_runtime.language.actions.base_action import with_blame
 from osc2tx_runtime.language.actions.registry import LONGITUDINAL
 from osc2tx_runtime.language.tree.base import Status
-from osc2tx_runtime.language.tree.duration_limits import DurationLimits
+from osc2tx_runtime.language.tree.duration_limits import Duration, DurationLimits
 from osc2tx_runtime.opendrive import MapError
 from osc2tx_runtime.world.actor_dimensions import TOP_SPEED
 from osc2tx_runtime.world.commands import Careful, Command, SpeedChange
@@ -260,6 +262,13 @@ class ModifiedMotion(MotionAction):
     def orient(self) -> Orient | None:
         """The tilt of a vehicle over time; None if it is not stated."""
         return one_of_kind(self.lasting, Orient) if self.movable.lane_bound else None
+
+    def time_frame(self) -> Duration | None:
+        """The seconds that the action may take: its duration, or what one around it leaves."""
+        limit = None if self.context.first_come else limit_of(self)
+        if limit is None or math.isinf(limit.most_left):
+            return self.duration
+        return 0.0, limit.most_left * self.context.dt
 
     @property
     def end_is_known(self) -> bool:

@@ -108,6 +108,11 @@ class DurationLimits:
         return self._low[0] - self._node.context.step
 
     @property
+    def most_left(self) -> float:
+        """Steps until the most duration is over."""
+        return math.inf if math.isinf(self._seconds[1]) else self._high[0] - self._node.context.step
+
+    @property
     def ends_open(self) -> bool:
         """Whether it ends open-ended content, at a time that is known from the start on."""
         return not self.until and not math.isinf(self._seconds[1])

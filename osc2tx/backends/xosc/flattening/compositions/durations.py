@@ -11,7 +11,7 @@ In `parallel(duration: 8s)` the members that never end by themselves end after 8
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, cast
 
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
@@ -155,6 +155,26 @@ def time_left(ctx: Context, node: ir.Invoke) -> float | None:
     return None
 
 
+def time_limit(ctx: Context, node: ir.Invoke) -> float | None:
+    """Return the time (s) that compositions leave an action for its goal, if that is known."""
+    if is_open(node) or node.duration is not None or ctx.module.dialect == "carla":
+        return None
+    passed, child = 0.0, cast(ir.Behavior, node)
+    for parent in reversed(_around(ctx.scope.scenario.body, node)):
+        if isinstance(parent, ir.Serial):
+            index = next(i for i, each in enumerate(parent.members) if each is child)
+            lengths = [length_of(ctx, member) for member in parent.members[:index]]
+            if None in lengths or not all(map(is_instant, parent.members[index + 1 :])):
+                return None
+            passed += sum(length or 0.0 for length in lengths)
+        elif not _start_together(parent):
+            return None
+        if parent.duration is not None:
+            return max(0.0, ctx.values.bounds(parent.duration)[1] - passed)
+        child = parent
+    return None
+
+
 def _rest(node: ir.Invoke, fixed: float, passed: float | None) -> float | None:
     """Return what is left of a duration (s) after a time, which may be unknown."""
     if passed is not None:
@@ -186,11 +206,16 @@ def _fixed(ctx: Context, node: ir.Composition) -> float | None:
 
 def _ends_with_it(node: ir.Composition, *, has_duration: bool) -> bool:
     """Whether the open-ended members of a composition start and end with it."""
-    if not isinstance(node, ir.Parallel) or node.overlap not in (None, "start"):
-        return False
-    if node.start_to_start or node.end_to_end:
+    if not isinstance(node, ir.Parallel) or not _start_together(node):
         return False
     return has_duration or all(map(_never_ends, node.members))
+
+
+def _start_together(node: ir.Composition) -> bool:
+    """Whether the members of a parallel start with it, and end when they like."""
+    if not isinstance(node, ir.Parallel) or node.overlap not in (None, "start"):
+        return False
+    return not (node.start_to_start or node.end_to_end)
 
 
 def _never_ends(node: ir.Behavior) -> bool:

@@ -13,7 +13,7 @@ from osc2tx.backends.xosc.actions.speed.speed_elements import in_steps
 from osc2tx.backends.xosc.actions.speed.speed_notes import note_cut
 from osc2tx.backends.xosc.actions.user_actions import global_command, user_action
 from osc2tx.backends.xosc.conditions.flow import Flow, Test
-from osc2tx.backends.xosc.flattening.compositions.durations import time_left
+from osc2tx.backends.xosc.flattening.compositions.durations import time_left, time_limit
 from osc2tx.backends.xosc.flattening.invocations.action_endings import record_end_state
 from osc2tx.backends.xosc.flattening.storyboard.builder import (
     RUN_START,
@@ -47,7 +47,8 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
         start = builder.latched(start, builder.name_of(node))
     name = ctx.names.new(event_name(ctx.scope.deeds, node, member.name))
     is_start = start == RUN_START or ir.is_first(ctx.scenario.body, node)
-    leaf = Leaf(ctx, node, member, name, is_start=is_start, time_left=time_left(ctx, node))
+    left, limit = time_left(ctx, node), time_limit(ctx, node)
+    leaf = Leaf(ctx, node, member, name, is_start=is_start, time_left=left, time_limit=limit)
     ctx.present.add(member.name)
     performance = Performance((), "instant")
     with ctx.report_as(leaf.construct, node.span):

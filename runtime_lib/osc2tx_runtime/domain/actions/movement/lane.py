@@ -179,7 +179,7 @@ class ChangeLane(_OnLane):
             lane = self.place_of(self.actor.id).lane
             raise Refused(f"it is in the lane to change to already, lane {lane}; follow_lane stays")
         self._beside = self._lane_of_reference()
-        self.shift(lanes, value_of(self.offset), self.duration)
+        self.shift(lanes, value_of(self.offset), self.time_frame())
 
     def _lane_of_reference(self) -> int | None:
         return None if self.reference is None else lane_of(self, self.reference)

@@ -66,11 +66,12 @@ class ChangeSpeed(RatedChange):
         if self.may_jump:
             return jump_to(target)
         change = SpeedChange(target, self.rate_profile, self.rate_peak)
-        if self.duration is None or self.rate_profile == "asap" or change.rate_peak is not None:
+        frame = self.time_frame()
+        if frame is None or self.rate_profile == "asap" or change.rate_peak is not None:
             return change
-        if not isinstance(self.duration, tuple):
+        if not isinstance(frame, tuple):
             return replace(change, duration=self.fixed_duration())
-        low, high = self.duration
+        low, high = frame
         own = speed_profile(change, self.here.v, self.limits).duration
         return replace(change, duration=min(max(own, low), high))
 

@@ -11,13 +11,13 @@ from osc2tx_runtime.world.commands import Arrive, FollowSpeed
 from osc2tx_runtime.world.measuring.distances import along_lanes, gap_between, headway_between
 
 if TYPE_CHECKING:
-    from osc2tx_runtime.domain.planning.motion_action import MotionAction
+    from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
     from osc2tx_runtime.world.commands import KeepGap
 
 _CHOICES = 200  # times out of a range that are looked at
 
 
-def arrival(action: MotionAction, gap: KeepGap) -> Arrive | None:
+def arrival(action: ModifiedMotion, gap: KeepGap) -> Arrive | None:
     """The command to have a gap, at the speed of the reference, when the action ends.
 
     Out of a range of durations the shortest one is taken that is comfortable, else the longest.
@@ -28,7 +28,7 @@ def arrival(action: MotionAction, gap: KeepGap) -> Arrive | None:
     Raises:
         Refused: There is no path along lanes to the reference.
     """
-    duration = action.duration
+    duration = action.time_frame()
     if duration is None:
         return None
     low, high = duration if isinstance(duration, tuple) else (duration, duration)
@@ -48,7 +48,7 @@ def arrival(action: MotionAction, gap: KeepGap) -> Arrive | None:
     return Arrive(time, gap=gap, speed=FollowSpeed(gap.reference))
 
 
-def _missing(action: MotionAction, gap: KeepGap) -> tuple[float, float]:
+def _missing(action: ModifiedMotion, gap: KeepGap) -> tuple[float, float]:
     """Metres that are to be gained, and the speed at which they are gained now."""
     me, other = action.here, action.world.state(gap.reference)
     along = along_lanes(action.world.map, other, me)
