@@ -121,3 +121,35 @@ def test_a_stated_rate_stays(play: Callable[..., Trace]) -> None:
     trace = play("ego.change_speed(30mps, constant, 2mpss)")
     assert trace.status == "failure"
     assert "not finished within 4 s" in trace.reason
+
+
+STOP = """import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario top:
+    road: map with:
+        keep(it.map_file == "highway.xodr")
+    ego: vehicle
+    do serial:
+        ego.drive(duration: 1s) with:
+            lane(3)
+            speed(20mps)
+            position(200m, at: start)
+        ego.drive() with:
+            {end}
+"""
+
+
+@pytest.mark.parametrize(
+    ("speed", "place"), [("0mps", "400m"), ("10mps", "500m"), ("25mps", "700m")]
+)
+def test_a_speed_at_a_place(load: Load, tmp_path: Path, speed: str, place: str) -> None:
+    """Without a duration it takes the time that the mean of both speeds needs for the way."""
+    end = f"speed({speed}, at: end)\n            position({place}, at: end)"
+    trace = run(load(emit(asam(STOP.format(end=end), tmp_path))))
+    assert trace.status == "success"
+    target, way = float(speed[:-3]), float(place[:-1]) - 220.0
+    assert last(trace)["v"] == pytest.approx(target, abs=1e-6)
+    assert last(trace)["s"] == pytest.approx(220.0 + way, abs=0.05 * target + 1e-6)
+    assert last(trace)["t"] == pytest.approx(1.0 + way / (0.5 * (20.0 + target)), abs=0.051)

@@ -217,7 +217,10 @@ class CallCheck:
         if missing:
             names = ", ".join(f"`{name}`" for name in missing)
             self._sink.report(
-                "OSC509", node.span, f"action `{action}` cannot do without {names} yet"
+                "OSC509",
+                node.span,
+                f"action `{action}` needs {names}, which nothing states",
+                help=f"write `{missing[0]}: …` among its arguments",
             )
 
     def _rules(

@@ -215,11 +215,13 @@ class _Action(Generic[CallT]):
         return self._arrives() or all(rate.at == "all" for rate in rates)
 
     def _arrives(self) -> bool:
-        """Whether a place and a speed at the end of a known time are asked for."""
+        """Whether a place and a speed at the end are asked for, which is known or at that place."""
+        places = self._named("position")
+        on_road = not any("ahead_of" in each.given or "behind" in each.given for each in places)
         return (
-            self.timing.end_is_known is not False
+            (self.timing.end_is_known is not False or on_road)
             and all(speed.at == "end" and not speed.shaped for speed in self._speeds())
-            and all(place.at == "end" for place in self._named("position"))
+            and all(place.at == "end" for place in places)
         )
 
     def twice(self) -> Iterator[Clash[CallT]]:

@@ -59,7 +59,9 @@ def check_modifiers(action: ModifiedMotion) -> None:
     calls = [_call(modifier) for modifier in action.modifiers]
     timing = Timing(action.duration is not None, action.end_is_known)
     for clash in clashes(calls, RULES, timing):
-        raise _error(action.action_name, clash)
+        error = _error(action.action_name, clash)
+        error.source = action.source or None
+        raise error
 
 
 def _error(action: str, clash: _Clash) -> ScenarioError:
