@@ -106,6 +106,19 @@ def test_place_beside_another_at_the_end(play: Callable[[str], Trace], whole: st
         assert state(trace, time)["v"] == pytest.approx(20.0)
 
 
+@pytest.mark.parametrize(("word", "sign"), [("ahead_of", 1.0), ("behind", -1.0)])
+def test_the_way_back_from_the_end_at_two_steady_speeds(
+    play: Callable[[str], Trace], word: str, sign: float
+) -> None:
+    """4 m/s faster for 5 s: it starts 20 m farther back."""
+    trace = play(
+        f"{AT_ONCE}            speed(24mps)\n            position(16m, {word}: ego, at: end)\n"
+    )
+    assert trace.status == "success"
+    assert state(trace, 0.0)["s"] == pytest.approx(200.0 + sign * 16.0 - 20.0)
+    assert state(trace, 5.0)["s"] == pytest.approx(300.0 + sign * 16.0)
+
+
 def test_what_is_stated_counts(play: Callable[[str], Trace]) -> None:
     trace = play(
         f"{AT_ONCE}            position(150m, at: start)\n            speed(10mps, at: start)\n"

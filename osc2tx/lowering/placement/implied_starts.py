@@ -7,13 +7,13 @@ be, with the speed and beside the actor that it ends with.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from osc2tx import ir
 from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import Span
 from osc2tx.lowering.behavior.time_expressions import is_range
-from osc2tx_shared.classes import replace
+from osc2tx_shared.classes import dataclass, replace
 
 _REFERENCES = ("ahead_of", "behind")
 _TIMES = ("start", "all", "end")
@@ -21,25 +21,53 @@ _SPEEDS = frozenset({"speed", "speed_range", "faster_than", "slower_than", "same
 _PLACES = frozenset({"position", "along", "along_trajectory", "location"})
 
 
-def implied_start(node: ir.Invoke, time: ir.Expression | None) -> tuple[ir.ModifierCall, ...]:
-    """Return how an actor has to begin for its first action, as far as that leaves it open.
+@dataclass(frozen=True, slots=True)
+class FirstAction:
+    """The first action of an actor.
 
-    Args:
+    Attributes:
         node: The action.
         time: What its time is limited to, if it is.
+        is_later: It does not begin with the scenario.
+        is_drawn: There is another one in another alternative of a `one_of`.
     """
+
+    node: ir.Invoke
+    time: ir.Expression | None
+    is_later: bool
+    is_drawn: bool = False
+
+
+def implied_starts(first: Mapping[str, FirstAction]) -> Iterator[ir.Placement]:
+    """Yield how actors have to begin for their first actions, as far as those leave it open."""
+    for actor, action in first.items():
+        modifiers = () if action.is_drawn else _implied_by(action, first)
+        if modifiers:
+            yield ir.Placement(
+                actor=actor,
+                modifiers=modifiers,
+                span=action.node.span,
+                is_implied=True,
+                is_later=action.is_later,
+            )
+
+
+def _implied_by(
+    action: FirstAction, first: Mapping[str, FirstAction]
+) -> tuple[ir.ModifierCall, ...]:
+    modifiers, time = action.node.modifiers, action.time
     entries = catalogue().modifiers
-    entry = catalogue().actions.get(node.qualified_name)
+    entry = catalogue().actions.get(action.node.qualified_name)
     if entry is None or entry.ends != "open" or entry.paces:
         return ()
-    if not all(each.name in entries for each in node.modifiers):
+    if not all(each.name in entries for each in modifiers):
         return ()  # actions of a dialect
-    positions = [each for each in node.modifiers if each.name == "position"]
+    positions = [each for each in modifiers if each.name == "position"]
     if any(argument.parameter == "shape" for each in positions for argument in each.arguments):
         return ()
     limited = None if time is None or is_range(time) else time
-    found = [] if _is_placed(node.modifiers) else _place_at_end(positions)
-    found += _open_speed(positions, _paces(node.modifiers), limited)
+    found = [] if _is_placed(modifiers) else _place_at_end(positions, action, first)
+    found += _open_speed(positions, _paces(modifiers), limited)
     return tuple(each for each in found if not _changes(each))
 
 
@@ -53,11 +81,39 @@ def _paces(modifiers: Sequence[ir.ModifierCall]) -> list[ir.ModifierCall]:
     return [m for m in modifiers if m.name != "position" and entries[m.name].paces]
 
 
-def _place_at_end(positions: Sequence[ir.ModifierCall]) -> list[ir.ModifierCall]:
-    """Return the place relative to another actor at which an actor has to be at the end."""
-    if len(positions) == 1 and positions[0].at == "end" and _references(positions[0]):
-        return [_at_start(positions[0])]
+def _place_at_end(
+    positions: Sequence[ir.ModifierCall], action: FirstAction, first: Mapping[str, FirstAction]
+) -> list[ir.ModifierCall]:
+    """Return the place relative to another actor from which an actor gets to the one at the end.
+
+    Where both keep their speeds, that is by their difference nearer or farther away.
+    """
+    if len(positions) != 1 or positions[0].at != "end":
+        return []
+    (end,) = positions
+    for reference in _references(end):
+        other = (
+            first.get(reference.value.name) if isinstance(reference.value, ir.FieldRef) else None
+        )
+        own, its = _steady_speed(action), None if other is None else _steady_speed(other)
+        if own is None or its is None or other is None or other.time is not action.time:
+            return [] if own is not None else [_at_start(end)]
+        (distance, *_), time = end.arguments, action.time
+        if time is None or distance.parameter != "distance" or is_range(distance.value):
+            return []
+        gained = _of("*", _of("-", own, its, "speed"), time, "length")
+        operator = "-" if reference.parameter == "ahead_of" else "+"
+        value = _of(operator, distance.value, gained, "length")
+        rest = end.arguments[1:]
+        return [replace(_at_start(end), arguments=(replace(distance, value=value), *rest))]
     return []
+
+
+def _steady_speed(action: FirstAction) -> ir.Expression | None:
+    """Return the speed that an actor has during all of its first action."""
+    paces = _paces(action.node.modifiers)
+    is_steady = len(paces) == 1 and paces[0].name == "speed" and paces[0].at == "all"
+    return _value(paces[0], "speed") if is_steady else None
 
 
 def _open_speed(

@@ -16,7 +16,7 @@ from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import Label, Span
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.placement.carla_paths import START
-from osc2tx.lowering.placement.implied_starts import implied_start
+from osc2tx.lowering.placement.implied_starts import FirstAction, implied_starts
 from osc2tx.lowering.values.shape_arguments import first_value, says_start
 from osc2tx_shared.classes import dataclass, replace
 
@@ -46,7 +46,7 @@ class PlacementLowering:
         """Take the place for complaints."""
         self._ctx = ctx
         self._found: dict[str, _Found] = {}
-        self._implied: dict[str, ir.Placement] = {}
+        self._first: dict[str, FirstAction] = {}
         self._in_one_of: bool = False
 
     def split(self, body: ir.Behavior) -> tuple[tuple[ir.Placement, ...], ir.Behavior | None]:
@@ -63,8 +63,7 @@ class PlacementLowering:
             for actor, found in self._found.items()
             if found.modifiers
         )
-        implied = (each for each in self._implied.values() if each.modifiers)
-        return (*placements, *implied), rest
+        return (*placements, *implied_starts(self._first)), rest
 
     def _rewrite(
         self, node: ir.Behavior, time: ir.Expression | None, *, is_start: bool
@@ -135,13 +134,10 @@ class PlacementLowering:
         """Note the start that suits the first action of an actor, where nothing states one."""
         if is_instant(node):
             return
-        modifiers = implied_start(node, time)
-        found = ir.Placement(
-            actor=actor, modifiers=modifiers, span=node.span, is_implied=True, is_later=is_later
-        )
-        first = self._implied.setdefault(actor, found)
-        if self._in_one_of and not ir.means_same(first.modifiers, modifiers):
-            self._implied[actor] = replace(first, modifiers=())  # which of them runs is drawn
+        found = FirstAction(node, time, is_later=is_later)
+        first = self._first.setdefault(actor, found)
+        if self._in_one_of and first is not found:
+            self._first[actor] = replace(first, is_drawn=True)
 
     def _check_alternatives(
         self, first: ir.ModifierCall | None, second: ir.ModifierCall, actor: str
