@@ -1,8 +1,9 @@
 """What a run refuses before its first step: `check` prepares runs as `run` does.
 
 Only scenarios that name a map that is found are prepared, and none that would call code of the
-user's own: a check reads files, it does not execute them. Packages with actions are loaded when
-such an action is invoked, so a scenario that surely invokes none is prepared beside one that does.
+user's own: a check reads files, it does not execute them. Where packages with actions are
+installed, only they tell whether they have an action, so scenarios that may invoke one are left
+out; without such packages no run can begin.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from osc2tx import ir
     from osc2tx.building.jobs import RunTexts
     from osc2tx.compilation.driver import Compilation
-    from osc2tx_runtime import RunSettings, Scenario
+    from osc2tx_runtime import RunSettings, Scenario, ScenarioError
     from osc2tx_runtime.opendrive import RoadMap
 
 
@@ -49,13 +50,12 @@ def report_refused_starts(compilation: Compilation, texts: RunTexts) -> None:
     files = (compilation, *siblings_of(compilation))
     if any(map(_calls_own_methods, files)):
         return
-    has_own_actions = any(each.ir is not None and each.ir.actions for each in files)
-    names = [
-        each.name
-        for each in module.scenarios
-        if not (has_own_actions and _may_invoke_own_action(each))
-        and _can_start(compilation, each, folders)
-    ]
+    names = [each.name for each in module.scenarios if _can_start(compilation, each, folders)]
+    if any(each.ir is not None and each.ir.actions for each in files):
+        asking = {each.name for each in module.scenarios if _may_invoke_own_action(each)}
+        if not asking.isdisjoint(names):
+            compilation.depends_on_packages = True
+            names = [name for name in names if name not in asking or not _have_packages_actions()]
     if names:
         _report(compilation, names, dict(texts), folders)
 
@@ -76,6 +76,12 @@ def _may_invoke_own_action(scenario: ir.Scenario) -> bool:
         isinstance(each, InvokeScenario) or (isinstance(each, Invoke) and each.is_own)
         for each in walk_behaviors(scenario.body)
     )
+
+
+def _have_packages_actions() -> bool:
+    from osc2tx_runtime.language.actions.registry import methods
+
+    return methods.is_extensible()
 
 
 def _can_start(compilation: Compilation, scenario: ir.Scenario, folders: Sequence[Path]) -> bool:
@@ -109,7 +115,7 @@ def _report(
 
     module = compilation.draft
     assert module is not None, "it has a module"
-    found: list[Refusal | None] = []
+    found: list[_Refusal | None] = []
     try:
         settings = replace(read_options(texts, is_trusted=False), map_path=tuple(folders))
         if settings.world != "embedded" or settings.control:
@@ -117,15 +123,24 @@ def _report(
         with scenarios_of_module(module, sibling_drafts(compilation)) as classes:
             found += [_refusal(classes[name], settings) for name in names if name in classes]
     except ScenarioError as error:
-        found.append((error.code, error.message, error.source))
+        found.append(_told(error))
     compilation.sink.add(_diagnostic(compilation, *each) for each in found if each is not None)
 
 
-Refusal: TypeAlias = tuple[str, str, str | None]
-"""Code, message and place."""
+_Refusal: TypeAlias = tuple[str, Severity, str, str | None]
+"""Code, severity, message and place."""
 
 
-def _refusal(scenario: type[Scenario], settings: RunSettings) -> Refusal | None:
+def _told(error: ScenarioError) -> _Refusal:
+    from osc2tx_runtime.errors import NoActionError, SettingsError
+
+    is_mended_outside = isinstance(error, SettingsError | NoActionError)
+    assert not is_mended_outside or CODES[error.code].warns_in_check, error.code
+    severity = Severity.WARNING if is_mended_outside else Severity.ERROR
+    return error.code, severity, error.message, error.source
+
+
+def _refusal(scenario: type[Scenario], settings: RunSettings) -> _Refusal | None:
     """Return why a run would not get to its first step; None if it would."""
     from osc2tx_runtime import ScenarioError
     from osc2tx_runtime.running.main import failure
@@ -134,8 +149,11 @@ def _refusal(scenario: type[Scenario], settings: RunSettings) -> Refusal | None:
     try:
         result = check_start(scenario, settings, _read)
     except ScenarioError as error:
-        return error.code, error.message, error.source
-    return (*failure(scenario.name, result), result.place) if result.status == "failure" else None
+        return _told(error)
+    if result.status != "failure":
+        return None
+    code, message = failure(scenario.name, result)
+    return code, Severity.ERROR, message, result.place
 
 
 def _read(path: Path) -> RoadMap:
@@ -150,9 +168,10 @@ def _read_contents(path: Path, contents: str) -> RoadMap:
     return read_map(path)
 
 
-def _diagnostic(compilation: Compilation, code: str, message: str, place: str | None) -> Diagnostic:
+def _diagnostic(
+    compilation: Compilation, code: str, severity: Severity, message: str, place: str | None
+) -> Diagnostic:
     """Return an error of a run as a diagnostic at its place."""
-    severity = Severity.WARNING if CODES[code].warns_in_check else Severity.ERROR
     return Diagnostic(code, severity, message, _span(compilation, place))
 
 

@@ -219,7 +219,8 @@ def _lookups(compilation: Compilation) -> Mapping[Path, Lookup]:
 
 def _dependencies(compilation: Compilation) -> tuple[Dependency, ...] | None:
     lookups = _lookups(compilation)
-    if compilation.source is None or any(lookup.is_refused for lookup in lookups.values()):
+    is_refused = any(lookup.is_refused for lookup in lookups.values())
+    if compilation.source is None or compilation.depends_on_packages or is_refused:
         return None
     if not lookups:
         return ()  # which needs none of the modules that find out what is used

@@ -64,6 +64,7 @@ class Compilation:
         options: How to compile it.
         sink: The diagnostics so far.
         lookups: The paths searched for imported files, with their contents.
+        depends_on_packages: Reports depend on the packages with actions that are installed.
         is_complete: Whether all stages that can report something ran and found no error.
         compiled_alone: Imported files that were compiled for themselves, by name.
     """
@@ -101,6 +102,7 @@ class Compilation:
         self.options = options
         self.sink = DiagnosticSink()
         self.lookups: dict[Path, Lookup] = {}
+        self.depends_on_packages = False
         self.is_complete = False
         self._roots = roots
         self._options_of = options_of or (lambda _: options)

@@ -74,7 +74,8 @@ class Code:
         severity: Its effect on the run.
         summary: One sentence for the reference.
         section: Section of OpenSCENARIO DSL 2.2 that states the rule, where there is one.
-        warns_in_check: An error of a run that `check` only warns of: options of a run mend it.
+        warns_in_check: An error of a run that `check` only warns of where options of the run, or
+            packages beside it, mend it.
     """
 
     code: str
@@ -267,7 +268,13 @@ CODES = _table(
     Code("OSC801", "run-impossible", ERROR, "A run cannot begin, or cannot continue."),
     Code("OSC802", "no-such-place", ERROR, "An actor cannot be placed there."),
     Code("OSC803", "two-masters", ERROR, "Two actions control the same slot of an actor."),
-    Code("OSC804", "not-in-the-runtime", ERROR, "The runtime does not do this."),
+    Code(
+        "OSC804",
+        "not-in-the-runtime",
+        ERROR,
+        "The runtime does not do this.",
+        warns_in_check=True,
+    ),
     Code("OSC805", "not-in-this-world", ERROR, "The chosen world cannot do this."),
     Code("OSC806", "run-option", ERROR, "An option of a run is wrong.", warns_in_check=True),
     Code("OSC807", "run-file", ERROR, "A file of a run cannot be found, read or written."),

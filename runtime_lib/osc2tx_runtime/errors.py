@@ -122,6 +122,10 @@ class UnsupportedError(ScenarioError):
     code = "OSC804"
 
 
+class NoActionError(UnsupportedError):
+    """No class carries out an action that the scenario declares; a package can bring one."""
+
+
 class CapabilityError(ScenarioError):
     """The chosen world does not support a request of the scenario."""
 

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import io
 import re
+import sys
 from pathlib import Path
 
 import pytest
 
+from tests.own_actions import install
 from tests.unit.cli.shell import Shell
 
 HEAD = """import osc.standard.all
@@ -208,21 +210,47 @@ def test_code_of_the_user_is_not_run(shell: Shell) -> None:
 OWN_ACTION = "action vehicle.creep inherits vehicle.drive\n\n"
 
 
-def test_a_scenario_beside_one_with_an_action_of_a_package(shell: Shell) -> None:
-    """The package alone could tell about the second one, and a check does not load it."""
-    own = TOP.replace("top", "second") + both("ego.creep()")
-    shell.write("top.osc", HEAD + OWN_ACTION + TOP + CASES["beyond the road"] + "\n" + own)
-    refused = LINE.findall(shell("run", "--scenario", "top", "top.osc").err)
-    assert [code for _, code, _ in refused] == ["OSC802"]
-    assert LINE.findall(shell("check", "top.osc").err) == refused
+def test_an_action_that_no_package_brings(shell: Shell) -> None:
+    shell.write("top.osc", HEAD + OWN_ACTION + TOP + both("ego.creep()"))
+    refused = LINE.findall(shell("run", "top.osc").err)
+    assert [(place, code) for place, code, _ in refused] == [("top.osc:13:9", "OSC804")]
+    checked = shell("check", "top.osc")
+    assert (checked.code, LINE.findall(checked.err)) == (0, refused)
+    assert "warning[OSC804]" in checked.err  # an installed package mends it
+    assert shell("check", "--strict", "top.osc").code == 1
 
 
-def test_a_scenario_that_may_invoke_an_action_of_a_package(shell: Shell) -> None:
+def test_it_is_found_in_a_scenario_that_another_invokes(shell: Shell) -> None:
     own = TOP.replace("top", "inner") + both("ego.creep()")
     outer = TOP + both("inner(road: road, ego: ego, npc: npc)", how="serial")
     shell.write("top.osc", HEAD + OWN_ACTION + own + "\n" + outer)
-    checked = shell("check", "top.osc")
-    assert checked.code == 0 and "OSC8" not in checked.err, checked.err
+    refused = LINE.findall(shell("run", "--scenario", "top", "top.osc").err)
+    assert [code for _, code, _ in refused] == ["OSC804"]
+    assert LINE.findall(shell("check", "top.osc").err) == refused
+
+
+def test_an_action_that_no_package_brings_can_be_meant(shell: Shell) -> None:
+    allowed = both("ego.creep()  #! allow OSC804: installed on the bench")
+    shell.write("top.osc", HEAD + OWN_ACTION + TOP + allowed)
+    assert "OSC" not in shell("check", "--strict", "top.osc").err.replace("OSC433", "")
+
+
+def test_where_packages_are_installed_they_decide(
+    shell: Shell, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A check does not load them; the answer is never that of other packages."""
+    site = tmp_path_factory.mktemp("site")
+    install(site, "raise SystemExit('imported')\n")
+    own = TOP.replace("top", "second") + both("ego.creep()")
+    shell.write("top.osc", HEAD + OWN_ACTION + TOP + CASES["beyond the road"] + "\n" + own)
+    ran = LINE.findall(shell("run", "--scenario", "top", "top.osc").err)
+    assert [code for _, code, _ in ran] == ["OSC802"]
+    for path, codes in (([], ["OSC802", "OSC804"]), ([str(site)], ["OSC802"])) * 2:
+        with monkeypatch.context() as patch:
+            patch.setattr(sys, "path", [*path, *sys.path])
+            refused = LINE.findall(shell("check", "top.osc").err)
+        assert [code for _, code, _ in refused] == codes
+        assert ran[0] in refused
 
 
 def test_invoked_scenarios_do_not_run_alone(shell: Shell) -> None:

@@ -7,12 +7,12 @@ import functools
 import inspect
 import re
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from osc2tx_runtime.errors import (
+    NoActionError,
     OwnCode,
     ScenarioError,
-    UnsupportedError,
     is_own,
     name_of,
 )
@@ -24,6 +24,9 @@ from osc2tx_runtime.language.tree.base import split_label
 from osc2tx_runtime.language.tree.module_text import call_arguments
 from osc2tx_runtime.world.protocol import Feature
 from osc2tx_shared.classes import dataclass
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 __all__ = [
     "ENTRY_POINTS",
@@ -82,12 +85,14 @@ class MethodRegistry:
         if self._extended:
             return
         self._extended = True
-        from importlib.metadata import entry_points
-
-        for entry in sorted(entry_points(group=ENTRY_POINTS), key=lambda found: found.name):
+        for entry in _installed():
             package = "" if entry.dist is None else f" of {entry.dist.name}"
             with OwnCode(f"the actions in {entry.value}{package} cannot be loaded:"):
                 entry.load()
+
+    def is_extensible(self) -> bool:
+        """Whether a package has brought an action, or is installed and may bring one."""
+        return any(is_own(each.factory) for each in self._methods.values()) or bool(_installed())
 
     def action(
         self,
@@ -192,11 +197,11 @@ class MethodRegistry:
 
         return create
 
-    def _missing(self, kinds: tuple[str | None, ...], name: str) -> UnsupportedError:
+    def _missing(self, kinds: tuple[str | None, ...], name: str) -> NoActionError:
         near = self.near(kinds, name)
         hint = f"; did you mean {' or '.join(near)}?" if near else ""
         what = f"{kinds[0]} has no action" if kinds[0] else "there is no global action"
-        return UnsupportedError(
+        return NoActionError(
             f"{what} `{name}`, and no installed package brings one by the entry"
             f" point group {ENTRY_POINTS}{hint}"
         )
@@ -208,6 +213,12 @@ class MethodRegistry:
     def all(self) -> tuple[RegisteredMethod, ...]:
         """Return every method, sorted by kind and name."""
         return tuple(sorted(self._methods.values(), key=lambda each: (each.kind or "", each.name)))
+
+
+def _installed() -> list[EntryPoint]:
+    from importlib.metadata import entry_points
+
+    return sorted(entry_points(group=ENTRY_POINTS), key=lambda found: found.name)
 
 
 def called(actor_id: str | None, name: str, arguments: str) -> str:
