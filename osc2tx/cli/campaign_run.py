@@ -27,6 +27,7 @@ from osc2tx.cli.run import (
     merge_texts,
     option_texts,
     settings_from,
+    with_maps_of,
 )
 from osc2tx.cli.written_modules import written_files
 from osc2tx.compilation.inputs import InputError, find_inputs
@@ -188,7 +189,7 @@ def run(
         conditions = tuple(map(Condition.parse, fail_if))
     except SettingsError as error:
         raise click.UsageError(error.message) from None
-    found = _files_of(path, scenario, given, reporter)
+    found = _files_of(path, scenario, with_maps_of(given, settings), reporter)
     if isinstance(found, Exit):
         return found
     files, module, name = found

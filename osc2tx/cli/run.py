@@ -109,7 +109,7 @@ def run(
     if path.suffix == ".py":
         reporter.report_nothing()
         return _run_written(path, scenario, settings, reporter)
-    (compilation,) = compile_all([path], given)
+    (compilation,) = compile_all([path], with_maps_of(given, settings))
     return _run_source(compilation, scenario, settings, reporter)
 
 
@@ -204,6 +204,11 @@ def settings_from(texts: Texts, path: Path) -> RunSettings:
     """Return the settings that options say, as they are written, for a scenario file."""
     settings = read_options(texts)
     return replace(settings, map_path=(*settings.map_path, real_path(path).parent))
+
+
+def with_maps_of(given: GivenOptions, settings: RunSettings) -> GivenOptions:
+    """Return compile options with which maps are looked for where a run looks for them."""
+    return replace(given, map_path=tuple(map(str, settings.map_path)))
 
 
 def merge_texts(config: Config, path: Path, given: Texts) -> dict[str, tuple[str, ...]]:

@@ -15,8 +15,21 @@ from osc2tx.cli.run import choose_scenario, merge_settings
 from osc2tx.config import ConfigError, ConfigFiles
 from osc2tx_runtime import RunSettings, Scenario
 from osc2tx_runtime.errors import SettingsError
+from osc2tx_shared.map_files import SHIPPED
 from tests.processes import forked
 from tests.unit.cli.shell import Shell
+
+ON_ITS_OWN_MAP = """import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario top:
+    road: map with:
+        keep(it.map_file == "own.xodr")
+    ego: vehicle
+    do ego.drive(duration: 1s) with:
+        speed(10mps)
+"""
 
 
 def test_run_of_a_source_leaves_nothing_behind(shell: Shell) -> None:
@@ -82,6 +95,17 @@ def test_run_of_what_cannot_run(shell: Shell, name: str, text: str, code: int) -
 def test_run_of_a_folder(shell: Shell) -> None:
     assert shell("run", ".").code == 4
     assert shell("run", "no.osc").code == 4
+
+
+@pytest.mark.parametrize("command", [("run",), ("campaign", "run", "--samples", "1")])
+def test_a_map_in_a_folder_that_is_given(shell: Shell, command: tuple[str, ...]) -> None:
+    """The compiler looks for it where the run does."""
+    shell.write("maps/own.xodr", (SHIPPED / "highway.xodr").read_text(encoding="utf-8"))
+    shell.write("own.osc", ON_ITS_OWN_MAP)
+    ended = shell(*command, "own.osc", "--map-path", "maps")
+    assert ended.code == 0, ended.err
+    assert "OSC443" not in ended.err
+    assert "OSC443" in shell(*command, "own.osc").err
 
 
 def test_unknown_map_folder(shell: Shell) -> None:
