@@ -72,24 +72,22 @@ def follow_lane(action: lane.FollowLane, phase: Phase) -> Sequence[Modifier]:
 def change_lane(action: lane.ChangeLane, phase: Phase) -> Iterator[Modifier | Condition]:
     """Another lane at the end (DSL 8.8.3.3), that which is asked for, and the offset in it."""
     lanes = lanes_from_start(phase)
-    stays = lanes_text(phase, "a lane other than that of its start")
-    measure = _elsewhere(lanes)
-    yield Condition("change_lane", "its lane", "lane", "end", measure, lambda r: stays((0, 0, 0)))
     yield Lateral(value_of(action.offset), at="end")
-    if action.target is not None:
-        return
     stated = None if action.side is None else now(action.side)
     count = 0 if stated == "same" else int(now(action.num_of_lanes))
     side = _side(stated, phase)
-    if action.reference is not None:
-        beside = {"side_of": action.reference, "side": side or "left"} if count else {}
-        same = {} if count else {"same_as": action.reference}
-        if side is not None or not count:
-            yield Lane(count or None, at="end", **same, **beside)  # type: ignore[arg-type]
-    elif side is not None:
+    if action.target is None and action.reference is None and side is not None:
         wanted = float(count if side == "left" else -count)
         text = lanes_text(phase, f"the lane {count} {side} of its lane at the start")
         yield Condition("change_lane", "its lane", "lane", "end", _at(lanes, wanted), text)
+        return
+    stays = lanes_text(phase, "a lane other than that of its start")
+    measure = _elsewhere(lanes)
+    yield Condition("change_lane", "its lane", "lane", "end", measure, lambda r: stays((0, 0, 0)))
+    if action.target is None and action.reference is not None and (side is not None or not count):
+        beside = {"side_of": action.reference, "side": side or "left"} if count else {}
+        same = {} if count else {"same_as": action.reference}
+        yield Lane(count or None, at="end", **same, **beside)  # type: ignore[arg-type]
 
 
 def _elsewhere(lanes: Callable[[], float | None]) -> Callable[[], Reading | None]:
