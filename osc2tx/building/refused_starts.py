@@ -14,10 +14,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from osc2tx.building.fingerprint import digest
+from osc2tx.building.run_diagnostics import diagnostic_of_run
 from osc2tx.compilation.imports import look_up
 from osc2tx.compilation.map_files import named_control_files, named_maps
 from osc2tx.compilation.needed_modules import sibling_drafts, siblings_of
-from osc2tx.diagnostics import CODES, Diagnostic, Severity, Span
+from osc2tx.diagnostics import CODES, Severity
 from osc2tx.ir.behaviors import Invoke, InvokeScenario
 from osc2tx.ir.verify import walk_behaviors
 from osc2tx.support.paths import real_path
@@ -124,7 +125,9 @@ def _report(
             found += [_refusal(classes[name], settings) for name in names if name in classes]
     except ScenarioError as error:
         found.append(_told(error))
-    compilation.sink.add(_diagnostic(compilation, *each) for each in found if each is not None)
+    compilation.sink.add(
+        diagnostic_of_run(compilation, *each) for each in found if each is not None
+    )
 
 
 _Refusal: TypeAlias = tuple[str, Severity, str, str | None]
@@ -166,26 +169,3 @@ def _read_contents(path: Path, contents: str) -> RoadMap:
     from osc2tx_runtime.opendrive import read_map
 
     return read_map(path)
-
-
-def _diagnostic(
-    compilation: Compilation, code: str, severity: Severity, message: str, place: str | None
-) -> Diagnostic:
-    """Return an error of a run as a diagnostic at its place."""
-    return Diagnostic(code, severity, message, _span(compilation, place))
-
-
-def _span(compilation: Compilation, place: str | None) -> Span:
-    """Return the span of a place of a run: a column where it knows one, else the line."""
-    from osc2tx_runtime.errors import SourcePlace
-
-    name, _, line = (place or "").rpartition(":")
-    model = compilation.model
-    sources = () if model is None else (file.span.source for file in model.files)
-    source = next((each for each in sources if each.name == name), None)
-    if source is None or not line.isdigit():
-        return compilation.start
-    column = place.column if isinstance(place, SourcePlace) else 1
-    begin = source.line_starts[int(line) - 1] + column - 1
-    text = source.line_text(int(line))[column - 1 :].partition(" #")[0].rstrip()
-    return Span(source, begin, begin + max(1, len(text)))

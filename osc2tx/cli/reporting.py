@@ -112,6 +112,29 @@ class Reporter:
     ) -> tuple[Exit, Report]:
         """Print all diagnostics, internal errors, and errors of files as a whole.
 
+        Args and result are those of `judge`.
+        """
+        code, report = self.judge(compilations, bugs, faults, baselines)
+        self._print(report, failed=bool(bugs))
+        for bug in bugs:
+            put(bug, err=True)
+        if bugs:
+            complain(BUG_REPORT)
+        self._say_what_was_not_compiled(compilations)
+        for fault in faults:
+            if fault.diff is None:
+                complain(f"{fault.file}: {fault.message}")
+        return code, report
+
+    def judge(
+        self,
+        compilations: Sequence[Reportable],
+        bugs: Sequence[str] = (),
+        faults: Sequence[FileFault] = (),
+        baselines: Baselines | None = None,
+    ) -> tuple[Exit, Report]:
+        """Collect what there is to print.
+
         Args:
             compilations: The files.
             bugs: Internal errors.
@@ -136,15 +159,6 @@ class Reporter:
         )
         entries = (entry for item in compilations for entry in item.scenarios)
         report = replace(report, scenarios=tuple(entries), faults=tuple(faults))
-        self._print(report, failed=bool(bugs))
-        for bug in bugs:
-            put(bug, err=True)
-        if bugs:
-            complain(BUG_REPORT)
-        self._say_what_was_not_compiled(compilations)
-        for fault in faults:
-            if fault.diff is None:
-                complain(f"{fault.file}: {fault.message}")
         return self._exit_code(compilations, report, bugs), report
 
     def report_nothing(self) -> None:

@@ -10,17 +10,19 @@ from typing import TYPE_CHECKING, TypeAlias
 import click
 
 from osc2tx.building.jobs import compile_all, run_all
+from osc2tx.building.run_diagnostics import diagnostic_of_run
 from osc2tx.cli.options import compile_options, scenario_option
 from osc2tx.cli.reporting import Exit, Reporter, report_options
 from osc2tx.compilation.inputs import InputError, find_inputs
 from osc2tx.compilation.needed_modules import sibling_modules
 from osc2tx.config import Config, ConfigError, ConfigFiles, GivenOptions
+from osc2tx.diagnostics import CODES
 from osc2tx.module_loading import scenarios_of_file, scenarios_of_module
 from osc2tx.support.paths import real_path
 from osc2tx_runtime import RunResult, RunSettings, Scenario, ScenarioError, run_scenario
 from osc2tx_runtime.errors import OwnCode, SettingsError
 from osc2tx_runtime.running.main import choose_scenario as choose
-from osc2tx_runtime.running.main import chosen_world, verdict
+from osc2tx_runtime.running.main import chosen_world, failure, verdict
 from osc2tx_runtime.running.options import OPTIONS, read_options
 from osc2tx_runtime.worlds import EMBEDDED, Option
 from osc2tx_shared.classes import replace
@@ -79,6 +81,9 @@ def stated_world(args: Sequence[str]) -> str:
 
 OWN_OPTIONS = f"{__name__}.own_options"
 
+Finding: TypeAlias = tuple[str, str, str | None]
+"""What a run reports: code, message and place."""
+
 Texts: TypeAlias = Mapping[str, Sequence[str]]
 """Options as they are written, by name."""
 
@@ -117,19 +122,31 @@ def _run_source(
     compilation: Compilation, wanted: str | None, settings: RunSettings, reporter: Reporter
 ) -> Exit:
     bugs = run_all([compilation], lambda item: item.module)
-    code, _ = reporter.report([compilation], bugs)
-    if code is not Exit.OK:
-        return code
+    exit_code, _ = reporter.judge([compilation], bugs)
+    is_text = reporter.form == "text"
+    if is_text or exit_code is not Exit.OK:  # a document is printed once, with what the run finds
+        reporter.report([compilation], bugs)
+    if exit_code is not Exit.OK:
+        return exit_code
     module = compilation.module
     path = compilation.path
     if module is None:
         raise click.UsageError(f"{path} declares no scenario")
+    findings: list[Finding] = []
     try:
         with scenarios_of_module(module, sibling_modules(compilation)) as scenarios:
-            return _run_one_of(scenarios, path, wanted, settings, reporter)
+            exit_code = _run_one_of(scenarios, path, wanted, settings, reporter, findings)
     except ScenarioError as error:
         complain(error.report(str(path)))
-        return Exit(error.exit_code)
+        findings.append((error.code, error.message, error.source))
+        exit_code = Exit(error.exit_code)
+    if not is_text:
+        compilation.sink.add(
+            diagnostic_of_run(compilation, code, CODES[code].severity, message, place)
+            for code, message, place in findings
+        )
+        reporter.report([compilation])
+    return exit_code
 
 
 def _run_written(path: Path, wanted: str | None, settings: RunSettings, reporter: Reporter) -> Exit:
@@ -142,7 +159,7 @@ def _run_written(path: Path, wanted: str | None, settings: RunSettings, reporter
     except ScenarioError as error:
         raise InputError(f"{path}: {error.message}") from error
     with imported:
-        return _run_one_of(scenarios, path, wanted, settings, reporter)
+        return _run_one_of(scenarios, path, wanted, settings, reporter, [])
 
 
 def _run_one_of(
@@ -151,18 +168,25 @@ def _run_one_of(
     wanted: str | None,
     settings: RunSettings,
     reporter: Reporter,
+    findings: list[Finding],
 ) -> Exit:
+    """Run a scenario, print how it ended, and collect what is to be a diagnostic."""
     scenario = choose_scenario(scenarios, wanted, path)
     given = str(path) if path.suffix == ".osc" else None
     try:
         result = _run_with_progress(scenario, settings)
     except ScenarioError as error:
         complain(error.report(scenario.source, given))
+        findings.append((error.code, error.message, error.source))
         return Exit(error.exit_code)
     except KeyboardInterrupt:
         complain(f"{scenario.name}: interrupted")
         return Exit.INTERRUPTED
     succeeded = result.status == "success"
+    if not succeeded:
+        findings.append((*failure(scenario.name, result), result.place))
+    warnings = (each for each in result.violations if each.severity == "warning")
+    findings += [(each.code, str(each), each.source) for each in warnings]
     for line in verdict(scenario.name, result, scenario.source, given):
         (reporter.say if succeeded else reporter.say_anyway)(line)
     return Exit.OK if succeeded else Exit.FAILED

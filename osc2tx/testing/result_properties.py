@@ -3,4 +3,5 @@
 VERDICT = "osc2tx.verdict"
 EXPECTED = "osc2tx.expected"
 REASON = "osc2tx.reason"
+VIOLATION = "osc2tx.violation"
 TRACE = "osc2tx.trace"

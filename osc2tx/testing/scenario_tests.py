@@ -15,7 +15,7 @@ import pytest
 
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError
-from osc2tx.testing.result_properties import EXPECTED, REASON, TRACE, VERDICT
+from osc2tx.testing.result_properties import EXPECTED, REASON, TRACE, VERDICT, VIOLATION
 
 if TYPE_CHECKING:
     from osc2tx.diagnostics.report import ScenarioEntry
@@ -224,7 +224,7 @@ class ScenarioItem(pytest.Item):
         """Return the verdict, the reason for it in one line, and all that there is to say."""
         from osc2tx.cli.run import merge_texts, settings_from
         from osc2tx_runtime import ScenarioError, run_scenario
-        from osc2tx_runtime.errors import SettingsError
+        from osc2tx_runtime.errors import SettingsError, coded
         from osc2tx_runtime.running.main import verdict as lines_of
 
         sources = _sources(self.config)
@@ -244,6 +244,10 @@ class ScenarioItem(pytest.Item):
             return "error", str(error), str(error)
         except ScenarioError as error:
             return "error", str(error), error.report(self.path.name, shown)
+        self.user_properties += [
+            (VIOLATION, coded(each.code, str(each), each.source, scenario.source, shown))
+            for each in result.violations
+        ]
         told = "\n".join(lines_of(self.name, result, scenario.source, shown))
         again = f"osc2tx run {shown} --scenario {self.name}"
         again += "".join(f" --fail-on {each}" for each in fail_on)

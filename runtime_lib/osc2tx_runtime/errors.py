@@ -83,6 +83,11 @@ def why_no_result(error: Exception) -> str:
     return str(error)
 
 
+def with_column(place: str) -> str:
+    """Return a place with its column, where it knows one: `cut_in.osc:12:9`."""
+    return f"{place}:{place.column}" if isinstance(place, SourcePlace) else place
+
+
 def coded(code: str, message: str, place: str, file: str, given: str | None = None) -> str:
     """Return a message of a run as it is printed.
 
@@ -94,10 +99,10 @@ def coded(code: str, message: str, place: str, file: str, given: str | None = No
         given: The same file, as the user has written it.
     """
     known = given is not None and place.startswith(file)
-    shown = f"{given}{place[len(file) :]}" if known else str(place)
-    column = f":{place.column}" if isinstance(place, SourcePlace) else ""
+    whole = with_column(place)
+    shown = f"{given}{whole[len(file) :]}" if known else whole
     severity = "warning" if code == PARTLY_MET else "error"
-    return f"{shown}{column}{': ' if shown else ''}{severity}[{code}]: {message}"
+    return f"{shown}{': ' if shown else ''}{severity}[{code}]: {message}"
 
 
 class PlacementError(ScenarioError):

@@ -9,7 +9,9 @@ import pytest
 
 from osc2tx.module_loading import scenarios_of_file
 from osc2tx_runtime import RunResult, RunSettings, run_scenario
+from osc2tx_runtime.campaigns.executor import reported
 from osc2tx_runtime.errors import SourcePlace
+from osc2tx_runtime.report.trace_reader import read_run
 from osc2tx_runtime.running.main import verdict
 from tests.end_to_end.harness import generate
 
@@ -75,9 +77,13 @@ def test_a_warning(tmp_path: Path, action: str, line: int, column: int) -> None:
     result = run(tmp_path, action)
     assert places(result) == {f"cruise.osc:{line}:{column}"}
     lines = [json.loads(each) for each in result.trace_lines]
-    assert {each["source"] for each in lines if each["kind"] == "violation"} == {
-        f"cruise.osc:{line}"
+    assert {(e["source"], e["column"]) for e in lines if e["kind"] == "violation"} == {
+        (f"cruise.osc:{line}", column)
     }
+    (shown,) = read_run(result.trace_lines).as_json()["violations"]
+    assert shown["place"] == f"cruise.osc:{line}:{column}"
+    (row,) = map(reported, result.violations)
+    assert row.startswith(f"OSC811 cruise.osc:{line}:{column}: ")
     printed = [*verdict("cruise", result, "cruise.osc")]
     assert printed[1].startswith(f"  cruise.osc:{line}:{column}: warning[OSC811]: ")
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.domain.scenario import Scenario
-from osc2tx_runtime.errors import ScenarioError, message_of
+from osc2tx_runtime.errors import ScenarioError, message_of, with_column
 from osc2tx_runtime.kpis import Measuring, measures_by_name
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.trace import to_json
@@ -154,7 +154,7 @@ class Executor:
 
 def reported(violation: Violation) -> str:
     """Return a condition that did not hold, as one line."""
-    return f"{violation.code} {violation.source}: {violation}"
+    return f"{violation.code} {with_column(violation.source)}: {violation}"
 
 
 def _read(path: Path, changed: int) -> RoadMap:

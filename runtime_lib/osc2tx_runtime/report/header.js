@@ -63,7 +63,7 @@ function criteria(run) {
 function notices(run) {
   const collisions = run.marks.filter((mark) => mark.kind === "collision").map((mark) => [mark.name, mark.t]);
   const warnings = run.result && Array.isArray(run.result.warnings) ? run.result.warnings.map((text) => [asText(text), null]) : [];
-  const unmet = (severity) => run.violations.filter((each) => each.severity === severity).map((each) => [`${each.name}: ${each.what}`, each.worst]);
+  const unmet = (severity) => run.violations.filter((each) => each.severity === severity).map((each) => [`${each.place}: ${each.name}: ${each.what}`, each.worst]);
   const failures = unmet("failure"), shortfalls = unmet("warning");
   return [
     notice("collisions", failures.length === 1 ? "1 condition fails its phase:" : `${failures.length} conditions fail their phases:`, failures),

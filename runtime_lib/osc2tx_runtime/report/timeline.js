@@ -45,8 +45,8 @@ function waitRows(run) {
 
 /** Conditions that do not hold, from the first to the last state at which they do not. */
 function conditionRows(run) {
-  const actions = run.violations.map(({ severity, name, source, start, end, what, code }) => (
-    { run, actor: "", name, source, start, end, status: severity === "failure" ? "fail" : "warn", reason: `${code}: ${what}` }));
+  const actions = run.violations.map(({ severity, name, source, place, start, end, what, code }) => (
+    { run, actor: "", name, source, start, end, status: severity === "failure" ? "fail" : "warn", reason: `${code} at ${place}: ${what}` }));
   return actions.length ? [{ name: COMPARED ? `${run.letter}: not met` : "not met", actions }] : [];
 }
 

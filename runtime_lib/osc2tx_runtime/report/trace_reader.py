@@ -102,10 +102,12 @@ def _span(run: list[object]) -> list[object]:
 def _violation(time: float, line: Json) -> Json:
     """A condition that does not hold, as a bar; `time` replaces a missing one."""
     words = {key: text(line.get(key)) for key in ("severity", "actor", "source", "code")}
+    column = number(line.get("column"))
     first, last, worst = (number(line.get(key)) for key in ("first", "last", "worst"))
     return {
         **words,
         "name": f"{text(line.get('actor'))} {text(line.get('modifier'))}",
+        "place": words["source"] + ("" if column is None else f":{int(column)}"),
         "what": text(line.get("what")),
         "start": short(time if first is None else first, 4),
         "end": short(time if last is None else last, 4),

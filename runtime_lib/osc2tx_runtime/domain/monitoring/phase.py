@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 from osc2tx_runtime.domain.modifiers import PhysicalMovement
 from osc2tx_runtime.domain.monitoring.conditions import Condition, Reading
 from osc2tx_runtime.domain.monitoring.tolerances import QUANTITIES
-from osc2tx_runtime.errors import NOT_MET, PARTLY_MET, ScenarioError
+from osc2tx_runtime.errors import NOT_MET, PARTLY_MET, ScenarioError, SourcePlace
 from osc2tx_runtime.opendrive import MapError
 from osc2tx_runtime.world.measuring.projected_motion import projected
 from osc2tx_runtime.world.protocol import EXACT, EXTERNAL
@@ -77,6 +77,7 @@ class Violation:
             "x": round(self.x, 6),
             "y": round(self.y, 6),
             "what": self.what,
+            **({"column": self.source.column} if isinstance(self.source, SourcePlace) else {}),
         }
 
     @property
