@@ -264,11 +264,11 @@ def test_a_document_for_programs_even_if_nothing_began(
     assert run("text") == ""
 
 
-def test_one_document_if_a_run_fails_after_its_report(shell: Shell) -> None:
+def test_one_document_if_a_run_cannot_begin(shell: Shell) -> None:
     shell.write("a.osc", "enum color: [red]\n")
     ended = shell("run", "a.osc", "--output-format", "json")
     assert ended.code == 2
-    assert "failure" not in json.loads(ended.out)
+    assert json.loads(ended.out)["failure"] == "a.osc declares no scenario"
 
 
 # --- watch ---
