@@ -51,14 +51,17 @@ def report_refused_starts(compilation: Compilation, texts: RunTexts) -> None:
     files = (compilation, *siblings_of(compilation))
     if any(map(_calls_own_methods, files)):
         return
-    names = [each.name for each in module.scenarios if _can_start(compilation, each, folders)]
-    if any(each.ir is not None and each.ir.actions for each in files):
-        asking = {each.name for each in module.scenarios if _may_invoke_own_action(each)}
-        if not asking.isdisjoint(names):
-            compilation.depends_on_packages = True
-            names = [name for name in names if name not in asking or not _have_packages_actions()]
-    if names:
-        _report(compilation, names, dict(texts), folders)
+    has_own_actions = any(each.ir is not None and each.ir.actions for each in files)
+    scenarios = []
+    for each in module.scenarios:
+        asks_packages = has_own_actions and _may_invoke_own_action(each)
+        if not _can_start(compilation, each, folders, on_any_map=asks_packages):
+            continue
+        compilation.depends_on_packages |= asks_packages
+        if not asks_packages or not _have_packages_actions():
+            scenarios.append(each)
+    if scenarios:
+        _report(compilation, scenarios, dict(texts), folders)
 
 
 def _calls_own_methods(compilation: Compilation) -> bool:
@@ -85,12 +88,25 @@ def _have_packages_actions() -> bool:
     return methods.is_extensible()
 
 
-def _can_start(compilation: Compilation, scenario: ir.Scenario, folders: Sequence[Path]) -> bool:
-    """Whether a scenario is one to run, whose maps are found; notes what it reads."""
+def _can_start(
+    compilation: Compilation,
+    scenario: ir.Scenario,
+    folders: Sequence[Path],
+    *,
+    on_any_map: bool,
+) -> bool:
+    """Whether a scenario is one to run, whose maps are found; notes what it reads.
+
+    Args:
+        compilation: Takes the notes.
+        scenario: The scenario.
+        folders: Where maps may be.
+        on_any_map: Runs may be refused whatever the map is.
+    """
     if not scenario.is_runnable:
         return False
     names = {each.name for each in named_maps(scenario)}
-    is_found = bool(names)
+    is_found = bool(names) or on_any_map
     for name in names:
         places = tuple(map_places(name, folders))
         for place in places:
@@ -106,7 +122,7 @@ def _can_start(compilation: Compilation, scenario: ir.Scenario, folders: Sequenc
 
 def _report(
     compilation: Compilation,
-    names: Sequence[str],
+    scenarios: Sequence[ir.Scenario],
     texts: Mapping[str, Sequence[str]],
     folders: Sequence[Path],
 ) -> None:
@@ -122,7 +138,10 @@ def _report(
         if settings.world != "embedded" or settings.control:
             return  # what that world can do, only it knows
         with scenarios_of_module(module, sibling_drafts(compilation)) as classes:
-            found += [_refusal(classes[name], settings) for name in names if name in classes]
+            for scenario in (each for each in scenarios if each.name in classes):
+                leaves_map_open = not any(named_maps(scenario))
+                scenario_class = classes[scenario.name]
+                found.append(_refusal(scenario_class, settings, leaves_map_open=leaves_map_open))
     except ScenarioError as error:
         found.append(_told(error))
     compilation.sink.add(
@@ -143,17 +162,22 @@ def _told(error: ScenarioError) -> _Refusal:
     return error.code, severity, error.message, error.source
 
 
-def _refusal(scenario: type[Scenario], settings: RunSettings) -> _Refusal | None:
-    """Return why a run would not get to its first step; None if it would."""
+def _refusal(
+    scenario: type[Scenario], settings: RunSettings, *, leaves_map_open: bool
+) -> _Refusal | None:
+    """Return why a run would not get to its first step, on any map if that is open; else None."""
     from osc2tx_runtime import ScenarioError
+    from osc2tx_runtime.errors import NoActionError
     from osc2tx_runtime.running.main import failure
     from osc2tx_runtime.running.runner import check_start
 
     try:
         result = check_start(scenario, settings, _read)
-    except ScenarioError as error:
+    except NoActionError as error:
         return _told(error)
-    if result.status != "failure":
+    except ScenarioError as error:
+        return None if leaves_map_open else _told(error)
+    if result.status != "failure" or leaves_map_open:
         return None
     code, message = failure(scenario.name, result)
     return code, Severity.ERROR, message, result.place
