@@ -51,6 +51,18 @@ def check_name(module: ir.Module, sink: DiagnosticSink) -> None:
     sink.report("OSC517", Span(own, 0, 0), message, help="rename the file")
 
 
+def _late_labels(scenario: ir.AbstractScenario) -> set[str]:
+    """Return the labels of invocations that are made when they start."""
+    nodes = ir.walk_behaviors(scenario.body) if isinstance(scenario, ir.Scenario) else ()
+    return {
+        node.label
+        for node in nodes
+        if isinstance(node, ir.InvokeScenario)
+        and node.label is not None
+        and any(ir.is_live(argument.value) for argument in node.arguments)
+    }
+
+
 class _SupportCheck:
     def __init__(
         self,
@@ -64,9 +76,11 @@ class _SupportCheck:
         self.sink = sink
         self.objects = object_tables()
         self.domains = domains_of(declarations)
+        self.late_labels: set[str] = set()
         self.calls = CallCheck(catalogue(), self.objects, sink, self.expressions, declarations)
 
     def run(self, scenario: ir.AbstractScenario) -> None:
+        self.late_labels = _late_labels(scenario)
         for declaration in scenario.declarations:
             self.declaration(declaration)
         for method in scenario.methods:
@@ -132,7 +146,6 @@ class _SupportCheck:
                 self.limits(node.duration, node.until)
             case ir.InvokeScenario():
                 self.free_names(node)
-                self.known_before(node)
                 self.expressions(a.value for a in (*node.arguments, *node.times))
                 self.limits(node.duration, node.until)
             case ir.Wait(trigger=trigger):
@@ -162,17 +175,6 @@ class _SupportCheck:
                     f"`{argument.parameter}` is a word of the runtime's own here; rename it",
                 )
 
-    def known_before(self, node: ir.InvokeScenario) -> None:
-        for argument in node.arguments:
-            if ir.is_live(argument.value):
-                self.sink.report(
-                    "OSC503",
-                    argument.span,
-                    f"parameter `{argument.parameter}` of a scenario cannot depend on the state of"
-                    " the world: it is fixed before the run",
-                    help="hand in the actor, and read its state where it is needed",
-                )
-
     def limits(self, duration: ir.Expression | None, until: tuple[ir.Trigger, ...]) -> None:
         if duration is not None:
             self.time(duration)
@@ -198,6 +200,15 @@ class _SupportCheck:
         self.expressions((value,))
 
     def trigger(self, trigger: ir.Trigger) -> None:
+        event = trigger.event
+        if isinstance(event, ir.InnerEvent) and event.label in self.late_labels:
+            self.sink.report(
+                "OSC503",
+                event.span,
+                f"the events of `{event.label}` are there only once it has started, as an argument"
+                " of it depends on the state of the world",
+                help=f"wait for `@{event.label}.end`, or hand in the actor and read its state",
+            )
         match trigger.condition:
             case ir.Every():
                 self.period(trigger.condition)

@@ -8,6 +8,7 @@ from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.tree import Behaviour, OneOf, Parallel, Serial, Until, Wait
 from osc2tx_runtime.language.tree.compositions import Composition
 from osc2tx_runtime.language.tree.events import describe
+from osc2tx_runtime.language.tree.late_invocation import LateInvocation
 from osc2tx_shared.classes import dataclass
 
 
@@ -54,9 +55,12 @@ def outline(root: Behaviour) -> Iterator[OutlineNode]:
         pending += reversed(shown)
 
 
+_KINDS = (("serial", Serial, LateInvocation), ("parallel", Parallel), ("one_of", OneOf))
+
+
 def _kind(node: Behaviour) -> str:
-    for kind, name in ((Serial, "serial"), (Parallel, "parallel"), (OneOf, "one_of")):
-        if isinstance(node, kind):
+    for name, *kinds in _KINDS:
+        if isinstance(node, tuple(kinds)):
             return name
     return "action" if isinstance(node, BaseAction) else type(node).__name__.lower()
 

@@ -21,10 +21,15 @@ from osc2tx_runtime.language.tree.invocation import (
     draw_key,
     unique_name,
 )
+from osc2tx_runtime.language.tree.late_invocation import (
+    LateInvocation,
+    is_recursive,
+    late_arguments,
+)
 from osc2tx_runtime.language.tree.override import Mode
-from osc2tx_runtime.language.tree.recursion import Recursion, is_recursive
 from osc2tx_runtime.language.tree.variables import MISSING, Boundary, Sampled
 from osc2tx_runtime.language.values.broken_values import not_computed
+from osc2tx_shared.classes import replace
 
 AnyT = TypeVar("AnyT")
 ActorT = TypeVar("ActorT", bound=BaseActor)
@@ -197,7 +202,8 @@ class BaseScenario(ScenarioParts):
             known_as: Its name in settings and in the trace if it has no label; else the name of the
                 scenario, numbered in the order of the calls.
             times: Seconds that it and what it invokes would draw, by path, `{"p1.wait time": 2.0}`.
-            **arguments: Its parameters (a range is drawn from) and actors.
+            **arguments: Its parameters (a range is drawn from) and actors. A function gives a value
+                when the invocation starts, and the invocation is made then.
 
         Raises:
             ScenarioError: If it does not take the arguments.
@@ -214,12 +220,18 @@ class BaseScenario(ScenarioParts):
         handed_in = {**self._times_below(name), **(times or {})}
         caller = Caller(self, path, key, given, handed_in)
 
+        late = late_arguments(given)
+
         def made() -> Invocation:
-            invoked = scenario(self.settings, caller=caller, **given)
+            values = {name: each() if name in late else each for name, each in given.items()}
+            by = replace(caller, arguments=values) if late else caller
+            invoked = scenario(self.settings, caller=by, **values)
             self._invoked[name] = invoked
             return Invocation(who, invoked, invoked.create_tree(), duration)
 
-        return Recursion(who, self, scenario, made) if is_recursive(self, scenario) else made()
+        if late or is_recursive(self, scenario):
+            return LateInvocation(who, self, scenario, made)
+        return made()
 
     def override(self, overridden: str, by: str, mode: Mode = "on_start") -> None:
         """Let a behavior end another when it starts; call it in `behavior`.

@@ -201,11 +201,11 @@ def invoked_placements(scenario: ScenarioParts, tree: Behaviour) -> list[Placeme
             if placement.implied:
                 found.append(placement)
             elif not placement.throughout:
-                _state_at_start(node, placement, race)
+                state_at_start(node, placement, race)
     return found
 
 
-def _state_at_start(invocation: Invocation, placement: Placement, race: bool) -> None:
+def state_at_start(invocation: Invocation, placement: Placement, race: bool) -> None:
     """State a placement at the first action of its actor.
 
     Raises:

@@ -1,16 +1,18 @@
-"""Scenarios that invoke themselves: what leads back is made when it starts.
+"""Invocations that are made when they start.
 
-A tree that held itself would have no end, so an invocation of a scenario that runs around it stands
-for one that is made at its start. How deep and how often is bounded: beyond that it fails, which
-ends an alternative of a `one_of` and leaves the others.
+The arguments of a scenario may depend on the state of the world by then. A scenario may also invoke
+itself: a tree that held itself would have no end. How deep and how often is bounded: beyond that it
+fails, which ends an alternative of a `one_of` and leaves the others.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Mapping
+from types import FunctionType
+from typing import TYPE_CHECKING, Any
 
 from osc2tx_runtime.errors import UnsupportedError
+from osc2tx_runtime.language.tree.assembly import invoked_placements, state_at_start
 from osc2tx_runtime.language.tree.base import RUNNING, Behaviour, Node, Status, ended_late, pulse_of
 
 if TYPE_CHECKING:
@@ -39,7 +41,12 @@ def levels(scenario: ScenarioParts, invoked: type[ScenarioParts]) -> int:
         current = current._caller.scenario
 
 
-class Recursion(Node):
+def late_arguments(given: Mapping[str, Any]) -> set[str]:
+    """Return the names of arguments that are functions: they give values when it starts."""
+    return {name for name, value in given.items() if isinstance(value, FunctionType)}
+
+
+class LateInvocation(Node):
     """An invocation that is made when it starts.
 
     Args:
@@ -57,6 +64,7 @@ class Recursion(Node):
         make: Callable[[], Invocation],
     ) -> None:
         super().__init__(name)
+        self.label = name
         self._caller_scenario = caller
         self._invoked = invoked
         self._make = make
@@ -76,13 +84,15 @@ class Recursion(Node):
             return
         known = set(root.actors)
         made = self._make()
-        places = any(not placement.implied for placement in made.scenario.placements)
-        if set(root.actors) != known or places:
+        if set(root.actors) != known:
             raise UnsupportedError(
-                f"{self._invoked.name} declares or places actors of its own in an invocation within"
-                " itself: hand them in",
+                f"{self._invoked.name} declares actors of its own in an invocation that is made"
+                " when it starts: hand them in",
                 self.source or None,
             )
+        for placement in invoked_placements(root, made):
+            if not placement.throughout and not placement.implied:
+                state_at_start(made, placement, root.one_of == "race")
         self.children = [made]
         made.parent = self
         for node in made.iterate():
