@@ -72,16 +72,6 @@ NOT_BUILT = (
         + (SCENARIO + DRIVE + "speed(5mps)\n"),
     ),
     NotBuilt(
-        "`along(route, at: start)` after the first phase of an actor",
-        "OSC509",
-        "a route has a length and no single place: the place at the start is"
-        " `position(at: start)` beside `along(route)`",
-        SCENARIO
-        + "    r: road"
-        + DRIVE.replace("serial:", "serial:\n        wait elapsed(1s)")
-        + "along(r, at: start)\n",
-    ),
-    NotBuilt(
         "`lateral` of persons and other actors that follow no lane",
         "OSC508",
         "they move along paths, routes and crossings, and have no lane in which an offset is kept;"

@@ -98,7 +98,12 @@ def _look_at_modifier(
 ) -> None:
     part = _part_of(model, cast, actor)
     binding = model.bindings.get(node)
-    if part is None or binding is None or part.is_settled:
+    if binding is None:
+        return
+    if node.modifier.text == "tow_trailer":  # what is towed is behind what tows it
+        for _, value in binding.arguments:
+            _settle(_part_of(model, cast, value))
+    if part is None or part.is_settled:
         return
     at = next((value for p, value in binding.arguments if p.name == "at"), None)
     entry = catalogue().modifiers.get(node.modifier.text)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
-from osc2tx_runtime.domain.modifiers import Along, AlongTrajectory, Modifier, value_of
+from osc2tx_runtime.domain.modifiers import Along, AlongTrajectory, Modifier, Position, value_of
 from osc2tx_runtime.domain.modifiers.base import now
 from osc2tx_runtime.domain.monitoring.conditions import Condition, Reading
 from osc2tx_runtime.domain.monitoring.registry import monitors, stands_for
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.monitoring.phase import Phase
     from osc2tx_runtime.world.geometry.curve import Curve
 
+_OFF_ROUTE = "it is not on the route"
 _NEAR = 0.05  # m from a path that are on it
 _REACH = 5.0  # m around its last place on a curve in which an actor is looked for
 
@@ -33,28 +34,49 @@ def along(modifier: Along, phase: Phase) -> Iterator[Condition]:
     """The way along a path, or on a route."""
     route = modifier.way
     if not isinstance(route, Path):
-        measure = _on_route(route, phase)
-        yield Condition("along", "its route", "lane", modifier.at, measure, lambda _: _OFF_ROUTE)
+        yield from _on_route(modifier, route, phase)
         return
     offsets = value_of(modifier.start_offset), value_of(modifier.end_offset)
     measure = _on_path(route, offsets, phase)
     yield Condition("along", "its distance from the path", "position", modifier.at, measure)
 
 
-_OFF_ROUTE = "it is not on the route"
-
-
-def _on_route(route: Route, phase: Phase) -> Callable[[], Reading]:
+def _on_route(modifier: Along, route: Route, phase: Phase) -> Iterator[Condition]:
+    """That it is on the route, up to its end, and at the stated place at the start or end."""
     road_map, me = phase.world.map, phase.me
+    left = math.inf  # m up to the end of the route, at the state before
 
-    def measure() -> Reading:
+    def place() -> tuple[float, float] | None:
         try:
-            place_on_route(road_map, route, me())
+            return place_on_route(road_map, route, me())
         except ScenarioError:
-            return 1.0, 0.0, 0.0
-        return 0.0, 0.0, 0.0
+            return None
 
-    return measure
+    def is_on() -> Reading:
+        nonlocal left
+        found, before = place(), left
+        left = math.inf if found is None else found[1] - found[0]
+        ends = before <= abs(me().v) * phase.dt  # within the last step
+        return 0.0 if found is not None or ends else 1.0, 0.0, 0.0
+
+    yield Condition("along", "its route", "lane", modifier.at, is_on, lambda _: _OFF_ROUTE)
+    placed = any(isinstance(m, Position) and m.at == modifier.at for m in phase.modifiers)
+    if modifier.at == "start" and placed:
+        return
+
+    def at_offset() -> Reading | None:
+        found = place()
+        if found is None:
+            return None
+        here, length = found
+        if modifier.at == "start":
+            offset = value_of(modifier.start_offset)
+            return here, offset, offset
+        end = length - value_of(modifier.end_offset)
+        return here, (end if modifier.at == "end" else 0.0), end
+
+    what = "its distance along the route"
+    yield Condition("along", what, "position", modifier.at, at_offset)
 
 
 def _on_path(path: Path, offsets: tuple[float, float], phase: Phase) -> Callable[[], Reading]:

@@ -234,7 +234,7 @@ def _is_reason(modifier: Modifier) -> bool:
     A path that is known only by then may depend on where the actor is.
     """
     if isinstance(modifier, Along):
-        return isinstance(modifier.route, Path)
+        return modifier.is_start or isinstance(modifier.route, Path)
     if isinstance(modifier, AlongTrajectory):
         return isinstance(modifier.trajectory, Trajectory)
     return modifier.is_start or isinstance(modifier, Position)

@@ -9,7 +9,17 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from osc2tx_runtime.domain.modifiers import Lane, Lateral, Modifier, Orient, Position, Speed, Yaw
+from osc2tx_runtime.domain.modifiers import (
+    Along,
+    Lane,
+    Lateral,
+    Modifier,
+    Orient,
+    Position,
+    Speed,
+    Yaw,
+    value_of,
+)
 from osc2tx_runtime.domain.modifiers.groups import PLACES
 from osc2tx_runtime.domain.placing.placer import Placer
 from osc2tx_runtime.domain.placing.pose_resolution import (
@@ -24,6 +34,8 @@ from osc2tx_runtime.domain.planning.longitudinal.goals import way_to
 from osc2tx_runtime.domain.planning.longitudinal.longitudinal_planning import speed_at_start
 from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.domain.routes.lane_coordinates import along_lane
+from osc2tx_runtime.domain.routes.place_on_route import place_on_route
+from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.geometry.curve import turn_between
 from osc2tx_runtime.world.measuring.deviation import PLACE_TOLERANCE, SPEED_TOLERANCE
 from osc2tx_runtime.world.measuring.distances import along_lanes, lateral_on_road
@@ -51,7 +63,7 @@ def hold_or_jump(action: ModifiedMotion) -> bool:
         PlacementError: There is no such place.
     """
     at_start = [m for m in action.modifiers if getattr(m, "at", "all") == "start" or _stands(m)]
-    places = [modifier for modifier in at_start if isinstance(modifier, PLACES)]
+    places = [modifier for modifier in at_start if isinstance(modifier, (*PLACES, Along))]
     if not action.may_jump:
         for modifier in at_start:
             _check(action, modifier)
@@ -69,7 +81,7 @@ def _stands(modifier: Modifier) -> bool:
 
 def _jump(action: ModifiedMotion, modifiers: Sequence[Modifier]) -> None:
     world = action.world
-    if not any(isinstance(modifier, Position | Lane | Lateral) for modifier in modifiers):
+    if not any(isinstance(modifier, Along | Position | Lane | Lateral) for modifier in modifiers):
         heading = heading_of(world, action.movable, modifiers, action.here)
         action.turn(heading, tilt_of(world, modifiers, action.here))
         return
@@ -88,6 +100,8 @@ def _check(action: ModifiedMotion, modifier: Modifier) -> None:
             _within(aside, low, high, _SPEED_NEAR, "its lateral speed is", "m/s")
         case Position():
             _check_place(action, modifier)
+        case Along():
+            _check_route(action, modifier)
         case Lane():
             lanes = lanes_wanted(action, modifier)
             if lanes:
@@ -132,6 +146,17 @@ def _check_place(action: ModifiedMotion, position: Position) -> None:
         return
     here, low, high, what = measured(action, position)
     _within(here, low, high, _NEAR, what, "m")
+
+
+def _check_route(action: ModifiedMotion, along: Along) -> None:
+    """Refuses a start elsewhere on a route than its offset says; beside a position, off it."""
+    try:
+        here, _ = place_on_route(action.world.map, along.way, action.here)
+    except ScenarioError as error:
+        raise Refused(f"at its start {error.message}") from None
+    if not any(isinstance(m, Position) and m.at == "start" for m in action.modifiers):
+        offset = value_of(along.start_offset)
+        _within(here, offset, offset, _NEAR, "its distance along the route is", "m")
 
 
 def measured(action: ModifiedMotion, position: Position) -> tuple[float, float, float, str]:

@@ -36,6 +36,7 @@ from osc2tx_runtime.domain.planning.longitudinal.longitudinal_planning import sp
 from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
 from osc2tx_runtime.domain.planning.orientation_planning import lies_so, tilt_again
 from osc2tx_runtime.domain.planning.start_conditions import PlaceWatch, hold_or_jump
+from osc2tx_runtime.domain.routes.composed_routes import MadeRoute
 from osc2tx_runtime.language.actions.action import ActionOptions
 from osc2tx_runtime.language.actions.method import Method
 from osc2tx_runtime.language.actions.registry import LATERAL, LONGITUDINAL
@@ -77,7 +78,8 @@ class ModifiableAction(ModifiedMotion):
         super().become(method)
         if self.has_goal and self.duration is None:
             goals = [m for m in self.modifiers if self._bounds(m)]
-            self.open_ended = self.registered.ends == "open" and all(map(self._is_route, goals))
+            routes = all(self._is_route(m) and getattr(m, "at", "all") == "all" for m in goals)
+            self.open_ended = self.may_end = self.registered.ends == "open" and routes
 
     @cached_property
     def own(self) -> tuple[str, ...]:
@@ -101,10 +103,12 @@ class ModifiableAction(ModifiedMotion):
         )
 
     def _is_route(self, modifier: Modifier) -> bool:
-        """Whether a modifier is about lanes of the map to follow, and not about a line."""
-        if not isinstance(modifier, Along) or not isinstance(modifier.route, Route):
+        """Whether a modifier is about a route of the map to follow, and not about a line."""
+        if not isinstance(modifier, Along) or "vehicle" not in self.actor.kinds:
             return False
-        return "vehicle" in self.actor.kinds and modifier.route.kind != "crossing"
+        route = modifier.route
+        is_part = isinstance(route, Route) and route.kind != "crossing"
+        return is_part or isinstance(route, MadeRoute)
 
     @cached_property
     def follows_path(self) -> bool:

@@ -14,7 +14,7 @@ from osc2tx_runtime.domain.planning.motion_action import Assignment, Refused
 from osc2tx_runtime.language.actions.action import ActionOptions
 from osc2tx_runtime.language.actions.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.language.tree.base import Status
-from osc2tx_runtime.world.commands import SpeedChange, Standstill
+from osc2tx_runtime.world.commands import SpeedChange
 from osc2tx_runtime.world.longitudinal.execution import excessive_rate, speed_profile
 from osc2tx_shared.classes import replace
 
@@ -133,6 +133,4 @@ class RemainStationary(ModifiableAction):
 
     def on_start(self) -> None:
         """Commands it."""
-        if self.may_jump:
-            self.effect("speed", 0.0, lambda: self.world.assign(self.actor.id, speed=0.0))
-        self.command(LONGITUDINAL, Standstill() if self.may_jump else stop_command(self))
+        self.command(LONGITUDINAL, stop_command(self))

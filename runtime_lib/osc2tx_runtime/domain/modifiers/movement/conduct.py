@@ -55,7 +55,6 @@ class PhysicalMovement(Modifier):
             excludes=(COURSE, "speed", "acceleration", "distance"),
         ),
     ),
-    no_start="does not take effect at the start; use position(at: start) for a place on it",
     placement=True,
     places=True,
     bounds=True,

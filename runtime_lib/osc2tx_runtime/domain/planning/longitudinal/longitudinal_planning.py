@@ -109,7 +109,9 @@ def stop_command(action: ModifiedMotion, *, at_once: bool = False) -> Command:
         Refused: It rolls, and must not.
     """
     if action.may_jump:
-        return jump_to(0.0)
+        world, actor = action.world, action.actor.id
+        action.effect("speed", 0.0, lambda: world.assign(actor, speed=0.0))
+        return Standstill()
     speed = action.here.v
     if abs(speed) > STANDS and (at_once or action.option() == "must_be_physical"):
         raise Refused(
