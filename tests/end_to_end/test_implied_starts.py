@@ -119,6 +119,17 @@ def test_the_way_back_from_the_end_at_two_steady_speeds(
     assert state(trace, 5.0)["s"] == pytest.approx(300.0 + sign * 16.0)
 
 
+def test_a_speed_and_a_headway_at_the_end(play: Callable[[str], Trace]) -> None:
+    """The example of §8.9.2: three seconds behind counts by the speed of the one behind."""
+    trace = play(
+        f"{AT_ONCE}            speed(24mps, at: end)\n"
+        "            position(time: 3s, behind: ego, at: end)\n"
+    )
+    assert trace.status == "success"
+    assert state(trace, 5.0)["v"] == pytest.approx(24.0)
+    assert state(trace, 5.0)["s"] == pytest.approx(300.0 - 3.0 * 24.0, abs=1e-3)
+
+
 def test_what_is_stated_counts(play: Callable[[str], Trace]) -> None:
     trace = play(
         f"{AT_ONCE}            position(150m, at: start)\n            speed(10mps, at: start)\n"

@@ -27,7 +27,7 @@ class FirstAction:
 
     Attributes:
         node: The action.
-        time: What its time is limited to, if it is.
+        time: What its time is limited to; `None` if it is not, or only to a range.
         is_later: It does not begin with the scenario.
         is_drawn: There is another one in another alternative of a `one_of`.
     """
@@ -36,6 +36,33 @@ class FirstAction:
     time: ir.Expression | None
     is_later: bool
     is_drawn: bool = False
+
+    @property
+    def positions(self) -> list[ir.ModifierCall]:
+        """What it says of its place along the road."""
+        return [each for each in self.node.modifiers if each.name == "position"]
+
+    @property
+    def later(self) -> list[ir.ModifierCall]:
+        """The same, but of its start."""
+        return [each for each in self.positions if each.at != "start"]
+
+    @property
+    def paces(self) -> list[ir.ModifierCall]:
+        """What states a speed, or a place at each time, but for positions."""
+        entries = catalogue().modifiers
+        return [
+            each
+            for each in self.node.modifiers
+            if each.name != "position" and each.name in entries and entries[each.name].paces
+        ]
+
+    @property
+    def only_ends_beside(self) -> bool:
+        """Whether its place is stated at the end alone, relative to another actor."""
+        if any(each.name in _PLACES and each.at != "end" for each in self.node.modifiers):
+            return False
+        return len(self.positions) == 1 and len(_references(self.positions[0])) == 1
 
 
 def implied_starts(first: Mapping[str, FirstAction]) -> Iterator[ir.Placement]:
@@ -55,83 +82,75 @@ def implied_starts(first: Mapping[str, FirstAction]) -> Iterator[ir.Placement]:
 def _implied_by(
     action: FirstAction, first: Mapping[str, FirstAction]
 ) -> tuple[ir.ModifierCall, ...]:
-    modifiers, time = action.node.modifiers, action.time
-    entries = catalogue().modifiers
+    modifiers = action.node.modifiers
     entry = catalogue().actions.get(action.node.qualified_name)
     if entry is None or entry.ends != "open" or entry.paces:
         return ()
-    if not all(each.name in entries for each in modifiers):
+    if not all(each.name in catalogue().modifiers for each in modifiers):
         return ()  # actions of a dialect
-    positions = [each for each in modifiers if each.name == "position"]
+    positions = action.positions
     if any(argument.parameter == "shape" for each in positions for argument in each.arguments):
         return ()
-    limited = None if time is None or is_range(time) else time
-    found = [] if _is_placed(modifiers) else _place_at_end(positions, action, first)
-    found += _open_speed(positions, _paces(modifiers), limited)
+    found = [*_place_at_end(action, first), *_open_speed(action)]
     return tuple(each for each in found if not _changes(each))
 
 
-def _is_placed(modifiers: Sequence[ir.ModifierCall]) -> bool:
-    return any(each.name in _PLACES and each.at != "end" for each in modifiers)
-
-
-def _paces(modifiers: Sequence[ir.ModifierCall]) -> list[ir.ModifierCall]:
-    """Return what states a speed, or a place at each time, but for positions."""
-    entries = catalogue().modifiers
-    return [m for m in modifiers if m.name != "position" and entries[m.name].paces]
-
-
-def _place_at_end(
-    positions: Sequence[ir.ModifierCall], action: FirstAction, first: Mapping[str, FirstAction]
-) -> list[ir.ModifierCall]:
+def _place_at_end(action: FirstAction, first: Mapping[str, FirstAction]) -> list[ir.ModifierCall]:
     """Return the place relative to another actor from which an actor gets to the one at the end.
 
     Where both keep their speeds, that is by their difference nearer or farther away.
     """
-    if len(positions) != 1 or positions[0].at != "end":
+    if action.time is None or not action.only_ends_beside:
         return []
-    (end,) = positions
-    for reference in _references(end):
-        other = (
-            first.get(reference.value.name) if isinstance(reference.value, ir.FieldRef) else None
-        )
-        own, its = _steady_speed(action), None if other is None else _steady_speed(other)
-        if own is None or its is None or other is None or other.time is not action.time:
-            return [] if own is not None else [_at_start(end)]
-        (distance, *_), time = end.arguments, action.time
-        if time is None or distance.parameter != "distance" or is_range(distance.value):
-            return []
-        gained = _of("*", _of("-", own, its, "speed"), time, "length")
-        operator = "-" if reference.parameter == "ahead_of" else "+"
-        value = _of(operator, distance.value, gained, "length")
-        rest = end.arguments[1:]
-        return [replace(_at_start(end), arguments=(replace(distance, value=value), *rest))]
-    return []
+    (end,) = action.positions
+    (reference,) = _references(end)
+    if not action.paces:
+        return [_at_start(end)]
+    other = first.get(reference.value.name) if isinstance(reference.value, ir.FieldRef) else None
+    own, its = _steady_speed(action), None if other is None else _steady_speed(other)
+    (amount, *_), is_ahead = end.arguments, reference.parameter == "ahead_of"
+    if own is None or its is None or other is None or other.time is not action.time:
+        return []
+    if amount.parameter not in ("distance", "time") or is_range(amount.value):
+        return []
+    size = amount.value
+    if amount.parameter == "time":
+        size = _of("*", size, its if is_ahead else own, "length")
+    gained = _of("*", _of("-", own, its, "speed"), action.time, "length")
+    value = _of("-" if is_ahead else "+", size, gained, "length")
+    first_argument = replace(amount, parameter="distance", value=value, is_positional=True)
+    return [replace(_at_start(end), arguments=(first_argument, *end.arguments[1:]))]
 
 
 def _steady_speed(action: FirstAction) -> ir.Expression | None:
     """Return the speed that an actor has during all of its first action."""
-    paces = _paces(action.node.modifiers)
-    is_steady = len(paces) == 1 and paces[0].name == "speed" and paces[0].at == "all"
-    return _value(paces[0], "speed") if is_steady else None
+    match [(each.name, each.at) for each in action.paces]:
+        case [("speed", "all")]:
+            return _value(action.paces[0], "speed")
+        case [("speed", "end")] if _begins_as_it_ends(action):
+            return _value(action.paces[0], "speed")
+    return None
 
 
-def _open_speed(
-    positions: Sequence[ir.ModifierCall],
-    paces: Sequence[ir.ModifierCall],
-    time: ir.Expression | None,
-) -> list[ir.ModifierCall]:
+def _begins_as_it_ends(action: FirstAction) -> bool:
+    """Whether the speed at the end may be that at the start, in a limited time."""
+    (end,) = action.paces
+    given = {argument.parameter for argument in end.arguments}
+    is_free = not action.later or (action.only_ends_beside and given == {"speed"})
+    return action.time is not None and is_free and given <= _SPEEDS
+
+
+def _open_speed(action: FirstAction) -> list[ir.ModifierCall]:
     """Return the speed of which the first action tells that it has to be the one at the start."""
-    later = [each for each in positions if each.at != "start"]
+    paces, time, later = action.paces, action.time, action.later
     match [(each.name, each.at) for each in paces]:
         case []:
-            reference = _kept_reference(positions)
+            reference = _kept_reference(action.positions, has_end=time is not None)
             if reference is not None:
                 return [_speed("same_as", reference.value, reference.span)]
-            return _mean_speed(positions, time)
-        case [("speed", "end")] if time is not None and not later:
-            plain = {argument.parameter for argument in paces[0].arguments} <= _SPEEDS
-            return [_at_start(paces[0])] if plain else []
+            return _mean_speed(action.positions, time)
+        case [("speed", "end")] if _begins_as_it_ends(action):
+            return [_at_start(paces[0])]
         case [("distance", "all")] if time is not None and not later:
             distance = _value(paces[0], "distance")
             if distance is not None:
@@ -166,12 +185,13 @@ def _mean_speed(
     return [_speed("speed", _of("/", way, time, "speed"), positions[-1].span)]
 
 
-def _kept_reference(positions: Sequence[ir.ModifierCall]) -> ir.Argument | None:
-    """Return the one actor relative to which places are kept, or met at the end."""
+def _kept_reference(positions: Sequence[ir.ModifierCall], *, has_end: bool) -> ir.Argument | None:
+    """Return the one actor relative to which places are kept, or met at an end that is known."""
     found = {at: [r for p in positions if p.at == at for r in _references(p)] for at in _TIMES}
     given = [found[at] for at in _TIMES if found[at]]
     first, *others = given or [[]]
-    if not all(len(each) == 1 for each in given) or not (found["all"] or found["end"]):
+    is_kept = found["all"] or len(given) == 2 or (has_end and found["end"])
+    if not all(len(each) == 1 for each in given) or not is_kept:
         return None
     same = all(other[0].value.span.text == first[0].value.span.text for other in others)
     return first[0] if same else None

@@ -14,6 +14,7 @@ from dataclasses import field
 from osc2tx import ir
 from osc2tx.catalogue import catalogue
 from osc2tx.diagnostics import Label, Span
+from osc2tx.lowering.behavior.time_expressions import is_range
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.placement.carla_paths import START
 from osc2tx.lowering.placement.implied_starts import FirstAction, implied_starts
@@ -134,7 +135,8 @@ class PlacementLowering:
         """Note the start that suits the first action of an actor, where nothing states one."""
         if is_instant(node):
             return
-        found = FirstAction(node, time, is_later=is_later)
+        limited = None if is_range(time) else time
+        found = FirstAction(node, limited, is_later=is_later)
         first = self._first.setdefault(actor, found)
         if self._in_one_of and first is not found:
             self._first[actor] = replace(first, is_drawn=True)
