@@ -32,7 +32,7 @@ SideModifier: TypeAlias = LaneShaper | TurnModifier | Along | AvoidCollisions | 
 """What actions on the speed take."""
 
 PathModifier: TypeAlias = Along | AlongTrajectory
-StartModifier: TypeAlias = Lane | Lateral | Yaw | Orient | Position | Speed
+StartModifier: TypeAlias = Lane | Lateral | Yaw | Orient | Along | Position | Speed
 """What actions take `at: start` alone: all that can hold at an instant."""
 
 SPEED_SHAPERS = get_args(SpeedShaper)
