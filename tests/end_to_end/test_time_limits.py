@@ -117,6 +117,20 @@ def test_several_at_once_and_the_last_of_a_serial(play: Callable[..., Trace]) ->
     assert ended(trace, "ego change_speed") == 5.0
 
 
+def test_changes_one_after_the_other_share_their_time(play: Callable[..., Trace]) -> None:
+    """Alone they take 5 s and 3 s; nothing else may fill or exceed the 4 s or 12 s."""
+    for whole in (4.0, 12.0):
+        trace = play(
+            f"serial(duration: {whole:g}s):",
+            "    ego.change_speed(30mps)",
+            "    ego.change_lane(num_of_lanes: 1, side: right)",
+            duration=f"{whole:g}s",
+        )
+        assert trace.status == "success"
+        assert ended(trace, "ego change_speed") == 1.0 + 0.5 * whole
+        assert ended(trace, "ego change_lane") == 1.0 + whole
+
+
 def test_a_stated_rate_stays(play: Callable[..., Trace]) -> None:
     trace = play("ego.change_speed(30mps, constant, 2mpss)")
     assert trace.status == "failure"

@@ -6,7 +6,7 @@ from functools import reduce
 from typing import TypeAlias
 
 from osc2tx import ir
-from osc2tx.lowering.value_types import BOOL
+from osc2tx.lowering.value_types import BOOL, PRIMITIVES
 from osc2tx_shared.classes import replace
 
 SLACK = 1e-9  # s
@@ -58,6 +58,14 @@ def sum_of(terms: Terms) -> ir.Expression:
 def rest_of(whole: ir.Expression, others: Terms) -> ir.Expression:
     """Return what other times leave of a whole."""
     return reduce(lambda left, right: _binary("-", left, right), others, whole)
+
+
+def part_of(whole: ir.Expression, count: int) -> ir.Expression:
+    """Return one of several equal parts of a time."""
+    if count == 1:
+        return whole
+    divisor = ir.Literal(span=whole.span, type=PRIMITIVES["uint"], value=count)
+    return _binary("/", whole, divisor)
 
 
 def _binary(operator: str, left: ir.Expression, right: ir.Expression) -> ir.Binary:

@@ -28,6 +28,7 @@ from osc2tx.lowering.behavior.time_expressions import (
     SLACK,
     Terms,
     is_range,
+    part_of,
     rest_of,
     shown,
     sum_of,
@@ -206,11 +207,12 @@ class TimeSystem:
             return node, None
         if lengths[-1] is OPEN:
             return node, OPEN if len(filling) == 1 and node.duration is None else None
-        if len(filling) > 1 or node.duration is None:
+        are_free = all(lengths[index] is FREE for index in filling)
+        if node.duration is None or (len(filling) > 1 and not are_free):
             return node, None
-        if lengths[filling[0]] is FREE and isinstance(node.duration, ir.RangeValue):
-            return node, None  # its own length may lie in it
-        return self._filled(node, filling[0], terms), None
+        if are_free and isinstance(node.duration, ir.RangeValue):
+            return node, None  # their own lengths may lie in it
+        return self._filled(node, filling, terms), None
 
     def _with_alternatives(self, node: ir.Serial, lengths: list[_Length]) -> _Length:
         """Relate the times of a serial with alternatives to its duration, if one choice fits."""
@@ -230,8 +232,8 @@ class TimeSystem:
         self._equations.relate(fitting[0], node.duration)
         return _Known(fitting[0])
 
-    def _filled(self, node: ir.Serial, index: int, others: Terms) -> ir.Serial:
-        """Return a serial, one member of which takes the rest of its duration."""
+    def _filled(self, node: ir.Serial, filling: Sequence[int], others: Terms) -> ir.Serial:
+        """Return a serial, some members of which take the rest of its duration, each the same."""
         assert node.duration is not None
         whole = node.duration
         if isinstance(whole, ir.RangeValue):
@@ -239,8 +241,10 @@ class TimeSystem:
             node = replace(node, duration=whole)
         if others and not self._equations.bound(others, whole):
             return node
-        rest = rest_of(whole, others)
-        return replace(node, members=with_duration(node.members, index, rest))
+        members, rest = node.members, part_of(rest_of(whole, others), len(filling))
+        for index in filling:
+            members = with_duration(members, index, rest)
+        return replace(node, members=members)
 
     # --- parallel ---
 
