@@ -7,10 +7,10 @@ late counts as late, not as off: a place is compared with those of the steps aro
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from osc2tx.grading.comparison import EXACT, ROUNDING, Recording, Row, hops
+from osc2tx.grading.comparison import EXACT, JUMP, ROUNDING, Recording, Row, hops
 from osc2tx.grading.plain import plain
 from osc2tx.grading.runs import Failed, NoEvidence, cached_map, run_in_player, run_in_world
 from osc2tx.xosc import elements as xml
@@ -21,10 +21,11 @@ from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.opendrive import MapError
 from osc2tx_shared.classes import dataclass
 
-COARSE, FINE = 0.05, 0.02  # s: lengths of steps
+COARSE, FINE, FINEST = 0.05, 0.02, 0.0025  # s: lengths of steps
+NEAR = 1.0  # m: what is nearer may be off by a late event at speed, which a shorter step shows
 LONGEST = 90.0  # s: what happened until then counts
 MOST_ACTOR_STEPS = 8_000
-"""A run is left when the steps of its actors are so many."""
+"""A run is left when the steps of its actors, of the coarse length, are so many."""
 MOST_EVENTS = 400
 """Of documents with more there is no run."""
 
@@ -88,7 +89,11 @@ def import_deviation(
         played, map_file or find_map(None, ()), scenario, names, values, starts, is_endless
     )
     found = case.at(COARSE)
-    return found if found.is_exact else case.at(FINE)
+    if not found.is_exact:
+        found = case.at(FINE)
+    if EXACT <= found.place < NEAR and found.time <= found.late + ROUNDING:
+        found = case.at(FINEST)
+    return found
 
 
 @dataclass(frozen=True)
@@ -174,19 +179,33 @@ def _apart(
     run: Sequence[Row], played: Sequence[Row], dt: float, reach: int
 ) -> tuple[float, float, float]:
     """Return the longest distance (m) of an actor from its steps around, when, and since when."""
-    there = {round(row[0] / dt): row for row in played}
+    there: dict[int, list[tuple[float, float]]] = {}
+    for row in played:
+        there.setdefault(round(row[0] / dt), []).append((row[1], row[2]))
+    for step, place in _arrivals(played, dt):
+        there.setdefault(step, []).append(place)
     worst, at, since = 0.0, 0.0, math.inf
     for row in run:
         step = round(row[0] / dt)
         if step not in there:
             continue
         apart = min(
-            math.dist(row[1:3], there[near][1:3])
+            math.dist(row[1:3], place)
             for near in range(step - reach, step + reach + 1)
-            if near in there
+            for place in there.get(near, ())
         )
         if apart > worst:
             worst, at = apart, row[0]
         if apart >= EXACT:
             since = min(since, row[0])
     return worst, at, since
+
+
+def _arrivals(played: Sequence[Row], dt: float) -> Iterator[tuple[int, tuple[float, float]]]:
+    """Yield the steps at which an actor is put elsewhere, and where it arrives.
+
+    The player shows it there one step later, when it has moved on.
+    """
+    for before, after, later in zip(played, played[1:], played[2:], strict=False):
+        if math.dist(before[1:3], after[1:3]) > JUMP + max(abs(before[3]), abs(after[3])) * dt:
+            yield round(before[0] / dt), (2.0 * after[1] - later[1], 2.0 * after[2] - later[2])

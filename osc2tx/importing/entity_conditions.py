@@ -7,10 +7,20 @@ from collections.abc import Mapping
 
 from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
-from osc2tx.importing.dimensions import ACCELERATION, LENGTH, SPEED, SUM, TIME, Dimension, literal
+from osc2tx.importing.dimensions import (
+    ACCELERATION,
+    LENGTH,
+    PRODUCT,
+    SPEED,
+    SUM,
+    TIME,
+    Dimension,
+    literal,
+)
 from osc2tx.importing.places import Places
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Unresolved
+from osc2tx.xosc.player.distances import asked
 
 COMPARISONS: Mapping[str, str] = {
     "greaterThan": ">",
@@ -52,15 +62,7 @@ class EntityConditions:
             case "RelativeDistanceCondition":
                 return self._distance(node, said, a)
             case "TimeHeadwayCondition":
-                b = self._actor(node)
-                mode = _mode(node, default=False)
-                node.text("alongRoute")
-                node.text("coordinateSystem")
-                node.text("relativeDistanceType")
-                time = self._values.quantity(node, "value", TIME)
-                sign = COMPARISONS[node.said("rule")]
-                way = f"{a}.road_distance(reference: {b}, direction: longitudinal{mode})"
-                return f"{way} {sign} {time.within(2)} * {a}.speed"
+                return self._headway(node, said, a)
             case "TimeToCollisionCondition":
                 return self._collision_time(node, a)
             case "TraveledDistanceCondition":
@@ -93,17 +95,34 @@ class EntityConditions:
         return f"{measure} {COMPARISONS[node.said('rule')]} {value.within(SUM)}"
 
     def _distance(self, node: Node, said: str, a: str) -> str:
-        b_said = self._values.text(node, "entityRef")
-        b = self._actor(node)
-        kind = node.text("relativeDistanceType") or "euclidianDistance"
-        system = node.text("coordinateSystem") or "entity"
-        node.text("routingAlgorithm")
-        mode = _mode(node, default=False)
         value = self._values.quantity(node, "value", LENGTH)
+        return self._far(node, said, a, value.within(SUM), f"-{value.within(PRODUCT)}")
+
+    def _headway(self, node: Node, said: str, a: str) -> str:
+        time = self._values.quantity(node, "value", TIME)
+        way = f"{time.within(PRODUCT)} * {a}.speed"
+        behind = f"-{time.within(PRODUCT)} * {a}.speed"
+        return self._far(node, said, a, way, behind)
+
+    def _far(self, node: Node, said: str, a: str, value: str, negative: str) -> str:
+        """Return the condition on the distance of another actor, which has no sign.
+
+        Args:
+            node: The condition.
+            said: The actor in the document.
+            a: The actor.
+            value: The distance.
+            negative: The same one behind the actor, or to its right.
+        """
+        b_said, b = self._values.text(node, "entityRef"), self._actor(node)
+        for name in ("alongRoute", "relativeDistanceType", "coordinateSystem", "routingAlgorithm"):
+            node.text(name)
+        kind, system = asked(self._places.resolved(node))
+        mode = _mode(node, default=False)
         rule = node.said("rule")
         if kind not in ("longitudinal", "lateral"):
             measure = f"{a}.object_distance(reference: {b}, direction: euclidean{mode})"
-            return f"{measure} {COMPARISONS[rule]} {value.within(SUM)}"
+            return f"{measure} {COMPARISONS[rule]} {value}"
         method = "object_distance" if system == "entity" else "road_distance"
         if system in ("lane", "trajectory"):
             node.approximate(f"distances in the system of a {system} are those of the road")
@@ -112,14 +131,14 @@ class EntityConditions:
         if kind == "longitudinal" and sign is not None and sign < 0:
             from_, to = b, a  # the one behind asks, so the distance is positive
         measure = f"{from_}.{method}(reference: {to}, direction: {kind}{mode})"
-        compared = f"{measure} {COMPARISONS[rule]} {value.within(SUM)}"
+        compared = f"{measure} {COMPARISONS[rule]} {value}"
         if rule.startswith("less"):
             if kind == "longitudinal" and sign is not None:
                 return compared
             word, other = "and", COMPARISONS[rule].replace("<", ">")
         else:
             word, other = "or", COMPARISONS[rule].replace(">", "<")
-        return f"{compared} {word} {measure} {other} -{value.within(2)}"
+        return f"{compared} {word} {measure} {other} {negative}"
 
     def _side(self, said: str, other: str, kind: str) -> int | None:
         """Return 1 if the other one is ahead at the start, -1 if behind; `None`: not known."""
@@ -158,6 +177,7 @@ class EntityConditions:
             return None
         road = road_map.roads[body.place.road]
         direction = road_map.travel_direction(body.place.road, body.place.lane) * body.along
+        direction *= 1 if body.v >= 0.0 else -1
         end = body.place.s + direction * value.value
         if not 0.0 <= end <= road.length:
             node.leave_out("the way leads beyond the first road; it is never met here")

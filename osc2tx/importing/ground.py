@@ -7,7 +7,7 @@ import math
 from osc2tx.importing.cast import bodies_of
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.document import Document
-from osc2tx.importing.starting import privates, teleports
+from osc2tx.importing.starting import behind_teleports, privates, speed_at_start, teleports
 from osc2tx.xosc.element import Element, Unresolved
 from osc2tx.xosc.player.bodies import LATERAL, Body, Pose, body_of
 from osc2tx.xosc.player.errors import Unplayable
@@ -35,7 +35,7 @@ class Ground:
 
     Attributes:
         map: The map; `None` without it.
-        bodies: The entities where they are at the start, as far as that is known.
+        bodies: The entities where they are at the start, and as fast, as far as that is known.
     """
 
     def __init__(self, document: Document) -> None:
@@ -84,8 +84,11 @@ class Ground:
         ways = Ways(Scene(self.bodies, self.map, 0.0))
         for private in privates(self._document.resolved):
             body = self.bodies.get(private.get("entityRef") or "")
-            for node in private.walk():
-                if node.tag == "FollowTrajectoryAction" and body is not None:
+            if body is None:
+                continue
+            body.v = speed_at_start(private)
+            for node in behind_teleports(private):
+                if node.tag == "FollowTrajectoryAction":
                     try:
                         run = ways.begin(body, node)
                     except UNKNOWN:

@@ -145,19 +145,21 @@ class Offsets(Reader):
 
     def _lane_offset(self, node: Node, said: str, actor: Actor) -> Statement | None:
         target = node.one("LaneOffsetTarget").inner
-        if target.tag != "AbsoluteTargetLaneOffset":
-            target.leave_out("an offset from that of another actor has no counterpart in the DSL")
-            return None
         offset = self._values.quantity(target, "value", LENGTH)
         text = offset.text if self._along(said) > 0 else f"-{offset.within(PRODUCT)}"
+        beside = 0.0
+        if target.tag == "RelativeTargetLaneOffset":
+            reference = self._values.text(target, "entityRef")
+            beside = self._offset_of(reference)
+            if beside:
+                text = f"{text} + {literal(round(beside, 6), LENGTH)}"
+            target.approximate(f"the offset of {reference} is the one that it was given last")
         dynamics = node.one("LaneOffsetActionDynamics")
         shape = dynamics.text("dynamicsShape") or "step"
         peak = self._values.nominal(dynamics, "maxLateralAcc", math.inf)
         continuous = (node.text("continuous") or "false").lower() in ("true", "1")
-        body = self._places.bodies.get(said)
-        at_start = 0.0 if body is None or body.place is None else body.place.offset
-        after = offset.value * self._along(said)
-        change = abs(after - self._offsets.get(said, at_start))
+        after = offset.value * self._along(said) + beside
+        change = abs(after - self._offset_of(said))
         self._offsets[said] = after
         time = math.sqrt(SHIFT_FACTORS.get(shape, 0.0) * change / peak) if peak > 0.0 else 0.0
         if time <= 0.0 or shape == "step":
@@ -167,12 +169,25 @@ class Offsets(Reader):
             time = 1.0
         elif offset.is_open:
             node.approximate("the change takes as long as that of the nominal values")
-        profile = PROFILES.get(shape, "smooth")
-        lasting = literal(round(time, 6), TIME)
-        call = f"follow_lane(offset: {text}, rate_profile: {profile}, duration: {lasting})"
+        arguments = [f"offset: {text}", f"rate_profile: {PROFILES.get(shape, 'smooth')}"]
+        if change > 0.0:
+            fastest = change / time * (1.0 if shape == "linear" else 0.5 * math.pi)
+            arguments.append(f"rate_peak: {literal(round(fastest, 4), SPEED)}")
+        lasting = literal(round(time, 4), TIME)
+        call = f"follow_lane({', '.join(arguments)}, duration: {lasting})"
         if continuous:
             node.approximate("an offset that is kept ends here when it is reached")
         return Statement(f"{actor.name}.{call}", length=time)
+
+    def _offset_of(self, said: str) -> float:
+        """Return the offset (m) of an actor in its lane that was commanded last, to the left."""
+        if said in self._offsets:
+            return self._offsets[said]
+        body, road_map = self._places.bodies.get(said), self._places.map
+        if body is None or body.place is None or road_map is None:
+            return 0.0
+        place = body.lane(road_map)  # the one that it is in, which it may not be said to be in
+        return 0.0 if place is None else place.offset
 
 
 def _number(value: float) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.player.bodies import Body
@@ -32,6 +33,22 @@ def teleports(private: Element) -> list[Element]:
         for position in action.children
         if position.tag == "Position"
     ][-1:]
+
+
+def behind_teleports(private: Element) -> Iterator[Element]:
+    """Yield the elements of a private behind its last teleport, which ends ways before it."""
+    nodes = list(private.walk())
+    last = max((at for at, each in enumerate(nodes) if each.tag == "TeleportAction"), default=-1)
+    yield from nodes[last + 1 :]
+
+
+def speed_at_start(private: Element) -> float:
+    """Return the speed (m/s) that a resolved private sets; 0 if it is none by itself."""
+    speeds = [each for each in private.walk() if each.tag == "AbsoluteTargetSpeed"]
+    try:
+        return float(speeds[-1].get("value") or 0.0) if speeds else 0.0
+    except ValueError:
+        return 0.0
 
 
 def is_ahead(body: Body, other: Body) -> bool:

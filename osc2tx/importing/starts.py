@@ -71,6 +71,8 @@ class Starts:
                     spot = None
                 if spot is not None:
                     self._spots[said] = (spot, inner)
+                    if self._paths.pop(said, None) is not None:
+                        inner.approximate("the trajectory before it ends with it")
                 continue
             if inner.tag == "RoutingAction" and inner.inner.tag == "AssignRouteAction":
                 way = self._actions.along_route(inner.inner, said, actor)

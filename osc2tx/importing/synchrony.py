@@ -57,20 +57,20 @@ class Synchrony(Reader):
                 self._places.known(action.one(kind))
                 for kind in (xml.TargetPosition, xml.TargetPositionMaster)
             ]
-            if None in places or master.v <= EVEN:
+            if None in places or abs(master.v) <= EVEN:
                 return None
             own, theirs = (
                 way_left(each, place, road_map)  # type: ignore[arg-type]
                 for each, place in zip((body, master), places, strict=True)
             )
-            theirs -= master.v * self._readings.begin
+            theirs = theirs * math.copysign(1.0, master.v) - abs(master.v) * self._readings.begin
             own -= body.v * self._readings.begin
             final, steady = final_of(action, body.v, master)
         except (Unplayable, Unresolved, MapError, LookupError):
             return None
         if own <= 0.0 or theirs <= 0.0:
             return None
-        return plan(own, theirs / master.v, body.v, final, steady), final
+        return plan(own, theirs / abs(master.v), body.v, final, steady), final
 
     def _statement(self, steps: Plan, actor: Actor, node: Node, end: Quantity) -> Statement:
         """Return what the actor does."""
@@ -113,10 +113,12 @@ class Synchrony(Reader):
             and place.road == body.place.road
         ):
             direction = road_map.travel_direction(place.road, body.place.lane) * body.along
+            direction *= 1 if body.v >= 0.0 else -1
             at = literal(place.s, LENGTH)
+            speed = f"{master}.speed" if body.v >= 0.0 else f"(-1) * {master}.speed"
             if direction > 0:
-                return f"{master}.get_s_coord() >= {at} - {ahead} * {master}.speed"
-            return f"{master}.get_s_coord() <= {at} + {ahead} * {master}.speed"
+                return f"{master}.get_s_coord() >= {at} - {ahead} * {speed}"
+            return f"{master}.get_s_coord() <= {at} + {ahead} * {speed}"
         here = self._places.ahead_of_start(body, (self._readings.begin + steps.hold) * body.v)
         assert place is not None
         there = self._places.pose_of(place)

@@ -66,3 +66,48 @@ def test_places_of_nearby_actors_are_looked_for_once() -> None:
     """Two actors that begin beside each other are put there, not on the road before that."""
     found = imported(document(""))
     assert list(found.starts) == ["ego"]
+
+
+def offset_change(target: str) -> str:
+    return f"""<LateralAction><LaneOffsetAction continuous="false">
+      <LaneOffsetActionDynamics maxLateralAcc="0.5" dynamicsShape="sinusoidal"/>
+      <LaneOffsetTarget>{target}</LaneOffsetTarget></LaneOffsetAction></LateralAction>"""
+
+
+def test_an_offset_is_reached_with_the_lateral_acceleration_of_the_document() -> None:
+    """A smooth course has its peak at the square root of half of change times acceleration."""
+    action = offset_change('<AbsoluteTargetLaneOffset value="1.5"/>')
+    found = imported(document(event("Aside", action, at_time("1"))))
+    peak = (0.5 * 1.5 * 0.5) ** 0.5
+    assert f"rate_peak: {peak:.4f}mps" in found.text
+    assert apart(found) < 0.1
+
+
+def test_an_offset_beside_that_of_another_actor() -> None:
+    action = offset_change('<RelativeTargetLaneOffset entityRef="ego" value="1"/>')
+    found = imported(document(event("Aside", action, at_time("1"))))
+    assert faults(found) == []
+    assert apart(found) < 0.1
+
+
+BACKWARDS = """<PrivateAction><RoutingAction><FollowTrajectoryAction>
+  <TimeReference><None/></TimeReference><TrajectoryFollowingMode followingMode="position"/>
+  <TrajectoryRef><Trajectory name="back" closed="false"><Shape><Polyline>
+  <Vertex><Position><RoadPosition roadId="2" s="100" t="0"/></Position></Vertex>
+  <Vertex><Position><RoadPosition roadId="2" s="20" t="0"/></Position></Vertex>
+  </Polyline></Shape></Trajectory></TrajectoryRef></FollowTrajectoryAction></RoutingAction>
+  </PrivateAction>"""
+DRIVEN = """<Condition name="driven" delay="0" conditionEdge="none"><ByEntityCondition>
+  <TriggeringEntities triggeringEntitiesRule="any"><EntityRef entityRef="ego"/>
+  </TriggeringEntities><EntityCondition><TraveledDistanceCondition value="12"/></EntityCondition>
+  </ByEntityCondition></Condition>"""
+
+
+def test_a_teleport_ends_the_trajectory_before_it_and_a_way_driven_backwards_counts() -> None:
+    text = document("", end=DRIVEN, ego_speed="-2").replace("highway.xodr", "merge.xodr")
+    text = text.replace('roadId="1" laneId="-3" s="100"', 'roadId="2" laneId="-2" s="100"')
+    first = '<Private entityRef="ego">'
+    found = imported(text.replace(first, first + BACKWARDS))
+    assert "replay_path" not in found.text
+    assert "wait ego.get_s_coord() <= 100m - 12m" in found.text
+    assert apart(found) < 0.1

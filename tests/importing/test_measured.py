@@ -108,3 +108,19 @@ def test_a_trigger_that_waits_for_nothing_starts_at_once() -> None:
     """As tools take it: the event starts with its act."""
     found = plain(read('<Act name="a"><StartTrigger/><StopTrigger/></Act>'))
     assert [node.tag for node in found.children] == ["StopTrigger"]
+
+
+def test_an_actor_that_is_put_elsewhere_in_the_run(tmp_path: Path) -> None:
+    """The player shows it there one step later, when it has moved on."""
+    place = '<LanePosition roadId="1" laneId="-2" s="250" offset="0"/>'
+    action = f"<TeleportAction><Position>{place}</Position></TeleportAction>"
+    report = report_of(tmp_path, document(event("Jump", action, at_time("2"))))
+    assert report["measured"]["exact"] is True
+    assert report["measured"]["place_m"] < 0.01
+
+
+def test_a_step_more_at_speed_is_late_and_not_off(tmp_path: Path) -> None:
+    """Behind a strict comparison an event begins a step later; what it makes at speed shrinks."""
+    strict = at_time("2").replace("greaterOrEqual", "greaterThan")
+    report = report_of(tmp_path, document(event("Slow", speed_change("1", "0", "step"), strict)))
+    assert report["measured"]["exact"] is True

@@ -69,3 +69,15 @@ def test_the_import_waits_for_the_master() -> None:
     text = import_document(synchronized("5", steady).encode(), "x", {}, name="meet").text
     assert "ego.get_s_coord() >= 300m - " in text
     assert "other.change_speed(target: 5mps, rate_profile: constant" in text
+
+
+def test_a_master_that_drives_backwards() -> None:
+    """It comes to its place, 40 m behind it, in 10 s, and the other one to its own."""
+    text = synchronized("4").replace('value="20"', 'value="-4"').replace('value="12"', 'value="30"')
+    text = text.replace(f's="{MASTER}"', 's="60"')
+    dt, road_map = 0.02, read_map(find_map("highway.xodr", ()))
+    played = Evaluator(read(text.encode()), road_map, dt, reading=BY_THE_STANDARD)
+    played.play(11.0)
+    start, there = played.track["other"][0], played.track["other"][round(10.0 / dt)]
+    assert there[1] - start[1] == pytest.approx(OWN - 130.0, abs=0.3)
+    assert there[3] == pytest.approx(4.0, abs=0.1)

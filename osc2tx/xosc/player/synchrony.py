@@ -128,16 +128,16 @@ class Synchrony:
         """Return the next speed of an entity."""
         assert run.master is not None
         master, node, theirs, ours = run.master
-        ahead = way_left(master, theirs, self._scene.map)
+        ahead = way_left(master, theirs, self._scene.map) * math.copysign(1.0, master.v)
         own = way_left(body, ours, self._scene.map)
         final, steady = final_of(node, body.v, master)
         dt = self._scene.dt
         if ahead <= REACHED or own <= REACHED:
             run.done = True
             return final
-        if master.v <= EVEN:
+        if abs(master.v) <= EVEN:
             return body.v
-        found = plan(own, ahead / master.v, body.v, final, steady)
+        found = plan(own, ahead / abs(master.v), body.v, final, steady)
         if found.hold + found.change <= dt:
             return final
         now, left = self._scene.time - run.begun, found.hold + found.change
