@@ -256,7 +256,7 @@ def _lower_scenario(
     tree = lower_body(ctx, scenario, statements, constraints, standing, duration)
     if tree is None and has_behavior(scenario):
         return None
-    times = TimeSystem(ctx, declarations, scenario_of)
+    times = TimeSystem(ctx, declarations, _solvable(ctx, scenario), scenario_of)
     body: ir.Behavior | None = None
     placements: tuple[ir.Placement, ...] = ()
     if tree is not None:
@@ -277,7 +277,7 @@ def _lower_scenario(
             (
                 *_own_actor(ctx, scenario),
                 *global_parameters,
-                *declarations,
+                *times.declared,
                 *ctx.drawn,
                 *present(list(ctx.object_events.values())),
                 *object_variables,
@@ -294,6 +294,16 @@ def _lower_scenario(
         is_action=isinstance(scenario, sym.ActionSymbol),
     )
     return made if body is None else ir.Scenario(**_fields(made), body=body)
+
+
+def _solvable(ctx: LoweringContext, scenario: Composed) -> set[str]:
+    """Return the names of the parameters that no invocation gives a value."""
+    return {
+        name
+        for each in lineage_of(scenario)
+        for name, member in each.members.items()
+        if isinstance(member, sym.FieldSymbol) and member not in ctx.handed_in
+    }
 
 
 def _end_comments(node: ast.Statement) -> tuple[str, ...]:

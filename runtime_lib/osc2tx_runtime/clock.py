@@ -31,3 +31,14 @@ def lateness(steps: int, seconds: float, dt: float) -> float:
     """
     late = steps * dt - seconds
     return late if late > _ROUNDING * dt else 0.0
+
+
+def is_longer(seconds: float, than: float, dt: float) -> bool:
+    """Return whether a part of a step is longer than another one, not only by the rounding of sums.
+
+    Args:
+        seconds: The part (s).
+        than: The other one (s).
+        dt: Length of a step (s).
+    """
+    return seconds - than > _ROUNDING * dt

@@ -125,7 +125,7 @@ class BehaviorLowering:
                     start_to_start=self._time(arguments.get("start_to_start")),
                     end_to_end=self._time(arguments.get("end_to_end")),
                 )
-        made = with_open_duration(self._ctx, made, f"{name_of_member(node)}.duration")
+        made = with_open_duration(self._ctx, made, f"{name_of_member(node)}.duration", node)
         name = f"{name_of_member(node)} with reactions"
         return self._standing.attached_to(node).around(made, name)
 

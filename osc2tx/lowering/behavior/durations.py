@@ -16,18 +16,22 @@ from osc2tx.lowering.constraints.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.semantics.builtins import DURATION, TIME
+from osc2tx.syntax import ast
 from osc2tx_shared.classes import replace
 
 Member = TypeVar("Member", bound=ir.Serial | ir.OneOf | ir.Parallel | ir.Invoke)
 
 
-def with_open_duration(ctx: LoweringContext, node: Member, name: str) -> Member:
+def with_open_duration(
+    ctx: LoweringContext, node: Member, name: str, written: ast.Node | None = None
+) -> Member:
     """Return a member whose duration is drawn from its range, if nothing else ends the member.
 
     Args:
         ctx: The scenario.
         node: The member.
         name: Of the parameter.
+        written: The member in the source, whose constraints may then mention the duration.
     """
     duration = node.duration if node.duration is None else with_bounds(node.duration)
     if duration is not node.duration:
@@ -37,6 +41,8 @@ def with_open_duration(ctx: LoweringContext, node: Member, name: str) -> Member:
     if not is_open_ended(replace(node, duration=None)):
         return node
     drawn = ctx.draw(name, duration, duration.lower.type)
+    if written is not None:
+        ctx.given[written, DURATION] = drawn
     return replace(node, duration=drawn)
 
 

@@ -158,7 +158,7 @@ class InvocationLowering:
             is_own=is_user_defined(callee),
         )
         name = f"{name_of_member(node)}.duration"
-        return start_on_path(with_open_duration(self._ctx, invocation, name))
+        return start_on_path(with_open_duration(self._ctx, invocation, name, node))
 
     def _specialised(self, node: ast.Invocation, callee: Composed) -> Composed:
         """Return the special scenario that the values of an invocation select (§7.3.8.2.2).

@@ -7,7 +7,7 @@ positions.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import field
 from functools import reduce
 
@@ -17,12 +17,14 @@ from osc2tx.lowering.behavior.time_expressions import (
     SLACK,
     Terms,
     Times,
+    about,
     greater_of,
     lies_within,
     names_in,
     resolved,
     rest_of,
     shown,
+    solved_for,
     sum_of,
     time_like,
 )
@@ -37,12 +39,14 @@ class TimeEquations:
 
     Attributes:
         ctx: The scenario; parameters that it draws are solved for.
-        declared: Its own parameters.
+        declared: Its own declarations, parameters among them.
+        solvable: The names of own parameters that are solved for as well.
         constraints: What has to be checked before a run.
     """
 
     ctx: LoweringContext
-    declared: Sequence[ir.Declaration]
+    declared: list[ir.Declaration]
+    solvable: Collection[str]
     constraints: list[ir.Constraint] = field(default_factory=list)
 
     def relate(self, terms: Terms, whole: ir.Expression) -> None:
@@ -58,9 +62,16 @@ class TimeEquations:
         for term in reversed(terms):
             others = tuple(other for other in terms if other is not term)
             parameter = self._parameter(term)
-            if parameter is not None and parameter.name not in names_in((*others, whole)):
+            if parameter is not None and self._is_apart(parameter, (*others, whole)):
                 self._set(parameter, rest_of(whole, others))
                 return
+        for parameter in reversed([*self._parameters(self.declared), *self._parameters()]):
+            value = solved_for(parameter.name, terms, whole)
+            if value is not None and self._is_apart(parameter, (value,)):
+                self._set(parameter, value)
+                return
+        if self.is_variable((*terms, whole)) and not any(map(ir.is_live, (*terms, whole))):
+            self._check(sum_of(terms), about(whole))
 
     def bound(self, terms: Terms, whole: ir.Expression) -> bool:
         """Let a sum be no longer than a time, or than a range of times allows.
@@ -91,9 +102,13 @@ class TimeEquations:
         """Give a drawn time the value that an equation leaves it."""
         assert isinstance(parameter.domain, ir.RangeValue)
         found, wanted = self.bounds((value,)), self.bounds((parameter.domain,))
-        self.ctx.drawn.remove(parameter)
         name = ir.FieldRef(span=parameter.span, type=parameter.type, name=parameter.name)
-        self.ctx.drawn.append(replace(parameter, value=value, domain=None, is_fixed=True))
+        solved = replace(parameter, value=value, domain=None, is_fixed=True)
+        if parameter in self.ctx.drawn:
+            self.ctx.drawn.remove(parameter)
+            self.ctx.drawn.append(solved)
+        else:
+            self._replace(parameter, solved)
         if not lies_within(found, wanted):
             self._check(name, parameter.domain)
 
@@ -187,14 +202,40 @@ class TimeEquations:
             )
         return total
 
+    def _parameters(
+        self, declarations: Sequence[ir.Declaration] | None = None
+    ) -> list[ir.Parameter]:
+        """Return the parameters that can be solved for, by default those that stand for ranges."""
+        drawn = self.ctx.drawn if declarations is None else declarations
+        return [
+            each
+            for each in drawn
+            if isinstance(each, ir.Parameter)
+            and each.value is None
+            and isinstance(each.domain, ir.RangeValue)
+            and (declarations is None or each.name in self.solvable)
+        ]
+
     def _parameter(self, term: ir.Expression) -> ir.Parameter | None:
         """Return the parameter that a time is, if it can be solved for."""
         if not isinstance(term, ir.FieldRef):
             return None
-        for each in self.ctx.drawn:
-            if isinstance(each, ir.Parameter) and each.name == term.name and each.value is None:
-                return each if isinstance(each.domain, ir.RangeValue) else None
-        return None
+        known = (*self._parameters(), *self._parameters(self.declared))
+        return next((each for each in known if each.name == term.name), None)
+
+    def _replace(self, old: ir.Parameter, new: ir.Parameter) -> None:
+        declarations = self.ctx.drawn if old in self.ctx.drawn else self.declared
+        declarations[declarations.index(old)] = new
+
+    def _is_apart(self, parameter: ir.Parameter, others: Terms) -> bool:
+        """Whether other times can be known without a parameter."""
+        values = self._values()
+        pending, needed = names_in(others), set[str]()
+        while pending:
+            needed |= pending
+            read = (names_in((values[name],)) for name in pending if name in values)
+            pending = set[str]().union(*read) - needed
+        return parameter.name not in needed
 
     def _narrow(self, terms: Terms, whole: ir.Expression) -> None:
         """Leave to drawn times the rest of a whole."""
@@ -211,7 +252,6 @@ class TimeEquations:
             low, high = max(had[0], wanted[0] - others[1]), min(had[1], wanted[1] - others[0])
             if low <= had[0] + SLACK and high >= had[1] - SLACK:
                 continue
-            position = self.ctx.drawn.index(parameter)
             lower = time_like(low, parameter.domain.lower)
             if high - low <= SLACK:
                 narrowed = replace(parameter, value=lower, domain=None, is_fixed=True)
@@ -219,7 +259,7 @@ class TimeEquations:
                 upper = time_like(high, parameter.domain.upper)
                 domain = replace(parameter.domain, lower=lower, upper=upper)
                 narrowed = replace(parameter, domain=domain)
-            self.ctx.drawn[position] = narrowed
+            self._replace(parameter, narrowed)
 
     def is_variable(self, terms: Terms) -> bool:
         """Whether a sum depends on drawn values."""

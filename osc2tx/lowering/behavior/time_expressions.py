@@ -68,6 +68,73 @@ def part_of(whole: ir.Expression, count: int) -> ir.Expression:
     return _binary("/", whole, divisor)
 
 
+def solved_for(name: str, terms: Terms, whole: ir.Expression) -> ir.Expression | None:
+    """Return the value of a field with which times add up to a whole, from what the rest is.
+
+    `None` if it does not occur in them, or not in a linear way.
+    """
+    shares = [(-1.0, whole), *((1.0, term) for term in terms)]
+    factor = 0.0
+    rest: ir.Expression | None = None
+    for sign, term in shares:
+        found = _linear(name, term)
+        if found is None:
+            return None
+        factor += sign * found[0]
+        if found[1] is not None:
+            zero = time_like(0.0, found[1]) if rest is None and sign > 0 else rest
+            rest = found[1] if zero is None else _binary("-" if sign > 0 else "+", zero, found[1])
+    if not factor or rest is None:
+        return None
+    divisor = ir.Literal(span=whole.span, type=PRIMITIVES["float"], value=factor)
+    return rest if factor == 1.0 else replace(_binary("/", rest, divisor), type=whole.type)
+
+
+def _linear(name: str, expression: ir.Expression) -> tuple[float, ir.Expression | None] | None:
+    """Return the factor of a field in an expression, and the rest of it."""
+    match expression:
+        case _ if name not in names_in((expression,)):
+            return 0.0, expression
+        case ir.FieldRef():
+            return 1.0, None
+        case ir.Binary(operator="+" | "-" as sign, left=left, right=right):
+            one, other = _linear(name, left), _linear(name, right)
+            if one is None or other is None:
+                return None
+            factor = one[0] + (other[0] if sign == "+" else -other[0])
+            if other[1] is None:
+                return factor, one[1]
+            if one[1] is None and sign == "+":
+                return factor, other[1]
+            first = time_like(0.0, other[1]) if one[1] is None else one[1]
+            return factor, _binary(sign, first, other[1])
+        case ir.Binary(operator="*", left=left, right=right) if isinstance(left, ir.Literal):
+            return _scaled(_linear(name, right), "*", left)
+        case ir.Binary(operator="*" | "/" as sign, left=left, right=right) if isinstance(
+            right, ir.Literal
+        ):
+            return _scaled(_linear(name, left), sign, right)
+        case _:
+            return None
+
+
+def _scaled(
+    found: tuple[float, ir.Expression | None] | None, sign: str, by: ir.Literal
+) -> tuple[float, ir.Expression | None] | None:
+    if found is None or not isinstance(by.value, int | float) or (sign == "/" and not by.value):
+        return None
+    factor, rest = found
+    scaled = factor * by.value if sign == "*" else factor / by.value
+    return scaled, None if rest is None else _binary(sign, rest, by)
+
+
+def about(time: ir.Expression) -> ir.RangeValue:
+    """Return the range of what is a time but for the rounding of sums."""
+    slack = ir.Literal(span=time.span, type=time.type, value=SLACK)
+    lower, upper = (_binary(sign, time, slack) for sign in "-+")
+    return ir.RangeValue(span=time.span, type=time.type, lower=lower, upper=upper)
+
+
 def _binary(operator: str, left: ir.Expression, right: ir.Expression) -> ir.Binary:
     return ir.Binary(span=left.span, type=left.type, operator=operator, left=left, right=right)
 

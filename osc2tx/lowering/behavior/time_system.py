@@ -9,7 +9,7 @@ an error that shows both positions.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from itertools import product
 from math import prod
 from typing import TypeAlias
@@ -88,16 +88,26 @@ class TimeSystem:
 
     Args:
         ctx: The scenario; parameters that it draws are solved for.
-        declared: Its own parameters.
+        declared: Its own declarations.
+        solvable: The names of own parameters that nobody else gives a value.
         scenario_of: Gives the scenarios that it invokes.
     """
 
     def __init__(
-        self, ctx: LoweringContext, declared: Sequence[ir.Declaration], scenario_of: ScenarioOf
+        self,
+        ctx: LoweringContext,
+        declared: Sequence[ir.Declaration],
+        solvable: Collection[str],
+        scenario_of: ScenarioOf,
     ) -> None:
         self.ctx = ctx
-        self._equations = TimeEquations(ctx, declared)
+        self._equations = TimeEquations(ctx, list(declared), solvable)
         self._invoked = InvokedTimes(ctx, scenario_of, self._equations.longest)
+
+    @property
+    def declared(self) -> Sequence[ir.Declaration]:
+        """The own declarations, with the times that are solved for."""
+        return self._equations.declared
 
     @property
     def constraints(self) -> Sequence[ir.Constraint]:

@@ -39,17 +39,20 @@ class Setting:
 
 
 def is_known_here(constraint: Constraint, key: Key) -> bool:
-    """Whether a constraint can be written here: one of an invoked scenario only if it is alone.
+    """Whether a constraint can be written here: one of an invocation only if it is alone.
 
-    It sets an object that is handed in; what else it mentions is only known inside.
+    One of an invoked scenario sets an object that is handed in; what else it mentions is only known
+    inside. One that relates a field to an invocation is about that, which stands below all fields.
     """
     prefix = constraint.place.prefix
     is_inside = bool(prefix) and isinstance(prefix[0], Instance)
-    return not is_inside or isinstance(key[0], ast.Node) or constraint.operations.keys == {key}
+    is_of_member = any(isinstance(first, ast.Node) for first, *_ in constraint.operations.keys)
+    is_alone = constraint.operations.keys == {key}
+    return isinstance(key[0], ast.Node) or is_alone or not (is_inside or is_of_member)
 
 
 def is_last(key: Key, others: list[Key]) -> bool:
-    """Whether a plain parameter stands below others in the same text."""
+    """Whether a parameter stands below others in the same text; those of a tree below fields."""
     return all(_is_above(first, key[0]) for first, *_ in others)
 
 
@@ -59,6 +62,8 @@ def is_last_of_object(key: Key, others: list[Key]) -> bool:
 
 
 def _is_above(upper: sym.Symbol | ast.Node, lower: sym.Symbol | ast.Node) -> bool:
+    if isinstance(lower, ast.Node) and isinstance(upper, sym.FieldSymbol):
+        return True
     return (
         isinstance(upper, sym.FieldSymbol)
         and isinstance(lower, sym.FieldSymbol)

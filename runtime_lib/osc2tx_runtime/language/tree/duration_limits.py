@@ -6,6 +6,7 @@ import math
 import sys
 from typing import TYPE_CHECKING
 
+from osc2tx_runtime.clock import is_longer
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.language.tree.base import FAILURE, RUNNING, SUCCESS, Status, place_key
 from osc2tx_runtime.language.tree.failure_reasons import with_situation
@@ -129,8 +130,9 @@ class DurationLimits:
             late: Seconds by which the exact end lies before the step.
         """
         step, low_late = self._low
-        now = self._node.context.step
-        return now < step or (now == step and late > low_late)
+        context = self._node.context
+        now = context.step
+        return now < step or (now == step and is_longer(late, low_late, context.dt))
 
     def frame(self, context: ExecutionContext) -> Span:
         """Return the steps that its content may take."""
