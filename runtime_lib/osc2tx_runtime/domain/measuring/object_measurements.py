@@ -17,7 +17,11 @@ from osc2tx_runtime.domain.points_and_poses import (
 )
 from osc2tx_runtime.domain.routes.lane_coordinates import place_of_odr, place_of_route
 from osc2tx_runtime.domain.routes.place_on_route import place_on_route
-from osc2tx_runtime.domain.routes.route_coordinates import between_on_crossing, place_in_route
+from osc2tx_runtime.domain.routes.route_coordinates import (
+    between_on_crossing,
+    between_on_section,
+    place_in_route,
+)
 from osc2tx_runtime.enums import (
     DistanceDirection,
     DistanceMode,
@@ -31,7 +35,7 @@ from osc2tx_runtime.opendrive import Pose as MapPose
 from osc2tx_runtime.world.actor_dimensions import Shape
 from osc2tx_runtime.world.measuring.distances import (
     across_road,
-    along_lanes,
+    along_own_lane,
     along_road,
     gap_between,
     headway_between,
@@ -103,8 +107,9 @@ class Measures(MeasuredObject):
     ) -> float:
         """Distance (m) along or across the road; positive if the reference is ahead or left.
 
-        On one road it is the difference of s or t, in whatever lanes both are; from road to road,
-        and with another route type, it is measured along the lanes between them.
+        On one road, or in one lane section, it is the difference of s or t, in whatever lanes both
+        are; from one to another, and with `on_lane`, it is measured along the lanes between them,
+        to oncoming traffic along the own lane.
 
         With `bounding_boxes` it is measured between the facing ends or sides.
         """
@@ -225,10 +230,12 @@ class Measures(MeasuredObject):
         if route_type == "on_crossing":
             return between_on_crossing(self.context, here, there, ahead=ahead, mode=mode)
         distance = None
+        if route_type == "on_lane_section":
+            distance = between_on_section(self.context, here, there, ahead=ahead)
         if route_type == "on_road":
             distance = (along_road if ahead else across_road)(road_map, here, there)
         if distance is None:
-            distance = (along_lanes if ahead else lateral_on_road)(road_map, here, there)
+            distance = (along_own_lane if ahead else lateral_on_road)(road_map, here, there)
         if distance is None:
             raise ScenarioError(f"no lane leads from {self.id} to the place or back")
         if mode == "reference_points":

@@ -23,6 +23,7 @@ from osc2tx_runtime.domain.monitoring.registry import stands_for, unmonitored
 from osc2tx_runtime.enums import At, SideLeftRight
 from osc2tx_runtime.world.measuring.distances import (
     along_lanes,
+    drift,
     gap_between,
     headway_between,
     lateral_on_road,
@@ -180,7 +181,7 @@ def _gap_reader(
             if to_left is None:
                 return None
             size = side_gap(to_left, here.shape, there.shape)
-            closing = there.lateral_speed - here.lateral_speed
+            closing = drift(here, there) - here.lateral_speed
             rate = closing if size > 0.0 else -closing
         else:
             along = along_lanes(road_map, there, here)

@@ -24,7 +24,7 @@ from osc2tx_runtime.world.geometry.lane_neighbours import (
     lanes_to_left,
     offset_from,
 )
-from osc2tx_runtime.world.measuring.distances import lateral_on_road
+from osc2tx_runtime.world.measuring.distances import is_oncoming, lateral_on_road
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.monitoring.phase import Phase
@@ -208,7 +208,8 @@ def lateral(modifier: Lateral, phase: Phase) -> Iterator[Condition]:
             to_left = lateral_on_road(road_map, here, there)
             if to_left is None:
                 return None
-            return (0.0 - to_left, *stated().offsets(here.width, there.width))
+            oncoming = is_oncoming(here, there)
+            return (0.0 - to_left, *stated().offsets(here.width, there.width, oncoming=oncoming))
 
         what = f"its distance left of {modifier.side_of.id}"
     steady = modifier.side_of is None and now(modifier.measure_by) == "center_to_center"

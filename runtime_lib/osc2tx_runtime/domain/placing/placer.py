@@ -38,7 +38,7 @@ from osc2tx_runtime.domain.routes.network_paths import trajectory_in_world
 from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition
-from osc2tx_runtime.world.geometry.lane_neighbours import offset_from
+from osc2tx_runtime.world.geometry.lane_neighbours import are_opposed, offset_from
 
 if TYPE_CHECKING:
     from osc2tx_runtime.domain.actors import PhysicalObject
@@ -179,7 +179,9 @@ class Placer:
         other = self._world.state(lateral.side_of.id)
         centre = LanePosition(at.road, at.lane, at.s)
         offset = offset_from(self._map, centre, other.x, other.y)
-        aside = self._of(lateral.offsets(own, other.width))
+        there = other.lane_position
+        oncoming = there is not None and are_opposed(self._map, centre, there)
+        aside = self._of(lateral.offsets(own, other.width, oncoming=oncoming))
         return LanePosition(at.road, at.lane, at.s, offset + aside)
 
     def _beside(

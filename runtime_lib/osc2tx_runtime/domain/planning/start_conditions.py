@@ -38,7 +38,7 @@ from osc2tx_runtime.domain.routes.place_on_route import place_on_route
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.geometry.curve import turn_between
 from osc2tx_runtime.world.measuring.deviation import PLACE_TOLERANCE, SPEED_TOLERANCE
-from osc2tx_runtime.world.measuring.distances import along_lanes, lateral_on_road
+from osc2tx_runtime.world.measuring.distances import along_lanes, is_oncoming, lateral_on_road
 
 from .orientation_planning import check_tilt
 
@@ -220,7 +220,7 @@ def _check_lateral(action: ModifiedMotion, lateral: Lateral) -> None:
     aside = lateral_on_road(action.world.map, here, other)
     if aside is None:
         raise Refused(f"there is no way along lanes to {lateral.side_of.id}")
-    low, high = lateral.offsets(here.width, other.width)
+    low, high = lateral.offsets(here.width, other.width, oncoming=is_oncoming(here, other))
     _within(0.0 - aside, low, high, _NEAR, f"its distance left of {lateral.side_of.id} is", "m")
 
 

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.map.crossings import Crossing
-from osc2tx_runtime.domain.map.road_graph import graph_of
+from osc2tx_runtime.domain.map.road_graph import RoadGraph, graph_of
 from osc2tx_runtime.domain.map.roads_and_lanes import LaneSection
 from osc2tx_runtime.domain.map.route_axes import axis_lanes
 from osc2tx_runtime.domain.map.segments import CrossingLine, MapSegment
@@ -47,21 +47,61 @@ def place_in_route(
 
 def _on_section(context: ExecutionContext, place: LanePosition, state: ActorState) -> RoutePoint:
     graph = graph_of(context.world.map)
+    found, axis = _section_of(graph, place)
+    section = LaneSection()
+    section.bind(context)
+    section.choose(found)
+    return RoutePoint(section, *_from_axis(graph, axis, place, state))
+
+
+def _section_of(graph: RoadGraph, place: LanePosition) -> tuple[MapSegment, MapSegment]:
+    """The lane section of a place, and the lane that is its axis."""
     lane = graph.segment_of(graph.map.lane_key(place))
     found = MapSegment("lane_section", lane.road, lane.section, forwards=lane.forwards)
     axes = axis_lanes(graph, found)
     if not axes or axes[0].lane is None:
         raise ScenarioError("it is not on a lane section for vehicles")
-    section = LaneSection()
-    section.bind(context)
-    section.choose(found)
-    line = graph.map.pose(LanePosition(place.road, axes[0].lane, place.s))
-    return RoutePoint(section, graph.along(axes[0], place.s), _aside(line, state))
+    return found, axes[0]
+
+
+def _from_axis(
+    graph: RoadGraph, axis: MapSegment, place: LanePosition, state: ActorState
+) -> tuple[float, float]:
+    """Metres along and to the left of the axis of a lane section."""
+    assert axis.lane is not None
+    line = graph.map.pose(LanePosition(place.road, axis.lane, place.s))
+    return graph.along(axis, place.s), _aside(line, state)
+
+
+def between_on_section(
+    context: ExecutionContext, here: ActorState, there: ActorState, *, ahead: bool
+) -> float | None:
+    """How much further along the lane section of a place, or to its left, another one is (m).
+
+    None if the other one is beside another section.
+
+    Raises:
+        ScenarioError: The first one is on no lane section.
+    """
+    place, other = here.lane_position, there.lane_position
+    if place is None:
+        raise ScenarioError("it is not on a road")
+    graph = graph_of(context.world.map)
+    if other is None or other.road != place.road:
+        return None
+    sections = graph.map.roads[place.road]
+    if sections.section_at(other.s) is not sections.section_at(place.s):
+        return None
+    _, axis = _section_of(graph, place)
+    s, t = _from_axis(graph, axis, place, here)
+    far, aside = _from_axis(graph, axis, other, there)
+    return far - s if ahead else aside - t
 
 
 def _aside(line: Pose, state: ActorState) -> float:
-    """How far (m) an actor is to the left of a line."""
-    return (state.y - line.y) * math.cos(line.h) - (state.x - line.x) * math.sin(line.h)
+    """How far (m) an actor is to the left of a line, on the surface."""
+    left = (state.y - line.y) * math.cos(line.h) - (state.x - line.x) * math.sin(line.h)
+    return left / math.cos(line.roll)
 
 
 # --- crossings --------------------------------------------------------------------------------

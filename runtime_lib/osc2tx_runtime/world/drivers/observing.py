@@ -6,7 +6,7 @@ import math
 
 from osc2tx_runtime.opendrive import LanePosition, Pose, Route
 from osc2tx_runtime.world.geometry.curve import turn_between
-from osc2tx_runtime.world.measuring.distances import along_lanes, lateral_on_road
+from osc2tx_runtime.world.measuring.distances import along_lanes, lateral_straight_on
 from osc2tx_runtime.world.plant.scene import Scene, Setpoint
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.surroundings.stop_lines_ahead import StopLines
@@ -63,7 +63,7 @@ def _others(scene: Scene, mine: Setpoint, sight: float) -> list[OtherActor]:
         state = other.now
         if other.spec is mine.spec or math.hypot(state.x - me.x, state.y - me.y) > sight:
             continue
-        ahead, left = along_lanes(scene.map, me, state), lateral_on_road(scene.map, me, state)
+        ahead, left = along_lanes(scene.map, me, state), lateral_straight_on(scene.map, me, state)
         pose = Pose(state.x, state.y, state.z, state.h, state.pitch, state.roll)
         found.append(OtherActor(actor, other.spec.kind, pose, state.v, state.shape, ahead, left))
     return found

@@ -9,7 +9,7 @@ from osc2tx_runtime.world.actor_dimensions import COMFORT, Limits
 from osc2tx_runtime.world.commands import Beside, Sideways, Slant
 from osc2tx_runtime.world.geometry.guidance import rate_to_place_and_speed
 from osc2tx_runtime.world.geometry.profiles import Profile
-from osc2tx_runtime.world.measuring.distances import side_gap
+from osc2tx_runtime.world.measuring.distances import drift, side_gap
 from osc2tx_runtime.world.measuring.projected_motion import Tracked
 from osc2tx_runtime.world.protocol import PENDING, REACHED, Progress
 from osc2tx_runtime.world.state import ActorState
@@ -87,7 +87,7 @@ class BesideRun:
         """A step at the lateral speed that closes the error, within the limits."""
         command, dt = self._command, inputs.dt
         other = self._other.state(inputs)
-        to_left = inputs.aside(me, other)
+        to_left, moving = inputs.aside(me, other), drift(me, other)
         if to_left is None:
             self._failed = f"there is no way along lanes to {command.reference}"
             return offset, 0.0
@@ -96,14 +96,14 @@ class BesideRun:
         error = 0.0
         if command.left is None:
             gap = side_gap(to_left, me.shape, other.shape)
-            wanted = other.lateral_speed - gap / (command.time or dt)
+            wanted = moving - gap / (command.time or dt)
             self._note(abs(self._speed - wanted) < _RATE_NEAR, dt)
         elif command.course is not None:
-            return self._on_course(command.course, offset, -to_left, path, other, dt)
+            return self._on_course(command.course, offset, -to_left, path, moving, dt)
         else:
             own = -to_left  # its distance to the left of the reference
             error = min(max(own, command.left), command.left + command.spread) - own
-            wanted = self._towards(error, other.lateral_speed, dt)
+            wanted = self._towards(error, moving, dt)
         limit = self._limits.lateral * (1.0 if self._steps else COMFORT)
         speed = min(max(wanted, self._speed - limit * dt), self._speed + limit * dt)
         room = abs(path) * SIDEWAYS / dt
@@ -113,7 +113,7 @@ class BesideRun:
         self._speed = speed
         if self._steps:
             self._steps -= 1
-            self._judge(error + other.lateral_speed * dt - moved)
+            self._judge(error + moving * dt - moved)
         return offset + moved, speed
 
     def _on_course(
@@ -122,12 +122,12 @@ class BesideRun:
         offset: float,
         own: float,
         path: float,
-        other: ActorState,
+        moving: float,
         dt: float,
     ) -> tuple[float, float]:
         """One step on a course, if the reference continues as it does."""
         self._elapsed += 1
-        time, moving = self._elapsed * dt, other.lateral_speed
+        time = self._elapsed * dt
         wanted = course.value(time) - own + moving * dt
         room = abs(path) * SIDEWAYS
         moved = min(max(wanted, -room), room)

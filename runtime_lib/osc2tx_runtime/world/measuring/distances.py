@@ -10,7 +10,7 @@ import math
 
 from osc2tx_runtime.enums import DistanceDirection, DistanceMode
 from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap
+from osc2tx_runtime.opendrive import DRIVING, LanePosition, Pose, RoadMap
 from osc2tx_runtime.world.actor_dimensions import Shape
 from osc2tx_runtime.world.state import ActorState
 
@@ -109,14 +109,72 @@ def _on_lane(road_map: RoadMap, state: ActorState) -> LanePosition | None:
 
 
 def lateral_on_road(road_map: RoadMap, a: ActorState, b: ActorState) -> float | None:
-    """How far (m) b is to the left of a, across the lane of a at the height of b."""
-    place = _on_lane(road_map, a)
+    """How far (m) b is to the left of a, across the lane of a at the height of b.
+
+    On other roads that is the lane on the way between them.
+    """
+    place, there = _on_lane(road_map, a), _on_lane(road_map, b)
     along = along_lanes(road_map, a, b)
+    if place is None or there is None:
+        return None
+    if along is None:
+        beside = _beside_oncoming(place, there, road_map)
+        return None if beside is None else _left_of(road_map.pose(beside), b)
+    if place.road == there.road:
+        return _left_of(road_map.pose(road_map.advance(place, along).position), b)
+    if along < 0.0:  # the way forks towards a
+        return -_left_of(_on_way_to(road_map, there, -along, place), a)
+    return _left_of(_on_way_to(road_map, place, along, there), b)
+
+
+def lateral_straight_on(road_map: RoadMap, a: ActorState, b: ActorState) -> float | None:
+    """As `lateral_on_road`, across the lane in which a gets to the height of b by itself."""
+    place, along = _on_lane(road_map, a), along_lanes(road_map, a, b)
     if place is None or along is None:
         return None
-    pose = road_map.pose(road_map.advance(place, along).position)
-    left = (b.y - pose.y) * math.cos(pose.h) - (b.x - pose.x) * math.sin(pose.h)
+    return _left_of(road_map.pose(road_map.advance(place, along).position), b)
+
+
+def _on_way_to(road_map: RoadMap, place: LanePosition, along: float, goal: LanePosition) -> Pose:
+    return road_map.pose(road_map.advance(place, along, road_map.route_to(goal)).position)
+
+
+def _left_of(pose: Pose, state: ActorState) -> float:
+    left = (state.y - pose.y) * math.cos(pose.h) - (state.x - pose.x) * math.sin(pose.h)
     return left / math.cos(pose.roll) if pose.roll else left
+
+
+def along_own_lane(road_map: RoadMap, a: ActorState, b: ActorState) -> float | None:
+    """As `along_lanes`; to an actor in a lane of oncoming traffic along the lane of a."""
+    along = along_lanes(road_map, a, b)
+    place, there = _on_lane(road_map, a), _on_lane(road_map, b)
+    if along is not None or place is None or there is None:
+        return along
+    beside = _beside_oncoming(place, there, road_map)
+    return None if beside is None else road_map.route_distance(place, beside)
+
+
+def _beside_oncoming(
+    place: LanePosition, there: LanePosition, road_map: RoadMap
+) -> LanePosition | None:
+    """The place in a lane at the height of one in a lane of oncoming traffic on its road."""
+    if there.road != place.road or there.lane * place.lane > 0:
+        return None
+    section = road_map.roads[place.road].section_at(there.s)
+    return place._replace(s=there.s) if place.lane in section.lanes else None
+
+
+def is_oncoming(a: ActorState, b: ActorState) -> bool:
+    """Whether two actors are in lanes of one road that lead opposite ways."""
+    here, there = a.lane_position, b.lane_position
+    if here is None or there is None:
+        return False
+    return here.road == there.road and here.lane * there.lane < 0
+
+
+def drift(a: ActorState, b: ActorState) -> float:
+    """The lateral speed (m/s) of b, to the left as a drives."""
+    return -b.lateral_speed if is_oncoming(a, b) else b.lateral_speed
 
 
 def along_road(road_map: RoadMap, a: ActorState, b: ActorState) -> float | None:
@@ -149,9 +207,7 @@ def _on_one_road(
 
 def _beside_reference(road_map: RoadMap, place: LanePosition, state: ActorState) -> float:
     """The t (m) of an actor: left of the reference line of its road, on the surface."""
-    line = road_map.road_pose(place.road, place.s, 0.0)
-    left = (state.y - line.y) * math.cos(line.h) - (state.x - line.x) * math.sin(line.h)
-    return left / math.cos(line.roll) if line.roll else left
+    return _left_of(road_map.road_pose(place.road, place.s, 0.0), state)
 
 
 def gap_between(along: float, caller: Shape, other: Shape) -> float:

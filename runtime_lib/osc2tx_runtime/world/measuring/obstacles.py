@@ -9,7 +9,7 @@ from osc2tx_runtime.opendrive import RoadMap
 from osc2tx_runtime.world.state import ActorState
 
 from .collision import box_of
-from .distances import along_lanes, lateral_on_road
+from .distances import along_lanes, lateral_straight_on
 
 _SIGHT = 60.0  # m
 _SIGHT_TIME = 6.0  # s at the own speed that are added
@@ -67,7 +67,7 @@ def _on_way(
     place = me.lane_position
     box = box_of(other)
     if place is not None:
-        along, aside = along_lanes(road_map, me, other), lateral_on_road(road_map, me, other)
+        along, aside = along_lanes(road_map, me, other), lateral_straight_on(road_map, me, other)
         if along is None or aside is None:
             return None
         there = road_map.pose(road_map.advance(place, along).position).h

@@ -43,7 +43,7 @@ from osc2tx_runtime.world.measuring.deviation import (
     PLACE_TOLERANCE,
     SPEED_TOLERANCE,
 )
-from osc2tx_runtime.world.measuring.distances import side_gap
+from osc2tx_runtime.world.measuring.distances import drift, side_gap
 from osc2tx_runtime.world.protocol import PENDING, REACHED, Progress
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.step_inputs import StepInputs
@@ -203,7 +203,7 @@ def _beside(command: Beside) -> Judge:
             return no_way
         if command.time is not None:
             closing = side_gap(to_left, me.shape, other.shape) / command.time
-            return _near(other.lateral_speed - closing - me.lateral_speed, SPEED_TOLERANCE)
+            return _near(drift(me, other) - closing - me.lateral_speed, SPEED_TOLERANCE)
         return _near(-to_left - min(max(-to_left, low), low + command.spread), PLACE_TOLERANCE)
 
     return judge

@@ -128,18 +128,21 @@ class Lateral(MovementModifier):
         """Whether it leaves no choice between distances."""
         return self.distance_range is None
 
-    def offsets(self, own_width: float = 0.0, other_width: float = 0.0) -> tuple[float, float]:
+    def offsets(
+        self, own_width: float = 0.0, other_width: float = 0.0, *, oncoming: bool = False
+    ) -> tuple[float, float]:
         """Range (m) of the own centre to the left of the centre of the reference, now.
 
         Args:
             own_width: Width of the actor (m).
             other_width: Width of the reference or of the lane (m).
+            oncoming: The reference comes the other way: its sides are those that it sees.
 
         Returns:
             The least and the greatest value; both the same without a range.
         """
         low, high = wanted(self.distance, self.distance_range, self.shape)
-        ends = [self.place(value, own_width, other_width) for value in (low, high)]
+        ends = [self.place(value, own_width, other_width, oncoming) for value in (low, high)]
         return min(ends), max(ends)
 
     def offset(self, own_width: float, other_width: float, now: float) -> float:
@@ -147,15 +150,19 @@ class Lateral(MovementModifier):
         low, high = self.offsets(own_width, other_width)
         return min(max(now, low), high)
 
-    def place(self, value: float, own_width: float, other_width: float) -> float:
+    def place(
+        self, value: float, own_width: float, other_width: float, oncoming: bool = False
+    ) -> float:
         """How far (m) left of the reference the own centre is at a distance; see `offsets`."""
         side, measure_by = now(self.side), now(self.measure_by)
         left = -value if side == "right" else value
         if measure_by == "closest":
             reach = 0.5 * (own_width + other_width)
-            return left + (reach if left > 0.0 or (left == 0.0 and side == "left") else -reach)
+            left += reach if left > 0.0 or (left == 0.0 and side == "left") else -reach
+            return -left if oncoming else left
         own, _, other = measure_by.split("_")
-        return left + _EDGE[other] * other_width - _EDGE[own] * own_width
+        left += _EDGE[other] * other_width
+        return -left - _EDGE[own] * own_width if oncoming else left - _EDGE[own] * own_width
 
 
 @modifier(

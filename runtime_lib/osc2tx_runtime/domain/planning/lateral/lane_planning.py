@@ -15,7 +15,7 @@ from osc2tx_runtime.world.commands import Beside, Command, LaneChange, LaneOffse
 from osc2tx_runtime.world.geometry.function_profiles import Computed
 from osc2tx_runtime.world.geometry.lane_neighbours import offset_from, width_at
 from osc2tx_runtime.world.lateral.execution import shift_profile
-from osc2tx_runtime.world.measuring.distances import lateral_on_road
+from osc2tx_runtime.world.measuring.distances import drift, is_oncoming, lateral_on_road
 from osc2tx_shared.classes import replace
 
 from .lateral_targets import check_shift, jump_aside, lanes_wanted, target_of_shift
@@ -35,7 +35,8 @@ def beside_command(action: ModifiedMotion, lateral: Lateral) -> Command:
     """
     assert lateral.side_of is not None
     other = action.world.state(lateral.side_of.id)
-    low, high = lateral.offsets(action.here.width, other.width)
+    oncoming = is_oncoming(action.here, other)
+    low, high = lateral.offsets(action.here.width, other.width, oncoming=oncoming)
     time = action.time_left() if lateral.at == "end" else None
     beside = Beside(
         lateral.side_of.id, low, spread=high - low, projected=lateral.projected, duration=time
@@ -45,12 +46,12 @@ def beside_command(action: ModifiedMotion, lateral: Lateral) -> Command:
     to_left = lateral_on_road(action.world.map, action.here, other)
     if to_left is None:
         raise Refused(f"there is no way along lanes to {lateral.side_of.id}")
-    own = _own(action, lateral, other.width)
+    own = _own(action, lateral, other.width, oncoming)
     if own is not None:
         return replace(beside, course=own)
     profile, peak = course_of(lateral.shape)
     check_peak(peak, "m/s")
-    rate = action.here.lateral_speed - other.lateral_speed
+    rate = action.here.lateral_speed - drift(action.here, other)
     course = shift_profile(
         -to_left,
         min(max(-to_left, low), high),
@@ -132,13 +133,17 @@ def _own_across(
 
 
 def _own(
-    action: ModifiedMotion, shaped: Lane | ChangeLane | Lateral, width: float
+    action: ModifiedMotion,
+    shaped: Lane | ChangeLane | Lateral,
+    width: float,
+    oncoming: bool = False,
 ) -> Computed | None:
     """The place (m to the left) over time that an own shape gives, by the width beside it."""
     own = own_course(shaped.shape)
     if own is None or not isinstance(shaped, Lateral):
         return own
-    return Computed(lambda t: shaped.place(own.value(t), action.here.width, width), own.duration)
+    mine = action.here.width
+    return Computed(lambda t: shaped.place(own.value(t), mine, width, oncoming), own.duration)
 
 
 def _is_centred(action: ModifiedMotion) -> bool:
