@@ -119,6 +119,19 @@ def test_the_way_back_from_the_end_at_two_steady_speeds(
     assert state(trace, 5.0)["s"] == pytest.approx(300.0 + sign * 16.0)
 
 
+def test_the_way_back_at_the_speed_of_the_start(play: Callable[[str], Trace]) -> None:
+    """What the other one does is known for longer than it takes."""
+    trace = play(
+        AT_ONCE.replace("parallel(duration: 5s)", "parallel")
+        .replace("ego.drive()", "ego.drive(duration: 5s)")
+        .replace("npc.drive()", "npc.drive(duration: 3s)")
+        + "            speed(18mps, at: start)\n            position(30m, ahead_of: ego, at: end)\n"
+    )
+    assert trace.status == "success"
+    assert state(trace, 0.0)["s"] == pytest.approx(200.0 + 30.0 + 3.0 * 2.0)
+    assert state(trace, 3.0)["s"] == pytest.approx(260.0 + 30.0)
+
+
 def test_a_speed_and_a_headway_at_the_end(play: Callable[[str], Trace]) -> None:
     """The example of §8.9.2: three seconds behind counts by the speed of the one behind."""
     trace = play(

@@ -57,6 +57,15 @@ class FirstAction:
             if each.name != "position" and each.name in entries and entries[each.name].paces
         ]
 
+    def is_within(self, other: FirstAction) -> bool:
+        """Whether it surely lasts no longer than another one that starts with it."""
+        if self.time is other.time:
+            return True
+        if self.is_later or other.is_later or self.time is None or other.time is None:
+            return False
+        own, its = ir.constant(self.time), ir.constant(other.time)
+        return own is not None and its is not None and own <= its
+
     @property
     def only_ends_beside(self) -> bool:
         """Whether its place is stated at the end alone, relative to another actor."""
@@ -109,7 +118,7 @@ def _place_at_end(action: FirstAction, first: Mapping[str, FirstAction]) -> list
     other = first.get(reference.value.name) if isinstance(reference.value, ir.FieldRef) else None
     own, its = _steady_speed(action), None if other is None else _steady_speed(other)
     (amount, *_), is_ahead = end.arguments, reference.parameter == "ahead_of"
-    if own is None or its is None or other is None or other.time is not action.time:
+    if own is None or its is None or other is None or not action.is_within(other):
         return []
     if amount.parameter not in ("distance", "time") or is_range(amount.value):
         return []
@@ -123,9 +132,9 @@ def _place_at_end(action: FirstAction, first: Mapping[str, FirstAction]) -> list
 
 
 def _steady_speed(action: FirstAction) -> ir.Expression | None:
-    """Return the speed that an actor has during all of its first action."""
+    """Return the speed that an actor has during all of its first action, or may have."""
     match [(each.name, each.at) for each in action.paces]:
-        case [("speed", "all")]:
+        case [("speed", "all" | "start")]:
             return _value(action.paces[0], "speed")
         case [("speed", "end")] if _begins_as_it_ends(action):
             return _value(action.paces[0], "speed")

@@ -151,7 +151,7 @@ class ChangeLane(_OnLane):
             raise ScenarioError(f"{self.action_name}: side `{side}` is none of {', '.join(SIDES)}")
         self.num_of_lanes = num_of_lanes
         self.side = side
-        self.reference = reference
+        self.reference = None if reference is actor else reference  # it starts from its own lane
         self.offset = offset
         self.target = target
         self._beside: int | None = None  # lane of the reference when the change was planned

@@ -67,7 +67,7 @@ class Speed(MovementModifier):
     rules = (
         at_most_one("speed", "speed_range"),
         at_most_one("faster_than", "slower_than", "same_as"),
-        at_least_one("speed", "speed_range", "faster_than", "slower_than", "same_as", "shape"),
+        at_least_one("speed", "speed_range", "same_as", "shape"),
         at_most_one("shape", "rate_profile"),
         at_most_one("shape", "rate_peak"),
     )
