@@ -306,6 +306,7 @@ class TimeSystem:
         self, node: ir.Parallel, lengths: list[_Length], lasting: list[int]
     ) -> tuple[ir.Parallel, _Length]:
         """Relate members that start and end together."""
+        lengths = self._only_fitting(lengths, lasting)
         known = [length for i in lasting if isinstance(length := lengths[i], _Known)]
         is_range = isinstance(node.duration, ir.RangeValue)
         if node.duration is not None and not is_range:
@@ -324,6 +325,26 @@ class TimeSystem:
             if lengths[index] is FREE:
                 members = with_duration(members, index, sum_of(whole))
         return replace(node, members=members), _Known(whole)
+
+    def _only_fitting(self, lengths: list[_Length], lasting: list[int]) -> list[_Length]:
+        """Return the lengths of members that are equal, if one choice of alternatives fits."""
+        options = {
+            index: (length.terms,) if isinstance(length, _Known) else length.options
+            for index in lasting
+            if isinstance(length := lengths[index], _Known | _Either)
+        }
+        count = prod(map(len, options.values()))
+        if count == 1 or count > MOST_CHOICES:
+            return lengths
+        fitting = [
+            each
+            for each in product(*options.values())
+            if all(self._equations.fits(each[0], sum_of(terms)) for terms in each[1:])
+        ]
+        if len(fitting) != 1:
+            return lengths  # who fits shows when all times are drawn
+        chosen = dict(zip(options, map(_Known, fitting[0]), strict=True))
+        return [chosen.get(index, length) for index, length in enumerate(lengths)]
 
     def _started_together(
         self, node: ir.Parallel, lengths: list[_Length], lasting: list[int]

@@ -14,6 +14,7 @@ from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.context import ExecutionContext
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.trace import TraceWriter
+from osc2tx_runtime.language.tree.alternatives import choose_alternatives
 from osc2tx_runtime.opendrive import RoadMap
 from osc2tx_runtime.running.checked_world import checked_world
 from osc2tx_runtime.running.loop import run_tree
@@ -141,5 +142,6 @@ def place_actors(scenario: Scenario, context: ExecutionContext) -> None:
 
 def setup_tree(root: Behaviour, context: ExecutionContext) -> None:
     """Give every node the context, members before their compositions."""
+    choose_alternatives(root, context)
     for node in root.iterate():
         node.setup(context=context)

@@ -103,6 +103,10 @@ class BaseAction(Leaf):
         content = 0 if self.registered.is_momentary else None
         return content if self._limits is None else self._limits.length(content, ends == "open")
 
+    def seconds(self) -> float | None:
+        """Return its duration, if it is one number."""
+        return super().seconds() if self._limits is None else self._limits.fixed
+
     @property
     def elapsed_steps(self) -> int:
         """Steps since the start of the action."""

@@ -151,6 +151,10 @@ class Node(Behaviour):
         """Return how many steps the node will take; None where only the run can tell."""
         return 0 if self.instant else None
 
+    def seconds(self) -> float | None:
+        """Return how many seconds the node takes, where it says so itself, before its setup."""
+        return 0.0 if self.instant else None
+
     def lateness(self) -> float:
         """Return by how many seconds its end lies before this step, at which it ends.
 

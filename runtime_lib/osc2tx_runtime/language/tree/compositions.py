@@ -236,11 +236,21 @@ class OneOf(Composition, ParallelComposite):
         super().__init__(name, policy=ParallelPolicy.SuccessOnOne(), children=members)
         self._limit(duration)
         self._asked = False
+        self._chosen: Behaviour | None = None
         self.find_rivals: Callable[[OneOf], Rivals] = lambda _: {}
+
+    def choose(self, member: Behaviour) -> None:
+        """Let one of its members be the only alternative; before its setup."""
+        self._chosen = member
 
     def setup(self, **kwargs: Any) -> None:
         """Choose a member if the scenario does not race, one that fills the duration."""
         super().setup(**kwargs)
+        if self._chosen is not None:
+            self._members = tuple(each for each in self._members if each[0] is self._chosen)
+            self._content_open = is_open(self._chosen)
+            self.open_ended = self._content_open and self._limits is None
+            return
         is_race = self.context.one_of == "race"
         rivals = self.find_rivals(self) if is_race else {}
         if not self._members or (is_race and not rivals):

@@ -57,10 +57,14 @@ class Wait(Leaf):
 
     def length(self) -> int | None:
         """Return the steps of `elapsed`; every other trigger comes when it comes."""
+        seconds = self.seconds()
+        return None if seconds is None else self.context.steps(seconds)
+
+    def seconds(self) -> float | None:
+        """Return the time of `elapsed`."""
         trigger, condition = self.trigger, self.condition
-        if condition is None and isinstance(trigger, Condition) and trigger.seconds is not None:
-            return self.context.steps(trigger.seconds)
-        return None
+        is_time = condition is None and isinstance(trigger, Condition)
+        return trigger.seconds if is_time else None
 
     def lateness(self) -> float:
         """Return how late a time shows that is over."""

@@ -96,6 +96,11 @@ class DurationLimits:
         return low if low == high else None
 
     @property
+    def seconds(self) -> tuple[float, float]:
+        """The least and the most seconds."""
+        return self._seconds
+
+    @property
     def text(self) -> str:
         """The required duration, for messages."""
         low, high = self._seconds
