@@ -6,7 +6,7 @@ of events) is waited for first; then what may change.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import field
 
 from osc2tx.importing.cast import Actor
@@ -92,7 +92,19 @@ class Conditions:
         actors: Mapping[str, Actor],
         name_of_mark: Callable[[str, str], str],
         texts: Callable[[str], str | None],
+        set_in_run: Collection[str],
     ) -> None:
+        """Take what conditions are about.
+
+        Args:
+            values: The values of the document.
+            places: Its places.
+            actors: Its actors.
+            name_of_mark: Gives the event of a variable with a value.
+            texts: Gives the nominal value of a parameter.
+            set_in_run: Parameters that the storyboard sets: they are variables.
+        """
+        self._set = set_in_run
         self._values, self._actors = values, actors
         self._of_entity = EntityConditions(values, places, actors)
         self._name_of_mark, self._texts = name_of_mark, texts
@@ -135,13 +147,13 @@ class Conditions:
     def _by_value(self, node: Node, edge: str, delay: Quantity | None) -> Condition:
         match node.tag:
             case "SimulationTimeCondition":
-                return self._of_time(node, delay)
+                return self._of_time(node, edge, delay)
             case "StoryboardElementStateCondition":
                 element = node.said("storyboardElementType"), node.said("storyboardElementRef")
                 state = node.said("state")
                 return Condition("state", node, element=element, state=state, delay=delay)
             case "VariableCondition":
-                return self._of_variable(node, edge, delay)
+                return self._of_mark(node, self._values.text(node, "variableRef"), delay)
             case "ParameterCondition":
                 return self._of_parameter(node, delay)
             case "UserDefinedValueCondition":
@@ -153,23 +165,23 @@ class Conditions:
         node.leave_out("the language has no condition for it; it is never met here")
         return Condition("never", node)
 
-    def _of_time(self, node: Node, delay: Quantity | None) -> Condition:
+    def _of_time(self, node: Node, edge: str, delay: Quantity | None) -> Condition:
         rule = node.said("rule")
         time = self._values.quantity(node, "value", TIME)
         if rule.startswith("greater"):
             if not time.is_open and time.value <= 0.0 and delay is None:
                 return Condition("always", node)
             return Condition("time", node, quantity=time, delay=delay)
-        if rule == "equalTo":
+        if rule == "equalTo" or (edge == "falling" and time.value > 0.0):
             return Condition("time", node, quantity=time, delay=delay)
         if time.value > 0.0:
             node.approximate("it is met from the start, and taken to be met always")
             return Condition("always", node)
         return Condition("never", node)
 
-    def _of_variable(self, node: Node, edge: str, delay: Quantity | None) -> Condition:
-        name, value = self._values.text(node, "variableRef"), self._values.text(node, "value")
-        rule = node.said("rule")
+    def _of_mark(self, node: Node, name: str, delay: Quantity | None) -> Condition:
+        """Return the condition on a variable, or on a parameter that is set in the run."""
+        value, rule = self._values.text(node, "value"), node.said("rule")
         if rule != "equalTo":
             node.approximate(f"a variable is an event here: `{rule} {value}` is met when it is set")
             value = ""
@@ -182,14 +194,11 @@ class Conditions:
         if given is None:
             node.leave_out(f"there is no parameter {said}; it is never met here")
             return Condition("never", node)
+        holds = _holds(given, rule, value)
+        if said in self._set and not holds:
+            return self._of_mark(node, said, delay)
         node.approximate(f"{said} keeps its nominal value {given}")
-        try:
-            a, b = float(given), float(value)
-            holds = {"greaterThan": a > b, "lessThan": a < b, "greaterOrEqual": a >= b}
-            holds |= {"lessOrEqual": a <= b, "equalTo": a == b, "notEqualTo": a != b}
-            return Condition("always" if holds[rule] else "never", node)
-        except ValueError:
-            return Condition("always" if (given == value) == (rule == "equalTo") else "never", node)
+        return Condition("always" if holds else "never", node)
 
     # --- by entity --------------------------------------------------------------------------------
 
@@ -217,3 +226,14 @@ class Conditions:
         word = " or " if rule == "any" else " and "
         joined = texts[0] if len(texts) == 1 else word.join(f"({text})" for text in texts)
         return Condition("expression", condition, joined, edge, delay, lasting=lasting)
+
+
+def _holds(given: str, rule: str, value: str) -> bool:
+    """Whether a value of a parameter meets a rule."""
+    try:
+        a, b = float(given), float(value)
+    except ValueError:
+        return (given == value) == (rule == "equalTo")
+    holds = {"greaterThan": a > b, "lessThan": a < b, "greaterOrEqual": a >= b}
+    holds |= {"lessOrEqual": a <= b, "equalTo": a == b, "notEqualTo": a != b}
+    return holds[rule]

@@ -64,7 +64,7 @@ class EntityConditions:
             case "TimeHeadwayCondition":
                 return self._headway(node, said, a)
             case "TimeToCollisionCondition":
-                return self._collision_time(node, a)
+                return self._collision_time(node, said, a)
             case "TraveledDistanceCondition":
                 return self._travelled(node, said, a)
             case "ReachPositionCondition" | "DistanceCondition":
@@ -150,7 +150,7 @@ class EntityConditions:
         )
         return None if abs(along) < 1e-6 else 1 if along > 0 else -1
 
-    def _collision_time(self, node: Node, a: str) -> str | None:
+    def _collision_time(self, node: Node, said: str, a: str) -> str | None:
         target = node.one("TimeToCollisionConditionTarget").inner
         if target.tag != "EntityRef":
             target.leave_out("the language has a time to collision with actors only")
@@ -164,8 +164,26 @@ class EntityConditions:
             "routingAlgorithm",
         ):
             node.text(name)
+        kind, system = asked(self._places.resolved(node))
+        rule = node.said("rule")
+        sign = self._side(said, target.said("entityRef"), kind)
+        is_behind = self._look_alike(said, target.said("entityRef"))
+        if is_behind and kind == "longitudinal" and sign is not None and rule.startswith("less"):
+            # a distance that shrinks is positive, so the rule tells nothing of one that grows
+            time = self._values.quantity(node, "value", TIME).within(PRODUCT)
+            behind, ahead = (a, b) if sign > 0 else (b, a)
+            method = "object_distance" if system == "entity" else "road_distance"
+            mode = _mode(node, default=False)
+            way = f"{behind}.{method}(reference: {ahead}, direction: longitudinal{mode})"
+            return f"{way} {COMPARISONS[rule]} {time} * ({behind}.speed - {ahead}.speed)"
         node.approximate("the time to collision counts from the velocities of both boxes")
         return self._compared(node, f"{a}.time_to_collision(reference: {b})", TIME)
+
+    def _look_alike(self, said: str, other: str) -> bool:
+        """Whether two actors look in the same direction at the start."""
+        bodies = [self._places.bodies.get(each) for each in (said, other)]
+        headings = [each.pose.h for each in bodies if each is not None and each.pose is not None]
+        return len(headings) == 2 and math.cos(headings[0] - headings[1]) > 0.0
 
     def _travelled(self, node: Node, said: str, a: str) -> str | None:
         value = self._values.quantity(node, "value", LENGTH)

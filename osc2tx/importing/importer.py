@@ -122,8 +122,9 @@ class _Import:
         self._cast = Cast(document, self._values, self._ledger, self._names, libraries)
         self._marks: dict[tuple[str, str], str] = {}
         self._measured = {
-            node.get("variableRef")
-            for node in document.root.below(xml.VariableCondition)
+            node.get("variableRef") or node.get("parameterRef")
+            for kind in (xml.VariableCondition, xml.ParameterCondition)
+            for node in document.root.below(kind)
             if node.get("rule") != "equalTo"
         }
         self._emitted: set[str] = set()
@@ -144,11 +145,18 @@ class _Import:
         actors = self._cast.actors
         kinds = {said: actor.name for said, actor in actors.items()}
         places = Places(self._document, self._values, self._names, kinds)
+        leaves = any(True for _ in self._document.resolved.below(xml.LaneChangeAction))
         for said, actor in actors.items():
-            actor.is_free = is_straight_ahead(places.map, places.bodies.get(said))
+            body = places.bodies.get(said)
+            actor.is_free = is_straight_ahead(places.map, body, beside=leaves)
         actions = Actions(self._values, places, actors, self._mark, self._emitted)
         conditions = Conditions(
-            self._values, places, actors, self._mark, self._document.parameters.get
+            self._values,
+            places,
+            actors,
+            self._mark,
+            self._document.parameters.get,
+            {node.parameterRef for node in self._document.root.below(xml.ParameterAction)},
         )
         storyboard = self._root.one("Storyboard")
         inits = Starts(storyboard, self._values, places, actions, self._cast)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.player.bodies import Body
-from osc2tx_runtime.opendrive import MapError, RoadMap
+from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 
 STRAIGHT = 1e-4  # rad
 LOOK, MOST_LOOKS = 10.0, 300  # m: how a lane is looked along
@@ -57,22 +57,40 @@ def is_ahead(body: Body, other: Body) -> bool:
     return (there.x - x) * math.cos(h) + (there.y - y) * math.sin(h) > 0.0
 
 
-def is_straight_ahead(road_map: RoadMap | None, body: Body | None) -> bool:
-    """Whether the lane of an entity leads straight on from its place at the start."""
+def is_straight_ahead(road_map: RoadMap | None, body: Body | None, *, beside: bool) -> bool:
+    """Whether the lane of an entity leads straight on from its place at the start.
+
+    Args:
+        road_map: The map.
+        body: The entity.
+        beside: Whether the lanes beside it have to as well, to which it may change.
+    """
     if road_map is None or body is None or body.place is None:
         return False
+    place, lanes = body.place, [body.place.lane]
     try:
-        place, heading = body.place, road_map.pose(body.place).h
-        for _ in range(MOST_LOOKS):
-            ahead = road_map.advance(place, LOOK * body.along)
-            place = ahead.position
-            if abs(wrapped(road_map.pose(place).h - heading)) > STRAIGHT:
-                return False
-            if abs(ahead.travelled) < LOOK:
-                return True
+        if beside:
+            section = road_map.roads[place.road].section_at(place.s)
+            lanes += [
+                each
+                for each in section.lanes
+                if each * place.lane > 0 and section.lanes[each].type == "driving"
+            ]
+        return all(_is_straight(road_map, place._replace(lane=each), body) for each in lanes)
     except (MapError, LookupError):
         return False
-    return True
+
+
+def _is_straight(road_map: RoadMap, place: LanePosition, body: Body) -> bool:
+    heading = road_map.pose(place).h
+    for _ in range(MOST_LOOKS):
+        ahead = road_map.advance(place, LOOK * body.along)
+        place = ahead.position
+        if abs(wrapped(road_map.pose(place).h - heading)) > STRAIGHT:
+            return False
+        if abs(ahead.travelled) < LOOK:
+            return True
+    return False
 
 
 def wrapped(angle: float) -> float:

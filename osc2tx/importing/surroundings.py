@@ -28,8 +28,9 @@ class Surroundings:
     def effects(self, node: Node) -> Iterator[Effect]:
         """Return what a global action does."""
         match node.tag:
-            case "VariableAction":
-                name = self._values.text(node, "variableRef")
+            case "VariableAction" | "ParameterAction":
+                kind = node.tag.removesuffix("Action").lower()
+                name = self._values.text(node, f"{kind}Ref")
                 setting = node.find("SetAction")
                 if setting is None:
                     node.leave_out("variables are events here: they are set, not computed")

@@ -55,26 +55,24 @@ class Waiting:
 
     def _of_group(self, group: Sequence[Condition], behind: Step | None) -> list[Statement]:
         found: list[Statement] = []
-        late = 0.0
         times = [each for each in group if each.kind == "time"]
-        states = [each for each in group if each.kind == "state"]
-        events = [each for each in group if each.kind == "event"]
-        levels = [each for each in group if each.kind == "expression" and each.edge == "none"]
-        edges = [each for each in group if each.kind == "expression" and each.edge != "none"]
+        happenings = [each for each in group if each.kind in ("state", "event")]
+        expressions = [each for each in group if each.kind == "expression"]
+        levels = [each for each in expressions if each.edge == "none"]
+        edges = [each for each in expressions if each.edge != "none"]
+        late = max((_lateness(each) for each in expressions), default=0.0)
+        if late > 0.0 and (len(group) > len(expressions) or len(expressions) > 1):
+            self._say_delays(happenings, expressions, late)
         if times and behind is not None:
             times[0].node.approximate(
                 "the time counts from the start of the scenario; it is taken to have come"
             )
         elif times:
             latest = max(times, key=_nominal)
-            found.append(wait(f"elapsed({_time_of(latest)})"))
-        marks = [text for each in (*states, *events) for text in self._ends(each, behind)]
-        if len(marks) == 1:
-            found.append(wait(marks[0]))
-        elif marks:
-            found.append(composed("parallel", [wait(mark) for mark in marks]))
-        for each in (*states, *events):
-            found += _delayed(each)
+            # what counts later is looked at so much earlier
+            text = _time_of(latest) if late == 0.0 else _earlier(_time_of(latest), latest, late)
+            found += [] if text is None else [wait(f"elapsed({text})")]
+        found += self._happened(happenings, behind, late)
         if len(edges) == 1 and not levels:
             found.append(wait(_edge(edges[0])))
         elif len(edges) == 1:
@@ -95,18 +93,41 @@ class Waiting:
                     )
                 )
             )
-        for each in (*levels, *edges):
-            late = max(late, each.delay.value if each.delay is not None else 0.0, each.lasting)
-        delayed = [
-            each for each in (*levels, *edges) if each.delay is not None or each.lasting > 0.0
-        ]
         if late > 0.0:
-            if len(group) > 1:
-                group[0].node.approximate("delays of several conditions follow each other")
-            only = delayed[0].delay
-            text = only.text if len(delayed) == 1 and only is not None else literal(late, TIME)
+            only = expressions[0]
+            is_alone = len(expressions) == 1 and only.lasting == 0.0 and only.delay is not None
+            text = only.delay.text if is_alone and only.delay else literal(late, TIME)
             found.append(wait(f"elapsed({text})"))
         return found
+
+    @staticmethod
+    def _say_delays(
+        happenings: Sequence[Condition], expressions: Sequence[Condition], late: float
+    ) -> None:
+        """Say where delays of conditions that count together cannot be told apart."""
+        early = [each for each in happenings if _lateness(each) < late]
+        others = [each for each in expressions if _lateness(each) != late]
+        if early or others:
+            (early or others)[0].node.approximate("delays of several conditions follow each other")
+
+    def _happened(
+        self, happenings: Sequence[Condition], behind: Step | None, late: float
+    ) -> list[Statement]:
+        """Return what waits for events and their delays, up to some time (s) before the last."""
+        waits = []
+        for each in happenings:
+            marks = [wait(mark) for mark in self._ends(each, behind)]
+            waited = [composed("parallel", marks)] if marks else []
+            if each.delay is not None:
+                text = each.delay.text if late == 0.0 else _earlier(each.delay.text, each, late)
+                waited += [] if text is None else [wait(f"elapsed({text})")]
+            if waited:
+                waits.append(composed("serial", waited))
+        if not waits:
+            return []
+        whole = composed("parallel", waits)
+        is_serial = whole.text == "serial" and whole.members is not None
+        return list(whole.members or ()) if is_serial else [whole]
 
     def _ends(self, condition: Condition, behind: Step | None) -> Iterator[str]:
         """Yield the events of the language that a condition waits for."""
@@ -216,5 +237,16 @@ def _operand(text: str) -> str:
     return f"({text})" if " or " in text or " and " in text else text
 
 
-def _delayed(condition: Condition) -> list[Statement]:
-    return [] if condition.delay is None else [wait(f"elapsed({condition.delay.text})")]
+def _lateness(condition: Condition) -> float:
+    """Return how many seconds later than it is met a condition counts."""
+    delay = 0.0 if condition.delay is None else condition.delay.value
+    return delay + condition.lasting
+
+
+def _earlier(text: str, condition: Condition, by: float) -> str | None:
+    """Return a time that is some seconds earlier; `None`: nothing is left of it."""
+    parts = [each for each in (condition.quantity, condition.delay) if each is not None]
+    if any(each.is_open for each in parts):
+        return f"{text} - {literal(by, TIME)}"
+    left = round(sum(each.value for each in parts) - by, 9)
+    return literal(left, TIME) if left > 0.0 else None

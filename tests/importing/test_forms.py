@@ -111,3 +111,30 @@ def test_a_teleport_ends_the_trajectory_before_it_and_a_way_driven_backwards_cou
     assert "replay_path" not in found.text
     assert "wait ego.get_s_coord() <= 100m - 12m" in found.text
     assert apart(found) < 0.1
+
+
+HEADWAY = """<Condition name="far" delay="0" conditionEdge="none"><ByEntityCondition>
+  <TriggeringEntities triggeringEntitiesRule="any"><EntityRef entityRef="{}"/>
+  </TriggeringEntities><EntityCondition>{}</EntityCondition></ByEntityCondition></Condition>"""
+
+
+def test_a_headway_behind_an_actor_counts_like_one_ahead() -> None:
+    """`ego`, 5 m/s faster, comes from 30 m behind and is 40 m ahead after 14 s."""
+    said = '<TimeHeadwayCondition entityRef="ego" value="2" freespace="false" {} rule="{}"/>'
+    along = 'coordinateSystem="road" relativeDistanceType="longitudinal"'
+    condition = HEADWAY.format("other", said.format(along, "greaterThan"))
+    found = imported(document(event("Faster", speed_change("20", "2"), condition)))
+    assert "> 2s * other.speed or" in " ".join(found.text.split())
+    assert faults(found) == []
+
+
+def test_the_time_to_collision_of_reference_points() -> None:
+    """30 m behind and 5 m/s faster: after 2 s it is 4 s, of boxes it is less."""
+    target = '<TimeToCollisionConditionTarget><EntityRef entityRef="other"/>'
+    said = f"""<TimeToCollisionCondition value="4" freespace="false" coordinateSystem="road"
+      relativeDistanceType="longitudinal" rule="lessThan">{target}
+      </TimeToCollisionConditionTarget></TimeToCollisionCondition>"""
+    condition = HEADWAY.format("ego", said)
+    found = imported(in_same_lane(document(event("Away", speed_change("25", "2"), condition))))
+    assert "< 4s * (ego.speed - other.speed)" in " ".join(found.text.split())
+    assert apart(found) < 0.1

@@ -138,3 +138,40 @@ def test_an_act_that_is_stopped_ends_its_events() -> None:
     assert "until elapsed(5s)" in found.text
     assert "@act.end" in found.text
     assert apart(found) < 0.1
+
+
+FAST = """<Condition name="fast" delay="1.5" conditionEdge="none"><ByEntityCondition>
+  <TriggeringEntities triggeringEntitiesRule="any"><EntityRef entityRef="other"/>
+  </TriggeringEntities><EntityCondition><SpeedCondition value="18" rule="greaterThan"/>
+  </EntityCondition></ByEntityCondition></Condition>"""
+
+
+def test_a_delay_beside_a_time_looks_back() -> None:
+    """From 3 s on the speed of 1.5 s ago counts: at 1.5 s it is too low, so it is met later."""
+    faster = event("Faster", speed_change("20", "2"), at_time("0.5"))
+    found = imported(document(faster + event("Back", lane_change(-1), at_time("3") + FAST)))
+    text = " ".join(found.text.split())
+    assert "wait elapsed(1.5s) wait other.speed > 18mps wait elapsed(1.5s)" in text
+    assert not any("delays" in each.reason for each in found.report.findings)
+    assert apart(found) < 0.1
+
+
+def test_a_parameter_that_is_set_in_the_run_is_an_event() -> None:
+    parameters = '<ParameterDeclaration name="Go" parameterType="boolean" value="false"/>'
+    setting = """<Event name="Set" priority="parallel"><Action name="SetAction"><GlobalAction>
+      <ParameterAction parameterRef="Go"><SetAction value="true"/></ParameterAction></GlobalAction>
+      </Action><StartTrigger><ConditionGroup>%s</ConditionGroup></StartTrigger></Event>"""
+    condition = """<Condition name="go" delay="0" conditionEdge="none"><ByValueCondition>
+      <ParameterCondition parameterRef="Go" value="true" rule="equalTo"/></ByValueCondition>
+      </Condition>"""
+    events = event("Back", lane_change(-1), condition) + setting % at_time("2")
+    found = imported(document(events, parameters=parameters))
+    assert "emit go" in found.text
+    assert apart(found) < 0.1
+
+
+def test_the_end_of_being_earlier_is_a_time() -> None:
+    ending = at_time("4").replace("greaterOrEqual", "lessThan").replace("none", "falling")
+    found = imported(document("", end=ending))
+    assert "until elapsed(4s)" in found.text
+    assert apart(found) < 0.1
