@@ -143,14 +143,10 @@ class InvokedTimes:
         inside = ir.walk_behaviors(scenario.body)
         if any(isinstance(each, ir.Finish) for each in inside):
             raise _Undecided
-        name = node.label or node.scenario.rpartition(".")[2]
         given = {a.parameter: (a.value, around) for a in node.arguments}
         if around is None:
-            return _Frame(scenario, given, "", name, drawn)
-        siblings = ir.walk_behaviors(around.scenario.body)
-        alike = [e for e in siblings if isinstance(e, ir.InvokeScenario) and e.key == node.key]
-        if node.label is None and len(alike) > 1:
-            raise _Undecided  # their paths are numbered later
+            return _Frame(scenario, given, "", _plain_name(node), drawn)
+        name = _name_in(around.scenario, node)
         return _Frame(scenario, given, f"{around.path}{name}.", f"{around.who}.{name}", drawn)
 
     def _lengths(self, node: ir.Behavior, frame: _Frame) -> Lengths:
@@ -251,6 +247,21 @@ class InvokedTimes:
         self.ctx.drawn[-1] = self._as_drawn[ref.name] = replace(drawn, unit=declared.unit)
         frame.drawn[path] = ref
         return ref
+
+
+def _plain_name(node: ir.InvokeScenario) -> str:
+    return node.label or node.scenario.rpartition(".")[2]
+
+
+def _name_in(scenario: ir.Scenario, node: ir.InvokeScenario) -> str:
+    """Return the name of an invocation in its scenario: equal ones are numbered in their order."""
+    inside = ir.walk_behaviors(scenario.body)
+    invoked = [each for each in inside if isinstance(each, ir.InvokeScenario)]
+    alike = [each for each in invoked if _plain_name(each) == _plain_name(node)]
+    if len(alike) > 1 and any(ir.is_live(a.value) for each in alike for a in each.arguments):
+        raise _Undecided  # they are made, and numbered, when they start
+    place = alike.index(node) + 1
+    return _plain_name(node) if place == 1 else f"{_plain_name(node)}_{place}"
 
 
 _PLAIN = (ir.Literal, ir.Quantity, ir.FieldRef, ir.Unary, ir.Binary, ir.Conditional)
