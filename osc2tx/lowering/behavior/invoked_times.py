@@ -257,11 +257,16 @@ def _name_in(scenario: ir.Scenario, node: ir.InvokeScenario) -> str:
     """Return the name of an invocation in its scenario: equal ones are numbered in their order."""
     inside = ir.walk_behaviors(scenario.body)
     invoked = [each for each in inside if isinstance(each, ir.InvokeScenario)]
-    alike = [each for each in invoked if _plain_name(each) == _plain_name(node)]
+    alike = [node]
+    if node.label is None:
+        alike = [e for e in invoked if e.label is None and _plain_name(e) == _plain_name(node)]
     if len(alike) > 1 and any(ir.is_live(a.value) for each in alike for a in each.arguments):
         raise _Undecided  # they are made, and numbered, when they start
     place = alike.index(node) + 1
-    return _plain_name(node) if place == 1 else f"{_plain_name(node)}_{place}"
+    name = _plain_name(node) if place == 1 else f"{_plain_name(node)}_{place}"
+    if node.label is None and any(each.label in (name, _plain_name(node)) for each in inside):
+        raise _Undecided  # a label has this name
+    return name
 
 
 _PLAIN = (ir.Literal, ir.Quantity, ir.FieldRef, ir.Unary, ir.Binary, ir.Conditional)
