@@ -25,7 +25,7 @@ from osc2tx.importing.report import ImportReport, Measured
 from osc2tx.importing.values import Parameter
 from osc2tx.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions
-from osc2tx.xosc import Unreadable, read
+from osc2tx.xosc import Element, Unreadable, read
 from osc2tx_runtime import ScenarioError
 from osc2tx_shared.classes import dataclass
 from osc2tx_shared.text import complain, put_document, say
@@ -203,10 +203,7 @@ def _import(
         Refused: It is none, or cannot be read.
     """
     data = _read(source)
-    try:
-        root = read(data)
-    except Unreadable as error:
-        raise Refused(error.reason, error.place) from None
+    root = _root(data)
     tags = {child.tag for child in root.children}
     if "Catalog" in tags:
         return None
@@ -219,8 +216,10 @@ def _import(
     scenario = (Path() if source is None else source.parent) / distribution.scenario.replace(
         "\\", "/"
     )
+    template = _read(scenario)
+    distribution.choose(_root(template))
     imported = import_document(
-        _read(scenario),
+        template,
         scenario.name,
         libraries,
         path=scenario,
@@ -231,6 +230,18 @@ def _import(
     for finding in report.findings:
         imported.report.findings.append(finding)
     return Result(imported, imported.text, (), distribution)
+
+
+def _root(data: bytes) -> Element:
+    """Return the root of a document.
+
+    Raises:
+        Refused: It cannot be read.
+    """
+    try:
+        return read(data)
+    except Unreadable as error:
+        raise Refused(error.reason, error.place) from None
 
 
 def _read(source: Path | None) -> bytes:

@@ -7,6 +7,7 @@ late counts as late, not as off: a place is compared with those of the steps aro
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
@@ -28,6 +29,8 @@ MOST_ACTOR_STEPS = 8_000
 """A run is left when the steps of its actors, of the coarse length, are so many."""
 MOST_EVENTS = 400
 """Of documents with more there is no run."""
+
+_END_OF_ROAD = re.compile(r"(\w+) has come to the end of lane ")
 
 
 @dataclass(frozen=True)
@@ -135,7 +138,7 @@ class _Case:
             run = run_in_world(self.scenario, settings).recording
         except Failed as failure:
             run = failure.recording
-            off_road = self._at_end_of_road(run, played, late + dt)
+            off_road = at_end_of_road(failure, played, self.names, late + dt)
             if not off_road:
                 raise
         worst, worst_actor, at, since = 0.0, "", 0.0, math.inf
@@ -151,17 +154,6 @@ class _Case:
         time = 0.0 if self.is_endless or off_road else time
         return ImportDeviation(worst, worst_actor, at, since, time, late, off_road)
 
-    def _at_end_of_road(self, run: Recording, played: Recording, late: float) -> str:
-        """Return the actor whose road ends when a run fails, if it does in the player too.
-
-        The standard says nothing of ends of roads: the player stops an entity there, a scenario
-        fails.
-        """
-        for said, end in played.ends.items():
-            if abs(end - run.end) <= late:
-                return self.names.get(said, "")
-        return ""
-
     def _played(self, dt: float, longest: float) -> Recording:
         road_map = cached_map(self.map_file)
         reading = BY_THE_STANDARD
@@ -173,6 +165,30 @@ class _Case:
             # documents of others name what is not there
             reason = f"it cannot be played here: {type(error).__name__} {error}"
             raise NoEvidence(reason) from error
+
+
+def at_end_of_road(
+    failure: Failed, played: Recording, names: Mapping[str, str], late: float
+) -> str:
+    """Return the actor whose road ends when a run fails, if it does in the player too.
+
+    The standard says nothing of ends of roads: the player stops an entity there, a scenario fails,
+    and says which actor has come there. Both are at the same place then.
+
+    Args:
+        failure: How the run fails.
+        played: What the player made of the document.
+        names: Names of the actors in the scenario, by those in the document.
+        late: Time (s) by which one may be later than the other.
+    """
+    run, found = failure.recording, _END_OF_ROAD.search(str(failure))
+    actor = found[1] if found is not None else ""
+    said = next((each for each, name in names.items() if name == actor), "")
+    if abs(played.ends.get(said, math.inf) - run.end) > late:
+        return ""
+    here, there = run.track[actor][-1], played.track[said][-1]
+    near = EXACT + late * abs(here[3])
+    return actor if math.dist(here[1:3], there[1:3]) <= near else ""
 
 
 def _apart(

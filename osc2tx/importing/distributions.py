@@ -9,11 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import field
-from itertools import product
+from itertools import islice, product
 
 from osc2tx.importing.document import Refused
 from osc2tx.importing.report import ImportReport
 from osc2tx.xosc import Element
+from osc2tx.xosc.arithmetic import evaluated
+from osc2tx.xosc.player.courses import RULES
 from osc2tx_shared.classes import dataclass
 
 MOST_ROWS = 5000
@@ -46,6 +48,7 @@ class Distribution:
         is_drawn: Whether values are drawn.
         runs: How many rows are drawn.
         seed: Seed of what is drawn.
+        chosen: The first row that meets the constraints of the scenario; empty: none is known.
     """
 
     scenario: str
@@ -54,6 +57,7 @@ class Distribution:
     is_drawn: bool = False
     runs: int = 0
     seed: int = 0
+    chosen: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def size(self) -> int:
@@ -62,7 +66,9 @@ class Distribution:
 
     @property
     def first(self) -> dict[str, str]:
-        """Values of one run: the first ones of sets, the lower limits of ranges."""
+        """Values of one run: a chosen row, else first ones of sets and lower limits of ranges."""
+        if self.chosen:
+            return dict(self.chosen)
         return {
             name: each.values[0] if each.values else repr(each.low)
             for name, each in self.open.items()
@@ -73,6 +79,47 @@ class Distribution:
         """Yield the rows of deterministic distributions, all combinations."""
         for parts in product(*self.axes):
             yield {name: value for part in parts for name, value in part.items()}
+
+    def choose(self, scenario: Element) -> None:
+        """Choose the first row that meets the constraints of the parameters of a scenario."""
+        if not self.axes:
+            return
+        declarations = [
+            node for node in scenario.walk() if node.tag == "ParameterDeclaration" and node.children
+        ]
+        declared = {
+            node.get("name") or "": node.get("value") or ""
+            for node in scenario.walk()
+            if node.tag == "ParameterDeclaration"
+        }
+        for row in islice(self.rows(), MOST_VALUES):
+            texts = {**declared, **row}
+            if all(_is_allowed(node, texts) for node in declarations):
+                self.chosen = row
+                return
+
+
+def _is_allowed(declaration: Element, texts: Mapping[str, str]) -> bool:
+    """Whether the value of a parameter meets one of its groups of constraints, or has none."""
+    values = {}
+    for name, text in texts.items():
+        try:
+            values[name] = float(text)
+        except ValueError:
+            continue  # a text has no order
+    own = values.get(declaration.get("name") or "")
+    groups = [each for each in declaration.children if each.tag == "ConstraintGroup"]
+    return own is None or not groups or any(_meets(own, each, values) for each in groups)
+
+
+def _meets(own: float, group: Element, values: Mapping[str, float]) -> bool:
+    """Whether a number meets constraints; of others the scenario says what they cannot be."""
+    for each in group.children:
+        rule = RULES.get(each.get("rule") or "")
+        limit = evaluated(each.get("value") or "", values)
+        if rule is not None and limit is not None and not rule(own, limit):
+            return False
+    return True
 
 
 def read_distribution(root: Element, report: ImportReport) -> Distribution:

@@ -19,7 +19,7 @@ from osc2tx.importing.names import Names
 from osc2tx.importing.program import declaration
 from osc2tx.importing.starting import STRAIGHT, privates, teleports, wrapped
 from osc2tx.importing.values import Values
-from osc2tx.xosc.element import Unresolved
+from osc2tx.xosc.element import Element, Unresolved
 from osc2tx.xosc.player.bodies import Pose
 from osc2tx.xosc.player.errors import Unplayable
 from osc2tx.xosc.player.places import waypoints
@@ -181,15 +181,7 @@ class Places(Ground):
         """Return a place on the road of another actor, whose own place says where that is."""
         said = node.said("entityRef")
         body, found = self.bodies.get(said), self.static_of(node)
-        start = next(
-            (
-                position.inner
-                for private in privates(self._document.root)
-                if private.get("entityRef") == said
-                for position in teleports(private)
-            ),
-            None,
-        )
+        start = self._start_of(said)
         if body is None or body.place is None or found is None or start is None:
             return None
         place, own = found[0], body.place
@@ -215,6 +207,39 @@ class Places(Ground):
             _odr_point(place.road, str(place.lane), way, t),
             yaw="" if heading is None else _absolute(heading),
         )
+
+    def _start_of(self, said: str) -> Element | None:
+        """Return the element of the place at which an entity is put at the start."""
+        return next(
+            (
+                position.inner
+                for private in privates(self._document.root)
+                if private.get("entityRef") == said
+                for position in teleports(private)
+            ),
+            None,
+        )
+
+    def at_gap(self, node: Node, said: str, reference: str, way: str) -> Spot | None:
+        """Return the place along the road of another entity, as far aside as it was put before.
+
+        Args:
+            node: The action that says the gap.
+            said: The entity.
+            reference: The other one, in the same lane.
+            way: How far the entity is ahead, along the road.
+        """
+        body, start, own = self.bodies[said], self._start_of(reference), self._start_of(said)
+        if body.place is None or start is None or own is None or start.tag != "LanePosition":
+            return None
+        assert self.map is not None
+        s = self._values.quantity(node.other(start), "s", LENGTH)
+        offset = self._values.quantity(node.other(own), "offset", LENGTH)
+        direction = self.map.travel_direction(body.place.road, body.place.lane) * body.along
+        is_left = own.tag == "LanePosition" or direction > 0
+        t = offset.text if is_left else f"-{offset.within(PRODUCT)}"
+        way = f"{s.within(SUM)} {'+' if direction > 0 else '-'} {way}"
+        return Spot(_odr_point(body.place.road, str(body.place.lane), way, t))
 
     def _beside_lane(self, node: Node, reference: str, lanes: int) -> str:
         text = node.text("dLane") or "0"

@@ -260,6 +260,11 @@ class Speeds(Reader):
             f"position({where}, {side}: {reference})",
         ]
         if abs(own.place.offset) > 1e-9:
+            way = where if ahead else f"(-1) * ({where})"
+            spot = self._places.at_gap(node, own_said, said, f"({way})") if at_start else None
+            if spot is not None:
+                call = f"{actor.name}.assign_position({spot.argument})"
+                return Statement(call, length=0.0)
             node.approximate("it is in the middle of its lane after it was put there")
         return Statement(f"{actor.name}.assign_position()", modifiers=modifiers, length=0.0)
 

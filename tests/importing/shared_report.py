@@ -31,7 +31,7 @@ class Row(NamedTuple):
         is_checked: Whether the scenario checks.
         is_overriding: Whether an event of the scenario overrides another one.
         lines: Lines of the scenario.
-        xml_lines: Lines of the document.
+        xml_lines: Lines of the document, with those of the scenario of one with distributions.
         detail: What is off, where and when.
     """
 
@@ -72,15 +72,20 @@ def _row(file: str, path: Path, result: Result) -> Row:
         outcome = SAME if measured.is_exact else OFF
         where = f"{measured.actor} at {measured.at:.2f} s"
         detail = f"{measured.place:.2f} m: {where}; end {measured.time:.2f} s"
+    varied = result.distribution
     return Row(
         file,
         outcome,
         not result.faults,
         "override(" in result.text,
         len(result.text.splitlines()),
-        len(path.read_bytes().splitlines()),
+        _lines(path) + (0 if varied is None else _lines(path.parent / varied.scenario)),
         detail,
     )
+
+
+def _lines(path: Path) -> int:
+    return len(path.read_bytes().splitlines())
 
 
 def _without_numbers(reason: str) -> str:

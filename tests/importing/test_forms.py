@@ -1,5 +1,7 @@
 """Forms that a person would write: places, gaps, dimensions, what goes on by itself."""
 
+import re
+
 from tests.importing.documents import at_time, document, event, faults, imported, speed_change
 from tests.importing.test_structure import apart
 
@@ -137,4 +139,16 @@ def test_the_time_to_collision_of_reference_points() -> None:
     condition = HEADWAY.format("ego", said)
     found = imported(in_same_lane(document(event("Away", speed_change("25", "2"), condition))))
     assert "< 4s * (ego.speed - other.speed)" in " ".join(found.text.split())
+    assert apart(found) < 0.1
+
+
+def test_a_gap_at_the_start_keeps_the_offset_of_the_place_before() -> None:
+    text = in_same_lane(document("", parameters=OPEN)).replace(
+        'ds="30" offset="0"', 'ds="30" offset="$Aside"'
+    )
+    gap = GAP.format('distance="20"')
+    gap = f"<PrivateAction>{gap}</PrivateAction></Private></Actions>"
+    found = imported(re.sub(r"</Private>\s*</Actions>", gap, text))
+    assert "s: 100m + (20m + 5m), t: aside" in found.text
+    assert faults(found) == []
     assert apart(found) < 0.1

@@ -4,6 +4,9 @@ import json
 
 import pytest
 
+from osc2tx.grading.comparison import Recording
+from osc2tx.grading.imports import at_end_of_road
+from osc2tx.grading.runs import Failed
 from osc2tx.importing.names import short, snake
 from osc2tx.importing.report import ImportReport, Measured
 from tests.importing.documents import at_time, document, event, imported, speed_change
@@ -47,3 +50,25 @@ def test_a_run_up_to_the_end_of_a_road_is_no_exact_one() -> None:
     assert report.grade == "approximated"
     assert "end of its road" in report.findings[0].reason
     assert json.loads(report.to_json())["measured"]["until_end_of_road_of"] == "ego"
+
+
+END = "ego.drive() failed at 5 s: {} has come to the end of lane -1 of road 2"
+
+
+@pytest.mark.parametrize(
+    ("reason", "end", "x", "found"),
+    [
+        (END.format("ego"), 5.0, 100.0, "ego"),
+        (END.format("ego"), 6.0, 100.0, ""),  # the player has it there later
+        (END.format("ego"), 5.0, 80.0, ""),  # or elsewhere
+        (END.format("other"), 5.0, 100.0, ""),
+        ("ego.drive() failed at 5 s: it is too fast", 5.0, 100.0, ""),
+    ],
+)
+def test_an_end_of_a_road_is_told_by_reason_and_place(
+    reason: str, end: float, x: float, found: str
+) -> None:
+    run = Recording(5.0, {}, {"ego": [(5.0, 100.2, 0.0, 20.0)], "other": [(5.0, 0.0, 0.0, 0.0)]})
+    played = Recording(end, {}, {"Ego": [(end, x, 0.0, 20.0)]}, ends={"Ego": end})
+    names = {"Ego": "ego", "Other": "other"}
+    assert at_end_of_road(Failed(reason, run), played, names, 0.1) == found
