@@ -68,6 +68,11 @@ def lanes_left(line: dict[str, Any], by: float) -> dict[str, Any]:
     return line | {"lane": line["lane"] + lanes, "y": line["y"] + 3.5 * lanes}
 
 
+def off_road(line: dict[str, Any], by: float) -> dict[str, Any]:
+    """Nowhere on the map, whatever the size."""
+    return line | dict.fromkeys(("road", "lane", "s", "offset"))
+
+
 def turned(line: dict[str, Any], by: float) -> dict[str, Any]:
     return line | {"h": math.remainder(line["h"] + by, math.tau)}
 

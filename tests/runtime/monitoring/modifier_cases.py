@@ -55,11 +55,9 @@ from .cases import (
     standing,
     two,
 )
-from .kit import Body, accelerated, ahead, faster, lanes_left, left, tilted, turned
+from .kit import Body, accelerated, ahead, faster, lanes_left, left, off_road, tilted, turned
 
 
-# One step at 10 m/s is 0.5 m.
-# One step at 10 m/s is 0.5 m.
 def both(make: Callable[[TwoCars], Behaviour]) -> Body:
     """`a` does something for 2 s while `b` drives."""
     return lambda s: Parallel("both", make(s), s.b.drive(speed(12.0)), duration=2.0)
@@ -326,6 +324,23 @@ MODIFIER_CASES = [
         left,
         0.1,
     ),
+    Case("along", both(lambda s: s.a.drive(along(s.street))), off_road, 0.0),
+    Case(
+        "along",
+        both(lambda s: s.a.drive(along(s.street, start_offset=50.0, at="start"))),
+        ahead,
+        0.1,
+        START,
+    ),
+    Case(
+        "along",
+        lambda s: s.a.drive(along(s.street, end_offset=1930.0, at="end")),
+        ahead,
+        0.1,
+        END,
+        slack=0.65,
+    ),
+    Case("lateral", beside(lambda s: lateral(0.0, side_of=s.b, at="end")), left, 0.1, END, "b"),
     Case(
         "along_trajectory",
         lambda s: s.a.drive(along_trajectory(Trajectory(LINE, (0.0, 4.0)))),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from osc2tx_runtime import Behaviour, Environment, Map, Scenario, Vehicle
+from osc2tx_runtime import Behaviour, Environment, Map, Road, Scenario, Vehicle
 from osc2tx_runtime.modifiers import lane, position, speed
 
 
@@ -17,6 +17,7 @@ class TwoCars(Scenario):
     def declare(self) -> None:
         self.road = Map(map_file="highway")
         self.sky = Environment()
+        self.street = self.argument("street", Road())
         self.a = Vehicle()
         self.b = Vehicle()
 

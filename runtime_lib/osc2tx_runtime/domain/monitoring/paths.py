@@ -13,7 +13,7 @@ from osc2tx_runtime.domain.monitoring.registry import monitors, stands_for
 from osc2tx_runtime.domain.paths.path_curves import interval_between_offsets
 from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.domain.routes.network_paths import path_in_world, trajectory_in_world
-from osc2tx_runtime.domain.routes.place_on_route import place_on_route
+from osc2tx_runtime.domain.routes.place_on_route import driven_on_route
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import LanePosition
 
@@ -48,7 +48,7 @@ def _on_route(modifier: Along, route: Route, phase: Phase) -> Iterator[Condition
 
     def place() -> tuple[float, float] | None:
         try:
-            return place_on_route(road_map, route, me())
+            return driven_on_route(road_map, route, me())
         except ScenarioError:
             return None
 
@@ -66,7 +66,7 @@ def _on_route(modifier: Along, route: Route, phase: Phase) -> Iterator[Condition
 
     def at_offset() -> Reading | None:
         found = place()
-        if found is None:
+        if found is None or route.kind == "lane_section":  # planned along the lane, not the axis
             return None
         here, length = found
         if modifier.at == "start":

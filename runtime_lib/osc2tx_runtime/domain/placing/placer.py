@@ -35,6 +35,7 @@ from osc2tx_runtime.domain.placing.pose_resolution import heading_of, one_of_kin
 from osc2tx_runtime.domain.points_and_poses import RoutePoint
 from osc2tx_runtime.domain.routes.lane_coordinates import place_at_distance, road_entry
 from osc2tx_runtime.domain.routes.network_paths import trajectory_in_world
+from osc2tx_runtime.domain.routes.place_on_route import on_route
 from osc2tx_runtime.enums import SideLeftRight
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition
@@ -240,8 +241,9 @@ class Placer:
         distance += 0.0 if position is None else self._of(position.size())
         if isinstance(route, Path) or route.found.kind == "crossing":
             return self._points.on_way(actor, RoutePoint(route, distance))
-        for place in graph_of(self._map).beginnings(route.found):
-            step = self._map.advance(place, distance)
+        graph = graph_of(self._map)
+        for place in graph.beginnings(route.found):
+            step = on_route(graph, route.found, place, distance)
             if abs(step.travelled - distance) > 1e-6:
                 raise PlacementError(
                     f"{actor.id}: {route.found} ends after {step.travelled:.1f} m, before"

@@ -34,7 +34,7 @@ from osc2tx_runtime.domain.planning.longitudinal.goals import way_to
 from osc2tx_runtime.domain.planning.longitudinal.longitudinal_planning import speed_at_start
 from osc2tx_runtime.domain.planning.motion_action import Refused
 from osc2tx_runtime.domain.routes.lane_coordinates import along_lane
-from osc2tx_runtime.domain.routes.place_on_route import place_on_route
+from osc2tx_runtime.domain.routes.place_on_route import driven_on_route
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.geometry.curve import turn_between
 from osc2tx_runtime.world.measuring.deviation import PLACE_TOLERANCE, SPEED_TOLERANCE
@@ -151,7 +151,7 @@ def _check_place(action: ModifiedMotion, position: Position) -> None:
 def _check_route(action: ModifiedMotion, along: Along) -> None:
     """Refuses a start elsewhere on a route than its offset says; beside a position, off it."""
     try:
-        here, _ = place_on_route(action.world.map, along.way, action.here)
+        here, _ = driven_on_route(action.world.map, along.way, action.here)
     except ScenarioError as error:
         raise Refused(f"at its start {error.message}") from None
     if not any(isinstance(m, Position) and m.at == "start" for m in action.modifiers):

@@ -11,11 +11,12 @@ from osc2tx_runtime.domain.map.route_axes import axis_lanes, length_of
 from osc2tx_runtime.domain.map.segments import MapSegment
 from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.errors import ScenarioError, UnsupportedError
-from osc2tx_runtime.opendrive import LanePosition, RoadMap
+from osc2tx_runtime.opendrive import Advance, LanePosition, RoadMap
 from osc2tx_runtime.world.geometry.curve import Curve
 from osc2tx_runtime.world.state import ActorState
 
 _BESIDE = 2.0  # m from a path at which an actor still is on it: about half a lane
+_CORRECTIONS = 4  # of a way along a lane, which differs by some per cent from s
 _EDGE = 0.5  # m beyond the ends of a crossing
 
 
@@ -45,6 +46,39 @@ def place_on_route(
         case "compound_route":
             return _on_roads(graph, place, found)
     raise UnsupportedError(f"a {found.kind} is nothing to measure a distance along")
+
+
+def driven_on_route(
+    road_map: RoadMap, route: Path | RoadPart, state: ActorState
+) -> tuple[float, float]:
+    """As `place_on_route`, from where an actor that drives against the road comes to it.
+
+    Raises:
+        ScenarioError: The actor is not on it.
+    """
+    along, length = place_on_route(road_map, route, state)
+    place = state.lane_position
+    if isinstance(route, Path) or route.found.kind != "road" or place is None:
+        return along, length
+    forwards = road_map.travel_direction(place.road, place.lane) > 0
+    return (along if forwards else length - along), length
+
+
+def on_route(graph: RoadGraph, route: MapSegment, end: LanePosition, distance: float) -> Advance:
+    """Go along a route from one of its ends (m), backwards if negative.
+
+    On a road that counts along its reference line, else along the lane.
+    """
+    step = graph.map.advance(end, distance)
+    if route.kind != "road":
+        return step
+    direction = graph.map.travel_direction(end.road, end.lane)
+    s = min(max(end.s + direction * distance, 0.0), graph.map.roads[end.road].length)
+    place = step.position
+    for _ in range(_CORRECTIONS):
+        rest = direction * (s - place.s) if place.road == end.road else 0.0
+        place = graph.map.advance(place, rest).position
+    return Advance(place, math.copysign(abs(s - end.s), distance))
 
 
 def _on_path(curve: Curve, state: ActorState) -> tuple[float, float]:

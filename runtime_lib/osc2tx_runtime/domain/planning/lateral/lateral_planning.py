@@ -21,6 +21,7 @@ from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind
 from osc2tx_runtime.domain.planning.orientation_planning import turn_command
 from osc2tx_runtime.domain.planning.path_commands import path_command, trajectory_commands
 from osc2tx_runtime.domain.routes.composed_routes import MadeRoute
+from osc2tx_runtime.domain.routes.place_on_route import on_route
 from osc2tx_runtime.language.actions.registry import LATERAL
 from osc2tx_runtime.world.commands import Command, FollowRoute
 from osc2tx_runtime.world.geometry.lane_neighbours import number_of_lane
@@ -99,6 +100,6 @@ def _along_route(action: ModifiedMotion, along: Along, route: Route) -> FollowRo
     """In the lanes to the end of a route of the map."""
     graph = graph_of(action.world.map)
     end = graph.end(graph.seen_from(route.found, action.here.lane_position))
-    goal = graph.map.advance(end, -value_of(along.end_offset)).position
+    goal = on_route(graph, route.found, end, -value_of(along.end_offset)).position
     aims = any(isinstance(m, Lane | Lateral) and m.at == "end" for m in action.lasting)
     return FollowRoute(goal, _across(action), ends=not aims)
