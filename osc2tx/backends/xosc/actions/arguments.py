@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 from osc2tx import ir
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import Pace
 from osc2tx.backends.xosc.report import NOTHING, Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
+
+ValueT = TypeVar("ValueT")
 
 
 def construct_of_action(node: ir.Invoke) -> str:
@@ -62,10 +66,7 @@ class Arguments:
         Raises:
             Inexpressible: It is left out.
         """
-        number = self.number(name)
-        if number is None:
-            raise self._missing(name)
-        return number
+        return self._stated(name, self.number(name))
 
     def size(self, name: str) -> float | None:
         """Return a number, in SI units, or what stands for the range that is said instead."""
@@ -144,13 +145,12 @@ class Arguments:
         Raises:
             Inexpressible: It is left out.
         """
-        entity = self.entity(name)
-        if entity is None:
-            raise self._missing(name)
-        return entity
+        return self._stated(name, self.entity(name))
 
-    def _missing(self, name: str) -> Inexpressible:
-        return Inexpressible(f"`{name}` is not stated", self.span)
+    def _stated(self, name: str, value: ValueT | None) -> ValueT:
+        if value is None:
+            raise Inexpressible(f"`{name}` is not stated", self.span)
+        return value
 
     def approximate(self, reason: str, bound: Metres | str, remedy: Remedy = NOTHING) -> None:
         """Report that the action or modifier means nearly the same in the XML."""

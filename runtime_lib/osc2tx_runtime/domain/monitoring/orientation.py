@@ -46,15 +46,17 @@ def _heading(
     world, me = phase.world, phase.me
     reference = modifier.relative_to
     other = None if reference is None else phase.track(reference.id, modifier.projected)
-    bases: list[float] = []  # the last one
+    before: float | None = None  # the base, one state ago
 
     def measure() -> Reading:
+        nonlocal before
         here, (low, high) = me(), angles()
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
         base = heading_base(world, modifier, here, None if other is None else other())
-        if reference is None and bases and abs(turn_between(bases[0], base)) > 0.5 * math.pi:
+        turn = 0.0 if before is None else turn_between(before, base)
+        if reference is None and abs(turn) > 0.5 * math.pi:
             base += math.pi  # it crosses to lanes in which others come towards it
-        bases[:] = [base]
+        before = base
         turned = turn_between(base + middle, here.h)
         return middle + turned, middle - half, middle + half
 
