@@ -1,14 +1,19 @@
 """Courses of the speed that the XML draws, against their closed forms."""
 
+from itertools import pairwise
+from math import pi
+
 import pytest
 
 from osc2tx.backends.xosc.actions.position.position_modifiers import Arrival
 from osc2tx.backends.xosc.actions.speed.acceleration import Ramp
 from osc2tx.backends.xosc.actions.speed.speed_changes import through_points
-from osc2tx.backends.xosc.facts.actors import Linear, Quintic
+from osc2tx.backends.xosc.facts.actors import Cosine, Linear, Quintic, steepest
 from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.xosc import elements as xml
+from osc2tx.xosc.arithmetic import evaluated
+from osc2tx.xosc.expressions import Symbol
 
 
 def way(course: Arrival | Ramp, pieces: int = 1000) -> float:
@@ -75,3 +80,25 @@ def test_a_smooth_path_goes_through_its_points() -> None:
 def test_offsets_that_leave_nothing_are_refused() -> None:
     with pytest.raises(Inexpressible, match="leave nothing"):
         sample_curve(Line(POINTS, offsets=(40.0, 40.0)))
+
+
+@pytest.mark.parametrize("kind", [Linear, Cosine, Quintic])
+@pytest.mark.parametrize(("start", "end"), [(10.0, 25.0), (25.0, 10.0), (0.0, -3.0)])
+def test_the_steepest_of_a_course_is_that_of_its_differences(
+    kind: type[Linear | Cosine | Quintic], start: float, end: float
+) -> None:
+    course, pieces = kind(start, end, 7.0), 20_000
+    step = course.duration / pieces
+    speeds = [abs(course.value(index * step)) for index in range(pieces + 1)]
+    rates = [(after - before) / step for before, after in pairwise(speeds)]
+    expected = (max(*rates, 0.0), max(-min(rates), 0.0))
+    assert steepest(course) == pytest.approx(expected, abs=1e-4)
+
+
+def test_the_steepest_of_a_course_to_an_open_speed_is_an_expression() -> None:
+    course = Cosine(10.0, Symbol(30.0, "$v"), 5.0)
+    faster, slower = steepest(course)
+    assert float(faster) == pytest.approx(0.5 * pi * 20.0 / 5.0)
+    assert isinstance(faster, Symbol)
+    assert evaluated(faster.attribute, {"v": 40.0}) == pytest.approx(0.5 * pi * 30.0 / 5.0)
+    assert slower == 0.0
