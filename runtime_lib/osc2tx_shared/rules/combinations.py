@@ -207,10 +207,13 @@ class _Action(Generic[CallT]):
         yield from ((rate, way) for rate in rates for way in self._named("distance"))
 
     def _has_room_for_place(self) -> bool:
-        """Whether there can be a place beside speeds and accelerations: at the end."""
+        """Whether there can be a place beside speeds and accelerations: at the end, or in a range.
+
+        The range holds all the time, relative to another actor; the speeds decide the motion.
+        """
         places = self._named("position")
         rates = [*self._speeds(), *self._named("acceleration")]
-        if any("shape" in place.given or place.at != "end" for place in places):
+        if any("shape" in each.given or not _leaves_room(each) for each in places):
             return False
         return self._arrives() or all(rate.at == "all" for rate in rates)
 
@@ -273,3 +276,11 @@ class _Action(Generic[CallT]):
     def _speeds(self) -> list[CallT]:
         """Return the speeds along the road."""
         return [call for call in self._named("speed") if not is_across(call, self.known)]
+
+
+def _leaves_room(place: Call) -> bool:
+    """Whether a place does not say how to move all the time."""
+    given = place.given
+    is_range = "distance_range" in given or "time_range" in given
+    is_relative = "ahead_of" in given or "behind" in given
+    return place.at == "end" or (place.at == "all" and is_range and is_relative)
