@@ -34,6 +34,7 @@ class Recording:
         track: Motion of each actor.
         choices: The chosen members, by the names of the choices.
         ends: When actors came to the end of their roads in a player (s).
+        forks: When the tool of the player may have taken another road with an actor (s).
     """
 
     end: float
@@ -41,6 +42,7 @@ class Recording:
     track: Mapping[str, Sequence[Row]]
     choices: Mapping[str, str] = field(default_factory=dict)
     ends: Mapping[str, float] = field(default_factory=dict)
+    forks: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,8 @@ class ActorDeviation:
         speed: Largest difference of speeds (m/s), late events apart.
         spread: Range of its speeds (m/s); times the delay of events it is the distance that late
             events explain.
-        since: First time (s) at which the distance is more than late events explain.
+        since: First time (s) at which the distance is more than late events explain, or at which
+            the tool may take another road.
     """
 
     place: float
@@ -73,6 +76,7 @@ class Deviation:
         actors: Deviation of each actor.
         problems: Events that are missing, too late or in another order; a sentence each.
         is_off_road: All that deviates are actors that have come to the end of their roads.
+        is_at_fork: All that deviates are actors with which the tool may take another road.
     """
 
     late: float
@@ -80,6 +84,7 @@ class Deviation:
     actors: Mapping[str, ActorDeviation]
     problems: tuple[str, ...]
     is_off_road: bool = False
+    is_at_fork: bool = False
 
     @property
     def place(self) -> float:
@@ -149,15 +154,23 @@ def compare(
     teleported = set(_teleported(document))
     actors = {
         actor: _deviation(
-            rows, found.track.get(actor, ()), late, late + chain, dt, is_put=actor in teleported
+            rows,
+            found.track.get(actor, ()),
+            late,
+            late + chain,
+            dt,
+            is_put=actor in teleported,
+            fork=found.forks.get(actor, math.inf),
         )
         for actor, rows in expected.track.items()
     }
     deviating = {actor: each.since for actor, each in actors.items() if each.since < math.inf}
-    is_off_road = not problems and all(
-        found.ends.get(actor, math.inf) <= since + chain for actor, since in deviating.items()
+    is_off_road, is_at_fork = (
+        not problems
+        and all(when.get(actor, math.inf) <= since + chain for actor, since in deviating.items())
+        for when in (found.ends, found.forks)
     )
-    return Deviation(late, end, actors, tuple(problems), is_off_road)
+    return Deviation(late, end, actors, tuple(problems), is_off_road, is_at_fork)
 
 
 # --- Events ---------------------------------------------------------------------------------------
@@ -269,6 +282,7 @@ def _deviation(
     dt: float,
     *,
     is_put: bool,
+    fork: float,
 ) -> ActorDeviation:
     """Return the deviation of an actor.
 
@@ -279,6 +293,7 @@ def _deviation(
         longest: Longest delay of a jump (s).
         dt: Length of a step (s).
         is_put: It is teleported; it stood before.
+        fork: When the tool may have taken another road (s); infinite if it takes this one.
     """
     there = {round(row[0] / dt): row for row in found}
     speeds = [v for *_, v in expected]
@@ -288,7 +303,7 @@ def _deviation(
     first = there.get(round(before[0] / dt), before)
     begins_elsewhere = math.dist(before[1:3], first[1:3]) > JUMP
     jumped = 0.0 if begins_elsewhere else -longest
-    worst, at, speed, since = 0.0, 0.0, 0.0, math.inf
+    worst, at, speed, since = 0.0, 0.0, 0.0, fork
     reach = math.ceil(late / dt - ROUNDING) + 1
     for row in expected[1:]:
         t, x, y, v = row

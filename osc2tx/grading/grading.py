@@ -24,6 +24,7 @@ from osc2tx_shared.classes import dataclass, replace
 UNLIKE = "played, the document does something else than the scenario"
 PACKAGES = "actions come from packages of users"
 OFF_ROAD = "its road ends while the run goes on, and what it does behind the end is up to the tool"
+FORK = "its lane forks while it changes lane, and which road it takes is up to the tool"
 BEYOND = "played, the document is farther off than its approximations state"
 
 
@@ -92,12 +93,14 @@ def _graded(
         return _completed(found, source)
     span = _blamed(found, finding)
     construct = report.construct_at(span, "action")
-    is_off_road = finding.deviation.is_off_road
-    what = OFF_ROAD if is_off_road else BEYOND if stated else UNLIKE
+    deviation = finding.deviation
+    what = OFF_ROAD if deviation.is_off_road else BEYOND if stated else UNLIKE
+    what = FORK if deviation.is_at_fork else what
     if what is BEYOND:
         report.cannot(construct, span, f"{BEYOND}; {finding.measured}")
     else:
-        report.approximate(construct, span, what, str(finding.measured))
+        bound = "it may take another road" if what is FORK else str(finding.measured)
+        report.approximate(construct, span, what, bound)
     if what is BEYOND or (report.obstacles and source.options.target == "xosc"):
         _complain(sink, construct, span, what, finding)
     return _completed(found, source)

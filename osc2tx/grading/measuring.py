@@ -143,7 +143,7 @@ class Measuring:
         allowed = EXACT + self._stated
         is_near = not deviation.beyond(allowed)
         measured = Measured(deviation.place, deviation.speed, deviation.time)
-        is_faithful = is_near and not deviation.problems
+        is_faithful = is_near and not deviation.problems and not found.forks
         return Finding(measured, deviation, world.recording.starts, is_faithful)
 
     def _map(self) -> RoadMap:

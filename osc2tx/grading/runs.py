@@ -177,6 +177,8 @@ def reading_of(tool: ToolProfile, *, is_lazy: bool = False) -> Reading:
         latches=tool.latches_conditions,
         counts_from_looking=not tool.has_delays,
         carries_acceleration=tool.carries_acceleration,
+        counts_along_roads=tool.counts_along_roads,
+        guesses_at_forks=tool.guesses_at_forks,
     )
 
 
@@ -207,7 +209,7 @@ def run_in_player(
         end = evaluator.play(most)
     except (Unplayable, Unresolved, ArithmeticError) as error:
         raise NoEvidence(f"it cannot be played here: {error}") from error
-    return Recording(end, evaluator.starts, evaluator.track, ends=evaluator.ends)
+    return Recording(end, evaluator.starts, evaluator.track, {}, evaluator.ends, evaluator.forks)
 
 
 def time_for(world: WorldRun, longest: float) -> float:

@@ -34,6 +34,9 @@ class ToolProfile:
         has_booleans: It compares variables with `true` and `false`, not only with numbers.
         carries_acceleration: A profile of speeds begins with the present acceleration; by the
             standard it begins without any.
+        counts_along_roads: A place by lanes from an actor counts `dsLane` along the road; in the
+            standard that is along the lane, which is shorter or longer in a bend.
+        guesses_at_forks: Who changes lane where its lane forks goes on by any of the roads.
         ego_property: Value of the property `type` by which it knows the ego vehicle; empty if it
             needs none.
         person_model: What it calls a person, if it takes other names for those of its models.
@@ -62,6 +65,8 @@ class ToolProfile:
     takes_speeds_at_once: bool = False
     has_booleans: bool = True
     carries_acceleration: bool = False
+    counts_along_roads: bool = False
+    guesses_at_forks: bool = False
     ego_property: str = ""
     person_model: str = ""
     signals_by_place: bool = False
@@ -151,6 +156,8 @@ PROFILES: Mapping[XmlProfile, ToolProfile] = {
         unsupported=_ESMINI_IGNORES,
         deviates={},
         carries_acceleration=True,
+        counts_along_roads=True,
+        guesses_at_forks=True,
         needs_lane_range=True,
         moves_maps=(
             "positions are without the offset in the header of the map; esmini adds it to the map"

@@ -60,6 +60,7 @@ class Offsets:
                 theirs = self._scene.map.advance(theirs._replace(offset=0.0), along).position
             number_ = beside(self._scene.map, theirs, other.along, int(number(goal, "value"))).lane
             lane = LanePosition(place.road, number_, place.s)
+        run.changes_lane = True
         if self._direction(lane) != self._direction(place):
             body.along = -body.along
         start = offset_of(self._scene.map, lane, body.here)

@@ -52,6 +52,7 @@ class Body:
         stood: Seconds for which it has been standing.
         is_at_end: Its road has ended.
         beyond: Seconds since then.
+        counts_along_road: Places beside it are so many metres along its road, not along its lane.
         behind: Which body tows it, with the metres from that one's reference point back to the
             hitch, and from the coupler to its own reference point.
         cursor: Moves it along its lane; made with the first step.
@@ -79,6 +80,7 @@ class Body:
     stood: float = 0.0
     is_at_end: bool = False
     beyond: float = 0.0
+    counts_along_road: bool = False
     behind: tuple[Body, float, float] | None = None
     cursor: LaneCursor | None = None
     located: tuple[Pose, LanePosition | None, int, LanePosition | None] | None = None
@@ -200,6 +202,7 @@ class Running:
         length: Seconds that it takes; `None`: it ends by itself or never.
         speed: Course of the speed.
         offset: Course of the offset.
+        changes_lane: That is from one lane to another.
         way: Points of a polyline, with times where it has some.
         is_timed: These times count.
         points: Metres from its start to each of its points.
@@ -217,6 +220,7 @@ class Running:
     length: float | None
     speed: Course | None = None
     offset: Course | None = None
+    changes_lane: bool = False
     way: Sequence[tuple[float, Pose]] = ()
     is_timed: bool = False
     points: list[float] = field(default_factory=list)

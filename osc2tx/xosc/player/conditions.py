@@ -35,12 +35,16 @@ class Reading:
         latches: Of a group it wants each condition once, not all at one time.
         counts_from_looking: A time counts from when it begins to look for it.
         carries_acceleration: A profile of speeds begins with the present acceleration.
+        counts_along_roads: A place beside an entity counts metres along its road, not its lane.
+        guesses_at_forks: Who changes lane at a fork goes on by any of the roads.
     """
 
     is_lazy: bool = False
     latches: bool = False
     counts_from_looking: bool = False
     carries_acceleration: bool = False
+    counts_along_roads: bool = False
+    guesses_at_forks: bool = False
 
 
 BY_THE_STANDARD = Reading()

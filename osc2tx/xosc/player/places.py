@@ -94,7 +94,8 @@ def _flat(pose: object) -> Pose:
 def _beside(node: Element, body: Body, road_map: RoadMap) -> LanePosition:
     """Return a place by lanes and metres from a reference.
 
-    With `dsLane` it counts along the lane of the reference, with `ds` along the road.
+    With `dsLane` it counts along the lane of the reference, with `ds` along the road. Some tools
+    count both along the road, `dsLane` in the direction of travel.
     """
     from_ = body.in_lane(road_map)._replace(offset=0.0)
     lane = beside(road_map, from_, body.along, int(number(node, "dLane")))
@@ -104,7 +105,8 @@ def _beside(node: Element, body: Body, road_map: RoadMap) -> LanePosition:
     else:
         on = road_map.advance(from_, number(node, "dsLane") * body.along).position
         if on.road == from_.road:
-            ahead = lane._replace(s=on.s)
+            along_road = from_.s + number(node, "dsLane") * direction
+            ahead = lane._replace(s=along_road if body.counts_along_road else on.s)
         else:
             ahead = beside(road_map, on, body.along, int(number(node, "dLane")))
     return ahead._replace(

@@ -15,7 +15,7 @@ from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.player.actions import Stage
 from osc2tx.xosc.player.agenda import Agenda
-from osc2tx.xosc.player.bodies import Body, Running, body_of, couple
+from osc2tx.xosc.player.bodies import LATERAL, Body, Running, body_of, couple
 from osc2tx.xosc.player.conditions import BY_THE_STANDARD, Conditions, Reading
 from osc2tx.xosc.player.courses import number, with_parameters
 from osc2tx.xosc.player.distances import Ruler
@@ -41,6 +41,8 @@ class Evaluator:
         starts: First start of each event and act, by name.
         track: Motion of each entity.
         ends: When entities came to the end of their roads (s), behind which they stand.
+        forks: When entities came to a fork while they changed lane (s), if the tool then goes on
+            by any of the roads.
     """
 
     def __init__(
@@ -59,6 +61,7 @@ class Evaluator:
         self.bodies: dict[str, Body] = {}
         for node in self.root.below(xml.ScenarioObject):
             body = body_of(node)
+            body.counts_along_road = reading.counts_along_roads
             self.bodies[body.name] = body
         carries = reading.carries_acceleration
         self.stage = Stage(self.root, self.bodies, road_map, dt, carries=carries)
@@ -85,6 +88,8 @@ class Evaluator:
         self.starts: dict[str, float] = {}
         self.track: dict[str, list[Row]] = {name: [] for name in self.bodies}
         self.ends: dict[str, float] = {}
+        self.forks: dict[str, float] = {}
+        self._guesses = reading.guesses_at_forks
         self.conditions = Conditions(self, dt, reading)
         self._stop = self.root.one(xml.Storyboard).find(xml.StopTrigger)
         self._ending = Agenda(1)
@@ -145,6 +150,8 @@ class Evaluator:
                     self.track[name].append((self.time, *body.here[:2], body.v))
                 if body.is_at_end:
                     self.ends.setdefault(name, self.time)
+                if self._guesses and self._is_turning(body):
+                    self.forks.setdefault(name, self.time)
             self.transitions.clear()
             self._run_cycles()
             if self._settle():
@@ -152,6 +159,16 @@ class Evaluator:
             self.stage.advance(self.time)
             self.step += 1
         return math.inf
+
+    def _is_turning(self, body: Body) -> bool:
+        """Whether an entity changes lane on one of several roads from a fork."""
+        run, place, road_map = body.actions.get(LATERAL), body.place, self.ruler.map
+        if run is None or run.done or not run.changes_lane or place is None:
+            return False
+        lane = road_map.lane_key(place)
+        before, after = road_map.predecessors, road_map.successors
+        before, after = (before, after) if body.along > 0 else (after, before)
+        return any(len(after(each)) > 1 for each in before(lane))
 
     def _settle(self) -> bool:
         """Go through the storyboard until nothing changes; return whether it is over."""

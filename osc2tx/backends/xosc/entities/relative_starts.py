@@ -119,7 +119,8 @@ def _lanes_for_tools(ctx: Context, roads: Roads, said: Said, mine: LanePosition)
     """Return how many lanes to the left tools count to a place; `None` if they do not get there.
 
     They go metres along the lane of the reference as it looks, and then across; the world measures
-    along the way between the two, which is another one in a bend. XML 1.0 counts along the road.
+    along the way between the two, which is another one in a bend. XML 1.0 counts along the road,
+    and so do some tools.
     """
     if not said.is_of_one:
         return None
@@ -131,10 +132,13 @@ def _lanes_for_tools(ctx: Context, roads: Roads, said: Said, mine: LanePosition)
     lanes = said.lanes if said.number is None else roads.lanes_between(theirs, mine)
     if lanes is None:
         return None
-    if ctx.version == "1.0":
-        leads_along = roads.map.travel_direction(theirs.road, theirs.lane) > 0
-        is_there = mine.road == theirs.road and abs(mine.s - theirs.s - said.along) < NEAR
-        return lanes if leads_along and is_there else None
+    is_old = ctx.version == "1.0"
+    if is_old or ctx.profile.counts_along_roads:
+        travel = roads.map.travel_direction(theirs.road, theirs.lane)
+        is_there = (
+            mine.road == theirs.road and abs((mine.s - theirs.s) * travel - said.along) < NEAR
+        )
+        return lanes if is_there and (travel > 0 or not is_old) else None
     ahead = roads.ahead(theirs, said.along)
     place = None if ahead is None else roads.beside(ahead, lanes)
     if place is None:

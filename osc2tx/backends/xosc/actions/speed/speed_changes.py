@@ -123,7 +123,7 @@ def _from_known(leaf: Leaf, course: Profile, target: float, pace: Pace) -> xml.P
         return speed_action(target, _curve(leaf, pace), "time", course.duration)
     note_acceleration(leaf, target, pace)
     if leaf.ctx.can(PROFILE_ACTION, "1.2"):
-        # A tool that carries on an acceleration takes a jump for one.
+        # A tool that carries on an acceleration takes a jump for one, or that of the step before.
         is_carried = leaf.state.jumped and leaf.ctx.profile.carries_acceleration
         return through_points(course) if is_carried else within_limits(target, leaf.limits, pace)
     length = course.duration

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import ceil
 from typing import Literal
 
-from osc2tx.backends.xosc.actions.leaf import Leaf, Performance
+from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.report import GENERIC
 from osc2tx.backends.xosc.state import LONGITUDINAL
 from osc2tx.xosc import elements as xml
@@ -18,6 +18,12 @@ def speed_action(
 ) -> xml.PrivateAction:
     """Return a `SpeedAction` to an absolute speed."""
     return _speed_action(xml.AbsoluteTargetSpeed(value=target), shape, dimension, value)
+
+
+def ends_evenly(change: Change) -> bool:
+    """Whether a change of the speed keeps its acceleration up to its end."""
+    dynamics = (each for action in change.actions for each in action.below(xml.SpeedActionDynamics))
+    return any(each.dynamicsShape == "linear" for each in dynamics)
 
 
 def relative_speed(

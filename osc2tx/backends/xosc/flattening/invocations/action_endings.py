@@ -9,7 +9,7 @@ from __future__ import annotations
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.lateral.lanes import LANE_WIDTH
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
-from osc2tx.backends.xosc.actions.speed.speed_elements import hold_speed
+from osc2tx.backends.xosc.actions.speed.speed_elements import ends_evenly, hold_speed
 from osc2tx.backends.xosc.conditions.flow import Flow
 from osc2tx.backends.xosc.facts.actors import Pace, apart, course_of_shift
 from osc2tx.backends.xosc.flattening.storyboard.builder import StoryboardBuilder
@@ -31,6 +31,8 @@ def record_end_state(
     before = builder.ctx.states[leaf.member.name]
     state = _merged(before, change.after if is_over else change.during, change.domain)
     state = state.finished(change.domain).going_on(state)
+    if is_over and change.domain == LONGITUDINAL and ends_evenly(change):
+        state = replace(state, jumped=True)
     if not is_over and not change.goes_on:
         state = state.with_unfinished(change.domain, leaf.event)
     builder.ctx.states[leaf.member.name] = state
