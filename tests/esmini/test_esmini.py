@@ -23,6 +23,7 @@ from osc2tx_runtime import RunSettings
 from osc2tx_shared.map_files import SHIPPED
 from tests.processes import HANGING
 from tests.unit.backends.xosc.documents import PLAIN, compiled
+from tests.xosc import esmini_laws
 from tests.xosc.case_study import OPTIONS, SCENARIO, maps_in, run_settings, xml_options
 from tests.xosc.parity import (
     Recording,
@@ -120,6 +121,23 @@ def test_case_study(test_data: Path, tmp_path: Path) -> None:
     given = case_study(maps_in(test_data))
     # Half a kilometre and three minutes, with courses that stop at others' places
     assert compare(*both(given, "hello_world", FINE, tmp_path), FINE).place < 0.25
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        esmini_laws.BESIDE_IN_A_BEND,
+        esmini_laws.AFTER_AN_EVEN_CHANGE,
+        esmini_laws.PUT_AT_THE_START,
+    ],
+    ids=["beside", "after", "put"],
+)
+def test_laws_of_its_own(text: str, tmp_path: Path) -> None:
+    path = tmp_path / "it.osc"
+    path.write_text(text, encoding="utf-8")
+    given = Given(path, xml=XmlOptions(profile="esmini"))
+    (name,) = documents(given)
+    assert compare(*both(given, name, FINE, tmp_path), FINE).place < 0.1
 
 
 def _stem(path: Path) -> str:

@@ -69,6 +69,7 @@ class Context:
         automatic_lights: What shines of vehicles whose lights follow the weather, by name.
         segments: Where declared roads and lanes are on the map, once they have been looked for.
         init_globals: Actions of `Init` that concern no entity.
+        init_privates: What `Init` says about actors, by name, references first.
         demands: What the scenario asks of the motion of an actor, by name.
         outlook: What the whole scenario asks for; `None` while it is written down first.
         asks_outlook: Something that is written down depends on that.
@@ -131,6 +132,7 @@ class Context:
         self.monitors: dict[str, bool] = {}
         self.weather: dict[str, float] = {}
         self.init_globals: list[xml.ActionsPart] = []
+        self.init_privates: dict[str, xml.Private] = {}
         self.init_gaps: dict[tuple[str, str], float] = {}
         self.segments: dict[str, MapSegment] | None = None
         self.automatic_lights: dict[str, str] = {}

@@ -31,7 +31,7 @@ MOST_TIME = 300.0
 def make_document(ctx: Context) -> xml.OpenSCENARIO:
     """Return the document; what it cannot say is in the report."""
     ctx.init_globals.extend(initial_environment(ctx))
-    privates = initial_actions(ctx)
+    ctx.init_privates.update(initial_actions(ctx))
     flattener = Flattener(ctx)
     end = flattener.run()
     objects = scenario_objects(ctx)  # only now it is known what they have to be able to do
@@ -41,7 +41,7 @@ def make_document(ctx: Context) -> xml.OpenSCENARIO:
     ctx.origins |= {event.name: event.place for act in acts for event in act.all_events()}
     story = writer.story("story", acts)
     storyboard = xml.Storyboard(
-        xml.Init(xml.Actions(*ctx.init_globals, *privates)),
+        xml.Init(xml.Actions(*ctx.init_globals, *ctx.init_privates.values())),
         story,
         writer.trigger(xml.StopTrigger, end, ctx.profile.stop_name or "end"),
     )

@@ -79,8 +79,8 @@ class ActorState:
         rate: Acceleration (m/s^2) that an action may keep; `None` if it may be anything.
         pending: Between which accelerations (m/s^2) a change that is cut short may leave it.
         drift: Fastest speed across the road (m/s) that a change which is cut short may leave.
-        jumped: The speed may have changed in no time before, or evenly up to its end, and since then
-            not again.
+        jumped: The speed may have changed in no time before, or evenly up to the end, and not again
+            since then.
         aside: Metres that a change of its place in the lane may be short of it where it is stopped.
         unfinished: What may still be changing when the last action has ended, by domain, with the
             event that changes it.

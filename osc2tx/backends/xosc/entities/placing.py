@@ -111,7 +111,7 @@ OF_MOVEMENT = frozenset({"acceleration", "distance", "physical_movement"})
 """Modifiers that say nothing about the start, and are written down with their invocation."""
 
 
-def initial_actions(ctx: Context) -> list[xml.Private]:
+def initial_actions(ctx: Context) -> dict[str, xml.Private]:
     """Return the start of each actor, references first, and note what is known about them."""
     for member in ctx.entities:
         ctx.states[member.name] = ActorState()
@@ -121,14 +121,15 @@ def initial_actions(ctx: Context) -> list[xml.Private]:
         placing.fill(starts)
     except NoPlace as error:
         ctx.report.cannot("placement", error.span or ctx.scenario.span, error.reason)
-    privates = []
+    privates = {}
     for start in in_order(starts):
         if start.id in placing.refused:
             ctx.report.refuse("placement", start.span, placing.refused[start.id])
         elif start.id in placing.positions:
             with ctx.within(start.scope), ctx.report_as("placement", start.span):
                 note_turn(ctx, start)
-                privates.append(_private(ctx, start, placing.positions[start.id]))
+                position = placing.positions[start.id]
+                privates[start.member.name] = _private(ctx, start, position)
     ctx.at_start = dict(ctx.states)
     return privates
 

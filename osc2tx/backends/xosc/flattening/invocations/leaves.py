@@ -13,6 +13,7 @@ from osc2tx.backends.xosc.actions.speed.speed_elements import in_steps
 from osc2tx.backends.xosc.actions.speed.speed_notes import note_cut
 from osc2tx.backends.xosc.actions.user_actions import global_command, user_action
 from osc2tx.backends.xosc.conditions.flow import Flow, Test
+from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.flattening.compositions.durations import time_left, time_limit
 from osc2tx.backends.xosc.flattening.invocations.action_endings import record_end_state
 from osc2tx.backends.xosc.flattening.storyboard.builder import (
@@ -71,7 +72,10 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
         is_whole = not overriding and all(_is_over(c, lasting) for c in performance.changes)
         steps = in_steps(leaf, performance) if is_whole else ()
         goal = _steps(builder, leaf, steps, start)
-        if not steps:
+        is_first = start == RUN_START and builder.is_outermost and not is_cut
+        if is_first and _is_initial(leaf, performance):
+            _set_out(ctx, member.name, actions)
+        elif not steps:
             goal = builder.add(name, actions, start, actor=member.name, lasting=length)
         for other, action, word in leaf.others:
             follows = ctx.names.new(f"{other.name}_{word}")
@@ -89,6 +93,35 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
             cut = ctx.states[member.name]
             ctx.states[member.name] = cut.finished(change.domain).going_on(cut)
     return builder.mark_end(node, ends)
+
+
+def _is_initial(leaf: Leaf, performance: Performance) -> bool:
+    """Whether `Init` can say an action at the start: it takes no time, and nobody refers to it."""
+    name, placed, others = leaf.member.name, leaf.ctx.init_privates, leaf.others
+    if performance.ends != "goal" or others or performance.reached or leaf.node.duration:
+        return False
+    actions = [action for change in performance.changes for action in change.actions]
+    refers = any(node.get("entityRef") for action in actions for node in action.walk())
+    is_plain = all(
+        type(each.inner) in (xml.TeleportAction, xml.LongitudinalAction) for each in actions
+    )
+    is_reference = any(
+        node.get("entityRef") == name
+        for private in placed.values()
+        for action in private.children
+        for node in action.walk()
+    )
+    is_at_once = all(change.time == 0.0 for change in performance.changes)
+    return name in placed and is_at_once and is_plain and not refers and not is_reference
+
+
+def _set_out(ctx: Context, name: str, actions: tuple[xml.ActionPart, ...]) -> None:
+    """Let an actor begin with actions, instead of those of their kinds."""
+    private, kinds = ctx.init_privates[name], {type(action.inner) for action in actions}
+    kept = [each for each in private.all(xml.PrivateAction) if type(each.inner) not in kinds]
+    set_out = [each for each in actions if isinstance(each, xml.PrivateAction)]
+    ordered = sorted((*kept, *set_out), key=lambda each: not each.find(xml.TeleportAction))
+    ctx.init_privates[name] = xml.Private(*ordered, entityRef=name)
 
 
 def _steps(

@@ -1,0 +1,68 @@
+"""The smallest scenarios in which esmini goes by laws of its own, each with what avoids it."""
+
+from tests.xosc.case_texts import point, source
+
+
+def _drive(actor: str, lane: int, place: str) -> str:
+    return (
+        f"    {actor}.drive(duration: 2s) with:\n        lane({lane}, at: start)\n"
+        f"        position({place}, at: start)\n        speed(10mps)\n"
+    )
+
+
+BESIDE_IN_A_BEND = source(
+    [
+        (
+            "beside",
+            "ego, other: vehicle\ndo parallel:\n"
+            + _drive("ego", 2, "211m")
+            + _drive("other", 1, "55m, ahead_of: ego"),
+        )
+    ],
+    "curve",
+)
+"""esmini counts the 55 m along the middle of the road, which bends to the left."""
+
+AFTER_AN_EVEN_CHANGE = source(
+    [
+        (
+            "after",
+            "ego: vehicle\ndo serial:\n"
+            + _drive("ego", 2, "40m")
+            + "    ego.change_speed(target: 20mps, rate_profile: constant, rate_peak: 2mpss)\n"
+            "    ego.change_speed(target: 10mps)\n    ego.drive(duration: 2s)\n",
+        )
+    ]
+)
+"""esmini's profile of speeds begins with the 2 m/s² of the step before."""
+
+PUT_AT_THE_START = source(
+    [
+        (
+            "put",
+            "ego: vehicle\ndo serial:\n    ego.assign_position(\n        odr_point: "
+            'road.create_odr_point(road_id: "1", lane_id: "2", s: 350m, t: 0m)\n    )\n'
+            "    ego.assign_speed(speed: 20mps)\n"
+            "    ego.drive(duration: 2s) with:\n        speed(20mps)\n",
+        )
+    ],
+    "curve",
+)
+"""esmini looks at each event once in a step, so that a chain of three is over after three steps."""
+
+CHANGE_AT_A_FORK = source(
+    [
+        (
+            "fork",
+            "ego: vehicle\n"
+            + point("begin", -40, -1.75)
+            + "do serial:\n    ego.drive(duration: 1s) with:\n"
+            "        position(at_point: begin, project_on_route: false, at: start)\n"
+            "        speed(10mps)\n"
+            "    ego.change_lane(side: right, duration: 4s)\n"
+            "    ego.drive(duration: 2s) with:\n        speed(10mps)\n",
+        )
+    ],
+    "urban_crossing",
+)
+"""esmini draws by lot which road of a junction is taken in the middle of a change of lane."""

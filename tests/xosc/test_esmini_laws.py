@@ -1,0 +1,95 @@
+"""Laws of esmini's own: what is written for it and how that is graded; tests/esmini plays it."""
+
+from pathlib import Path
+
+import pytest
+
+from osc2tx.backends.xosc import XmlScenario
+from osc2tx.compilation.driver import Compilation
+from osc2tx.options import CompileOptions, XmlOptions, XmlProfile
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc import read
+from osc2tx.xosc.element import Element
+from osc2tx.xosc.player import Evaluator, Reading
+from osc2tx_runtime.opendrive import read_map
+from osc2tx_shared.map_files import SHIPPED
+from tests.xosc.esmini_laws import (
+    AFTER_AN_EVEN_CHANGE,
+    BESIDE_IN_A_BEND,
+    CHANGE_AT_A_FORK,
+    PUT_AT_THE_START,
+)
+
+CURVATURE, WIDTH = 1.0 / 120.0, 3.5  # of the road "curve" between s = 150 m and 270 m
+
+
+def built(folder: Path, text: str, profile: XmlProfile) -> XmlScenario:
+    path = folder / "it.osc"
+    path.write_text(text, encoding="utf-8")
+    options = CompileOptions(xml=XmlOptions(profile=profile))
+    compilation = Compilation(path, path.name, options)
+    assert compilation.check(), compilation.diagnostics
+    (found,) = compilation.graded_xml
+    return found
+
+
+def document(folder: Path, text: str, profile: XmlProfile) -> Element:
+    found = built(folder, text, profile)
+    assert found.xml is not None, [each.reason for each in found.report.losses]
+    assert not found.report.losses
+    return read(found.xml)
+
+
+def test_a_start_beside_another_one_in_a_bend_is_a_place_on_the_road(tmp_path: Path) -> None:
+    init = document(tmp_path, BESIDE_IN_A_BEND, "esmini").one(xml.Storyboard).one(xml.Init)
+    ego, other = init.below(xml.LanePosition)
+    assert not list(init.below(xml.RelativeLanePosition))
+    assert (ego.laneId, other.laneId) == ("-1", "-2")
+    outside = 1.0 + 0.5 * WIDTH * CURVATURE  # both are in the bend, `ego` in the inner lane
+    assert other.s - ego.s == pytest.approx(55.0 / outside, abs=0.01)
+
+
+def test_by_the_standard_it_stays_relative(tmp_path: Path) -> None:
+    found = document(tmp_path, BESIDE_IN_A_BEND, "generic")
+    (place,) = found.below(xml.RelativeLanePosition)
+    assert place.dsLane == 55.0
+
+
+def test_metres_along_the_road_are_more_on_the_outside(tmp_path: Path) -> None:
+    """Both are in the bend: ways along lane and road are as their radii."""
+    road_map = read_map(SHIPPED / "curve.xodr")
+    root = document(tmp_path, BESIDE_IN_A_BEND, "generic")
+    places = []
+    for reading in (Reading(), Reading(counts_along_roads=True)):
+        evaluator = Evaluator(root, road_map, 0.05, reading=reading)
+        ego, other = (evaluator.bodies[name].place for name in ("ego", "other"))
+        assert ego is not None and other is not None
+        places.append(other.s - ego.s)
+    along_lane, along_road = places
+    assert along_road == pytest.approx(55.0)
+    assert along_lane * (1.0 + 0.5 * WIDTH * CURVATURE) == pytest.approx(55.0, abs=0.01)
+
+
+def test_after_an_even_change_speeds_are_points(tmp_path: Path) -> None:
+    found = document(tmp_path, AFTER_AN_EVEN_CHANGE, "esmini")
+    (profile,) = found.below(xml.SpeedProfileAction)
+    assert profile.followingMode == "position"
+    assert [each.speed for each in profile.below(xml.SpeedProfileEntry)][-1] == 10.0
+
+
+@pytest.mark.parametrize("profile", ["generic", "esmini"])
+def test_who_is_put_somewhere_first_begins_there(tmp_path: Path, profile: XmlProfile) -> None:
+    found = document(tmp_path, PUT_AT_THE_START, profile)
+    (private,) = found.below(xml.Private)
+    (place,), (speed,) = private.below(xml.LanePosition), private.below(xml.AbsoluteTargetSpeed)
+    assert (place.laneId, place.s, speed.value) == ("2", 350.0, 20.0)
+    assert not list(found.one(xml.Storyboard).one(xml.Story).below(xml.PrivateAction))
+
+
+def test_a_change_of_lane_at_a_fork_is_up_to_esmini(tmp_path: Path) -> None:
+    assert built(tmp_path, CHANGE_AT_A_FORK, "generic").xml is not None
+    found = built(tmp_path, CHANGE_AT_A_FORK, "esmini")
+    assert found.xml is None
+    (loss,) = found.report.losses
+    assert loss.construct == "action change_lane"
+    assert "which road it takes is up to the tool" in loss.reason
