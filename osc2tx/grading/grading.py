@@ -24,7 +24,7 @@ from osc2tx_shared.classes import dataclass, replace
 UNLIKE = "played, the document does something else than the scenario"
 PACKAGES = "actions come from packages of users"
 OFF_ROAD = "its road ends while the run goes on, and what it does behind the end is up to the tool"
-FORK = "its lane forks while it changes lane, and which road it takes is up to the tool"
+FORK = "which road it takes where its lane forks is up to the tool"
 BEYOND = "played, the document is farther off than its approximations state"
 
 

@@ -1,7 +1,7 @@
 """The runs that one document gets, and the largest deviation in them.
 
-A run at coarse steps shows that most documents do what their scenarios do. Where it does not, the
-same run at fine steps tells deviations from the delay of events by a step.
+A run at coarse steps shows that most documents do what their scenarios do. Where it does not, or
+only nearly, the same run at fine steps tells deviations from the delay of events by a step.
 """
 
 from __future__ import annotations
@@ -35,6 +35,7 @@ from osc2tx_shared.classes import dataclass, replace
 from osc2tx_shared.map_files import map_places
 
 COARSE, FINE = 0.05, 0.02  # s: lengths of steps
+SUSPECT = 0.3  # m: at coarse steps, the delay of events may hide so much
 LONGEST = 300.0  # s: as a run of the module
 MOST_ACTOR_STEPS = 60_000
 """A run is left when the steps of its actors are so many: what happened until then counts."""
@@ -120,7 +121,7 @@ class Measuring:
     def _judged(self, values: Values) -> Finding:
         """Run scenario and document with values of open parameters, at fine steps if necessary."""
         found = self._at(COARSE, values)
-        if found.is_faithful or not self._is_bounded:
+        if not self._is_bounded or (found.is_faithful and found.deviation.place < SUSPECT):
             return found
         return self._at(FINE, values)
 

@@ -36,7 +36,8 @@ class ToolProfile:
             standard it begins without any.
         counts_along_roads: A place by lanes from an actor counts `dsLane` along the road; in the
             standard that is along the lane, which is shorter or longer in a bend.
-        guesses_at_forks: Who changes lane where its lane forks goes on by any of the roads.
+        guesses_at_forks: Who changes lane where its lane forks goes on by any of the roads, and so
+            does who drives there against the traffic.
         ego_property: Value of the property `type` by which it knows the ego vehicle; empty if it
             needs none.
         person_model: What it calls a person, if it takes other names for those of its models.

@@ -65,4 +65,4 @@ CHANGE_AT_A_FORK = source(
     ],
     "urban_crossing",
 )
-"""esmini draws by lot which road of a junction is taken in the middle of a change of lane."""
+"""esmini draws by lot which road of a junction is taken in the middle of a lane change."""

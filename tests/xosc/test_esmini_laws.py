@@ -6,6 +6,7 @@ import pytest
 
 from osc2tx.backends.xosc import XmlScenario
 from osc2tx.compilation.driver import Compilation
+from osc2tx.grading.grading import FORK
 from osc2tx.options import CompileOptions, XmlOptions, XmlProfile
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc import read
@@ -77,6 +78,14 @@ def test_after_an_even_change_speeds_are_points(tmp_path: Path) -> None:
     assert [each.speed for each in profile.below(xml.SpeedProfileEntry)][-1] == 10.0
 
 
+def test_against_the_traffic_a_fork_is_up_to_esmini(tmp_path: Path) -> None:
+    text = CHANGE_AT_A_FORK.replace("-40m", "-140m").replace("side: right", "side: left")
+    text = text.replace("duration: 2s", "duration: 12s")
+    assert built(tmp_path, text, "generic").xml is not None
+    (loss,) = built(tmp_path, text, "esmini").report.losses
+    assert loss.reason == FORK  # of the last action with an event
+
+
 @pytest.mark.parametrize("profile", ["generic", "esmini"])
 def test_who_is_put_somewhere_first_begins_there(tmp_path: Path, profile: XmlProfile) -> None:
     found = document(tmp_path, PUT_AT_THE_START, profile)
@@ -92,4 +101,4 @@ def test_a_change_of_lane_at_a_fork_is_up_to_esmini(tmp_path: Path) -> None:
     assert found.xml is None
     (loss,) = found.report.losses
     assert loss.construct == "action change_lane"
-    assert "which road it takes is up to the tool" in loss.reason
+    assert loss.reason == FORK

@@ -36,7 +36,7 @@ class Reading:
         counts_from_looking: A time counts from when it begins to look for it.
         carries_acceleration: A profile of speeds begins with the present acceleration.
         counts_along_roads: A place beside an entity counts metres along its road, not its lane.
-        guesses_at_forks: Who changes lane at a fork goes on by any of the roads.
+        guesses_at_forks: At a fork, lane changes and driving against traffic may lead anywhere.
     """
 
     is_lazy: bool = False

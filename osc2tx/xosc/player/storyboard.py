@@ -42,7 +42,7 @@ class Evaluator:
         track: Motion of each entity.
         ends: When entities came to the end of their roads (s), behind which they stand.
         forks: When entities came to a fork while they changed lane (s), if the tool then goes on
-            by any of the roads.
+            by any of the roads; or while they drove against the traffic.
     """
 
     def __init__(
@@ -150,7 +150,7 @@ class Evaluator:
                     self.track[name].append((self.time, *body.here[:2], body.v))
                 if body.is_at_end:
                     self.ends.setdefault(name, self.time)
-                if self._guesses and self._is_turning(body):
+                if self._guesses and self._is_lost(body):
                     self.forks.setdefault(name, self.time)
             self.transitions.clear()
             self._run_cycles()
@@ -160,10 +160,11 @@ class Evaluator:
             self.step += 1
         return math.inf
 
-    def _is_turning(self, body: Body) -> bool:
-        """Whether an entity changes lane on one of several roads from a fork."""
+    def _is_lost(self, body: Body) -> bool:
+        """Whether an entity is behind a fork in a lane change, or against the traffic."""
         run, place, road_map = body.actions.get(LATERAL), body.place, self.ruler.map
-        if run is None or run.done or not run.changes_lane or place is None:
+        is_changing = run is not None and not run.done and run.changes_lane
+        if place is None or not (is_changing or body.along < 0):
             return False
         lane = road_map.lane_key(place)
         before, after = road_map.predecessors, road_map.successors
