@@ -66,7 +66,7 @@ def test_a_replayed_path_takes_a_speed_at_once(run: Run) -> None:
         return s.a.replay_path(speed(14.0), absolute=STRAIGHT)
 
     states = run(scenario(body)).states("a")
-    assert [e["v"] for e in states[:3]] == [10.0, 14.0, 14.0]
+    assert [e["v"] for e in states[:3]] == [14.0, 14.0, 14.0]
 
 
 def test_a_lane_change_with_a_speed_at_its_end(run: Run) -> None:

@@ -109,8 +109,7 @@ def stop_command(action: ModifiedMotion, *, at_once: bool = False) -> Command:
         Refused: It rolls, and must not.
     """
     if action.may_jump:
-        world, actor = action.world, action.actor.id
-        action.effect("speed", 0.0, lambda: world.assign(actor, speed=0.0))
+        _assign(action, 0.0)
         return Standstill()
     speed = action.here.v
     if abs(speed) > STANDS and (at_once or action.option() == "must_be_physical"):
@@ -241,6 +240,8 @@ def _to_speed(
     start: float | None = None,
 ) -> SpeedChange:
     if action.may_jump and start is None:
+        if isinstance(speed, Speed) and speed.at == "all" and not speed.shaped:
+            _assign(action, target)  # it holds from the first instant on
         return jump_to(target)
     if rate is not None:
         return SpeedChange(target, "constant", _pace(action, target, speed, rate), start=start)
