@@ -232,7 +232,8 @@ def settings_from(texts: Texts, path: Path) -> RunSettings:
 
 def with_maps_of(given: GivenOptions, settings: RunSettings) -> GivenOptions:
     """Return compile options with which maps are looked for where a run looks for them."""
-    return replace(given, map_path=tuple(map(str, settings.map_path)))
+    *folders, _beside_the_file = settings.map_path
+    return replace(given, map_path=tuple(map(str, folders)))
 
 
 def merge_texts(config: Config, path: Path, given: Texts) -> dict[str, tuple[str, ...]]:

@@ -105,7 +105,9 @@ def test_a_map_in_a_folder_that_is_given(shell: Shell, command: tuple[str, ...])
     ended = shell(*command, "own.osc", "--map-path", "maps")
     assert ended.code == 0, ended.err
     assert "OSC443" not in ended.err
-    assert "OSC443" in shell(*command, "own.osc").err
+    missing = shell(*command, "own.osc").err
+    assert "OSC443" in missing
+    assert "searched in the folder of the file, the maps of the runtime" in missing
 
 
 def test_unknown_map_folder(shell: Shell) -> None:
