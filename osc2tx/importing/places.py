@@ -19,6 +19,7 @@ from osc2tx.importing.names import Names
 from osc2tx.importing.program import declaration
 from osc2tx.importing.starting import STRAIGHT, privates, teleports, wrapped
 from osc2tx.importing.values import Values
+from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element, Unresolved
 from osc2tx.xosc.player.bodies import Pose
 from osc2tx.xosc.player.errors import Unplayable
@@ -291,7 +292,7 @@ class Places(Ground):
                 f"it.{axis} == {literal(v, LENGTH)}"
                 for axis, v in zip("xyz", (*key, 0.0), strict=True)
             ]
-            self.lines += declaration(made, "position_3d", told)
+            self.lines += declaration(made, "position_3d", [" and ".join(told)])
             self._declared[key] = made
         return self._declared[key]
 
@@ -302,8 +303,20 @@ class Places(Ground):
             f"it.position.{axis} == {literal(round(v, 6), LENGTH)}"
             for axis, v in zip("xyz", (x, y, 0.0), strict=True)
         ]
-        self.lines += declaration(made, "pose_3d", told)
+        self.lines += declaration(made, "pose_3d", [" and ".join(told)])
         return made
+
+    def corners(self, trajectory: Node) -> list[str]:
+        """Return the points of the map that a trajectory leads along; none if others are in it."""
+        found = []
+        for vertex in self.resolved(trajectory).below(xml.Vertex):
+            place = self.known(vertex.one(xml.Position))
+            if not isinstance(place, LanePosition) or self.map is None:
+                return []
+            t = place.offset * self.map.travel_direction(place.road, place.lane)
+            at = literal(round(place.s, 6), LENGTH), literal(round(t, 6), LENGTH)
+            found.append(_odr_point(place.road, str(place.lane), *at).partition(": ")[2])
+        return found
 
     def stops_of(self, route: Node) -> list[LanePosition]:
         """Return the waypoints of a route in lanes; none if they are not known."""

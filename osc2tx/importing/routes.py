@@ -83,20 +83,26 @@ class Routes(Reader):
         if not any(each.tag == "Polyline" for each in self._places.resolved(node).walk()):
             node.approximate(f"the curve is a polyline with chords {CHORD:g} m from it at most")
         times = [time for time, _ in way]
-        points = [self._places.pose(pose.x, pose.y, actor.name) for _, pose in way]
+        kind, points, on_road = "", self._places.corners(node), ", on_road_network: false"
+        if len(points) == len(way):
+            kind = "_odr_points"
+        else:
+            points = [self._places.pose(pose.x, pose.y, actor.name) for _, pose in way]
+            on_road = ""
         timed = any(each.tag == "Timing" for each in node.element.walk())
         offset = self._values.quantity(node, "initialDistanceOffset", LENGTH)
         node.use_all()
         listed = ", ".join(points)
-        told = f"points: [{listed}], interpolation: straight_line"
+        told = f"points: [{listed}], interpolation: straight_line{on_road}"
         length = None
         if timed:
             stamps = ", ".join(literal(round(each, 6), TIME) for each in times)
-            made = f"trajectory(absolute: road.create_trajectory({told}, time_stamps: [{stamps}]))"
+            told = f"{told}, time_stamps: [{stamps}]"
+            made = f"trajectory(absolute: road.create_trajectory{kind}({told}))"
             length = times[-1] if times else None
         else:
             begin = f", start_offset: {offset.text}" if offset.is_open or offset.value else ""
-            made = f"path(absolute: road.create_path({told}){begin})"
+            made = f"path(absolute: road.create_path{kind}({told}){begin})"
         slots = BOTH if timed else frozenset((LATERAL,))
         yield Effect(Statement(f"{actor.name}.replay_{made}", length=length), actor.name, slots)
         self._lanes[said] = None

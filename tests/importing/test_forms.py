@@ -152,3 +152,17 @@ def test_a_gap_at_the_start_keeps_the_offset_of_the_place_before() -> None:
     assert "s: 100m + (20m + 5m), t: aside" in found.text
     assert faults(found) == []
     assert apart(found) < 0.1
+
+
+def test_a_trajectory_in_lanes_leads_along_points_of_the_map() -> None:
+    corner = '<Vertex><Position><LanePosition roadId="1" laneId="-2" s="{}"/></Position></Vertex>'
+    shape = f"<Polyline>{corner.format(130)}{corner.format(190)}</Polyline>"
+    action = f"""<RoutingAction><FollowTrajectoryAction><TimeReference><None/></TimeReference>
+      <TrajectoryFollowingMode followingMode="position"/><TrajectoryRef>
+      <Trajectory name="way" closed="false"><Shape>{shape}</Shape></Trajectory></TrajectoryRef>
+      </FollowTrajectoryAction></RoutingAction>"""
+    found = imported(document(event("Follow", action, at_time("0")), end=at_time("3")))
+    assert "create_path_odr_points" in found.text
+    assert "pose_3d" not in found.text
+    assert faults(found) == []
+    assert apart(found) < 0.1
