@@ -7,18 +7,20 @@ a trajectory takes it across the road.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.position.paths import follow
 from osc2tx.backends.xosc.actions.speed.speed_changes import jump_to
 from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
 from osc2tx.backends.xosc.entities.cast import PEDESTRIAN
-from osc2tx.backends.xosc.facts.actors import FASTEST, Pace, Profile, course_of_speed
+from osc2tx.backends.xosc.facts.actors import FASTEST, Pace, Profile, SCurve, course_of_speed
 from osc2tx.backends.xosc.facts.curves import Waypoint, thinned
 from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import Inexpressible, Metres
 from osc2tx.backends.xosc.state import WAY, known
 from osc2tx.xosc import elements as xml
+from osc2tx.xosc.expressions import Symbol
 from osc2tx.xosc.literals import DynamicsShape
 from osc2tx_shared.classes import replace
 
@@ -124,6 +126,20 @@ def _ahead(pose: Pose, way: float) -> Pose:
 
 
 def _covered(course: Profile, time: float) -> float:
+    """Return the way (m) covered after a time."""
+    if not isinstance(course, SCurve):
+        return _summed(course, time)
+    numbers = (time, course.start, course.end, course.limit, course.jerk, course.start_rate)
+    is_open = any(isinstance(each, Symbol) for each in numbers)
+    return _summed(course, time) if is_open else _known_way(course, time)
+
+
+@lru_cache(maxsize=4096)  # documents of one scenario for several values share most walks
+def _known_way(course: SCurve, time: float) -> float:
+    return _summed(course, time)
+
+
+def _summed(course: Profile, time: float) -> float:
     """Return the way (m) covered after a time: Simpson's rule, then the speed at the end."""
     changing = min(time, course.duration)
     step = changing / PIECES
