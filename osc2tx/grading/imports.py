@@ -218,7 +218,7 @@ def _apart(
 
 
 def _arrivals(played: Sequence[Row], dt: float) -> Iterator[tuple[int, tuple[float, float]]]:
-    """Yield the steps at which an actor is put elsewhere, and where it arrives.
+    """Yield the steps at which an actor is teleported, and where it arrives.
 
     The player shows it there one step later, when it has moved on.
     """

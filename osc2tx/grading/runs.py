@@ -173,7 +173,7 @@ def reading_of(tool: ToolProfile, *, is_lazy: bool = False) -> Reading:
         is_lazy: It evaluates no condition of a group behind a false one.
     """
     return Reading(
-        is_lazy=is_lazy,
+        is_lazy=is_lazy or tool.is_lazy,
         latches=tool.latches_conditions,
         counts_from_looking=not tool.has_delays,
         carries_acceleration=tool.carries_acceleration,

@@ -22,6 +22,7 @@ class ToolProfile:
         has_edges: It looks at `conditionEdge`, and starts events again.
         has_delays: `delay` counts from when the condition became true, as in the standard, and a
             condition that is no longer true does not count.
+        is_lazy: Of a group of conditions it looks at none behind a false one, but at delayed ones.
         latches_conditions: Of a group it wants each condition once, not all at one time.
         has_act_stop: It ends acts for good by their stop triggers; one that does not looks at the
             events in them again in each step.
@@ -58,6 +59,7 @@ class ToolProfile:
     deviates: Mapping[str, tuple[str, str]]
     has_edges: bool = True
     has_delays: bool = True
+    is_lazy: bool = False
     latches_conditions: bool = False
     has_act_stop: bool = True
     stop_name: str = ""
@@ -159,6 +161,7 @@ PROFILES: Mapping[XmlProfile, ToolProfile] = {
         carries_acceleration=True,
         counts_along_roads=True,
         guesses_at_forks=True,
+        is_lazy=True,
         needs_lane_range=True,
         moves_maps=(
             "positions are without the offset in the header of the map; esmini adds it to the map"

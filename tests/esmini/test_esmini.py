@@ -129,8 +129,9 @@ def test_case_study(test_data: Path, tmp_path: Path) -> None:
         esmini_laws.BESIDE_IN_A_BEND,
         esmini_laws.AFTER_AN_EVEN_CHANGE,
         esmini_laws.PUT_AT_THE_START,
+        esmini_laws.WAITS_FOR_THE_SAME_INSTANT,
     ],
-    ids=["beside", "after", "put"],
+    ids=["beside", "after", "put", "waits"],
 )
 def test_laws_of_its_own(text: str, tmp_path: Path) -> None:
     path = tmp_path / "it.osc"

@@ -3,10 +3,11 @@
 from tests.xosc.case_texts import point, source
 
 
-def _drive(actor: str, lane: int, place: str) -> str:
+def _drive(actor: str, lane: int, place: str, deep: int = 1) -> str:
+    left = "    " * deep
     return (
-        f"    {actor}.drive(duration: 2s) with:\n        lane({lane}, at: start)\n"
-        f"        position({place}, at: start)\n        speed(10mps)\n"
+        f"{left}{actor}.drive(duration: 2s) with:\n{left}    lane({lane}, at: start)\n"
+        f"{left}    position({place}, at: start)\n{left}    speed(10mps)\n"
     )
 
 
@@ -66,3 +67,18 @@ CHANGE_AT_A_FORK = source(
     "urban_crossing",
 )
 """esmini draws by lot which road of a junction is taken in the middle of a lane change."""
+
+WAITS_FOR_THE_SAME_INSTANT = source(
+    [
+        (
+            "waits",
+            "ego, other: vehicle\nevent happened\ndo parallel:\n    serial:\n"
+            + _drive("ego", 2, "40m", 2)
+            + "        emit happened\n    serial:\n"
+            + _drive("other", 1, "40m", 2)
+            + "        wait @happened\n        other.drive(duration: 2s) with:\n"
+            "            acceleration(2mpss)\n",
+        )
+    ]
+)
+"""esmini looks at no condition behind a false one, and takes no first look for a change."""

@@ -1,11 +1,14 @@
 """Laws of esmini's own: what is written for it and how that is graded; tests/esmini plays it."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from osc2tx.backends.py_trees import emit
 from osc2tx.backends.xosc import XmlScenario
 from osc2tx.compilation.driver import Compilation
+from osc2tx.grading import Source, graded
 from osc2tx.grading.grading import FORK
 from osc2tx.options import CompileOptions, XmlOptions, XmlProfile
 from osc2tx.xosc import elements as xml
@@ -19,6 +22,7 @@ from tests.xosc.esmini_laws import (
     BESIDE_IN_A_BEND,
     CHANGE_AT_A_FORK,
     PUT_AT_THE_START,
+    WAITS_FOR_THE_SAME_INSTANT,
 )
 
 CURVATURE, WIDTH = 1.0 / 120.0, 3.5  # of the road "curve" between s = 150 m and 270 m
@@ -102,3 +106,25 @@ def test_a_change_of_lane_at_a_fork_is_up_to_esmini(tmp_path: Path) -> None:
     (loss,) = found.report.losses
     assert loss.construct == "action change_lane"
     assert loss.reason == FORK
+
+
+def test_an_event_is_looked_at_before_what_it_waits_for(tmp_path: Path) -> None:
+    found = document(tmp_path, WAITS_FOR_THE_SAME_INSTANT, "esmini")
+    groups = [list(group.all(xml.Condition)) for group in found.below(xml.ConditionGroup)]
+    edges = [[each.conditionEdge for each in group] for group in groups]
+    assert ["rising", "none"] in edges and ["none", "rising"] not in edges
+
+
+def test_a_document_that_never_ends_is_no_document(tmp_path: Path) -> None:
+    """In the order of the standard esmini misses the event, and waits forever."""
+    path = tmp_path / "it.osc"
+    path.write_text(WAITS_FOR_THE_SAME_INSTANT, encoding="utf-8")
+    options = CompileOptions(xml=XmlOptions(profile="esmini"))
+    compilation = Compilation(path, path.name, options)
+    (found,) = compilation.xml
+    (by_the_standard,) = Compilation(path, path.name, CompileOptions()).xml
+    assert found.xml is not None and by_the_standard.xml is not None and compilation.ir is not None
+    source = Source(compilation.ir, options, tmp_path, lambda: emit(compilation.ir))
+    (result,) = graded([replace(found, xml=by_the_standard.xml)], source, compilation.sink)
+    assert result.xml is None
+    assert "measured: " in str(result.report.losses[0].bound)

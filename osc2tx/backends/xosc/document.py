@@ -35,7 +35,7 @@ def make_document(ctx: Context) -> xml.OpenSCENARIO:
     flattener = Flattener(ctx)
     end = flattener.run()
     objects = scenario_objects(ctx)  # only now it is known what they have to be able to do
-    writer = StoryboardWriter(ctx.version)
+    writer = StoryboardWriter(ctx.version, is_lazy=ctx.profile.is_lazy)
     end = _end(ctx, end)
     acts, end = adapted(ctx, flattener.acts, end)
     ctx.origins |= {event.name: event.place for act in acts for event in act.all_events()}

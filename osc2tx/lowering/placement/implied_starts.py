@@ -39,7 +39,7 @@ class FirstAction:
 
     @property
     def positions(self) -> list[ir.ModifierCall]:
-        """What it says of its place along the road."""
+        """Its positions along the road."""
         return [each for each in self.node.modifiers if each.name == "position"]
 
     @property

@@ -89,15 +89,21 @@ class Act:
         self.events.setdefault(actor, []).append(event)
 
 
-def _in_order(group: Group) -> Group:
+def _in_order(group: Group, *, is_lazy: bool) -> Group:
     """Put a group in the order in which tools look at it: they stop at the first that is false.
 
     What stays true comes first: it says from when on the others count. Edges come next, so that
-    they are looked at in each step; else they would miss what they wait for. That the run has begun
-    is left out where there is more to say.
+    they are looked at in each step; else they would miss what they wait for. For tools that do not
+    take the first look for a change, events come before all: one may occur when the others begin
+    to count. That the run has begun is left out where there is more to say.
     """
     telling = tuple(test for test in group if test.reached != 0.0) or group[:1]
-    return tuple(sorted(telling, key=lambda test: (not test.latched, test.edge == "none")))
+    return tuple(sorted(telling, key=lambda test: _rank(test, is_lazy=is_lazy)))
+
+
+def _rank(test: Test, *, is_lazy: bool) -> tuple[bool, bool, bool]:
+    is_event = test.edge != "none" and any(test.condition.below(xml.VariableCondition))
+    return not (is_lazy and is_event), not test.latched, test.edge == "none"
 
 
 Trigger = TypeVar("Trigger", xml.StartTrigger, xml.StopTrigger)
@@ -106,9 +112,9 @@ Trigger = TypeVar("Trigger", xml.StartTrigger, xml.StopTrigger)
 class StoryboardWriter:
     """Writes acts as elements."""
 
-    def __init__(self, version: XmlVersion) -> None:
-        """Take the version of the document."""
-        self._version = version
+    def __init__(self, version: XmlVersion, *, is_lazy: bool = False) -> None:
+        """Take the version of the document; whether the tool is lazy, as in `ToolProfile`."""
+        self._version, self._is_lazy = version, is_lazy
 
     def story(self, name: str, acts: Iterable[Act]) -> xml.Story:
         """Return the story of all acts."""
@@ -126,7 +132,7 @@ class StoryboardWriter:
                         delay=test.delay,
                         conditionEdge=test.edge,
                     )
-                    for test in _in_order(group)
+                    for test in _in_order(group, is_lazy=self._is_lazy)
                 )
             )
             for group in flow.groups
