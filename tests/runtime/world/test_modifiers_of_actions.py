@@ -60,7 +60,7 @@ def test_actions_on_the_way_take_a_speed(run: Run, act: Callable[..., Behaviour]
 
 
 def test_a_replayed_path_takes_a_speed_at_once(run: Run) -> None:
-    """It need not be physical (8.8.2.8): the speed is there after the first step."""
+    """It need not be physical (8.8.2.8): the speed is there from the first instant on."""
 
     def body(s: TwoCars) -> Behaviour:
         return s.a.replay_path(speed(14.0), absolute=STRAIGHT)
