@@ -92,7 +92,9 @@ class Ending(Node, Decorator):
         if self.status is not RUNNING:
             self._begin()
         resting = self.context.resting.nodes
-        status = RUNNING if self.decorated in resting else self._pulse_child()
+        is_over = self.context.settled and any(end.status is RUNNING for end in self._ends)
+        # What is settled has its end: durations around it are not judged any more.
+        status = RUNNING if is_over or self.decorated in resting else self._pulse_child()
         if self.decorated in resting:  # and nothing in it ends the scenario
             resting.add(self)
             return RUNNING
