@@ -65,8 +65,10 @@ class TimeEquations:
             if parameter is not None and self._is_apart(parameter, (*others, whole)):
                 self._set(parameter, rest_of(whole, others))
                 return
+        computed = self._computed()
+        sums = tuple(resolved(term, computed) for term in terms)
         for parameter in reversed([*self._parameters(self.declared), *self._parameters()]):
-            value = solved_for(parameter.name, terms, whole)
+            value = solved_for(parameter.name, sums, resolved(whole, computed))
             if value is not None and self._is_apart(parameter, (value,)):
                 self._set(parameter, value)
                 return
@@ -184,6 +186,11 @@ class TimeEquations:
                     found[each.name] = value
         return found
 
+    def _computed(self) -> dict[str, ir.Expression]:
+        """Return the values of own parameters that have one, defaults included."""
+        parameters = (each for each in self.declared if isinstance(each, ir.Parameter))
+        return {each.name: each.value for each in parameters if each.value is not None}
+
     def bounds(self, terms: Terms) -> Times | None:
         """Return the least and the greatest sum (s); None if one of the terms is unknown."""
         values = self._values()
@@ -228,8 +235,9 @@ class TimeEquations:
         declarations[declarations.index(old)] = new
 
     def _is_apart(self, parameter: ir.Parameter, others: Terms) -> bool:
-        """Whether other times can be known without a parameter."""
+        """Whether other times can be known without a parameter, defaults included."""
         values = self._values()
+        values |= self._computed()
         pending, needed = names_in(others), set[str]()
         while pending:
             needed |= pending
