@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 
 from osc2tx import ir
@@ -62,8 +63,13 @@ def lower_unit(unit: sym.UnitSymbol) -> ir.Unit:
 
 
 def number_in(unit: sym.UnitSymbol, si: float) -> int | float:
-    """Return how many of a unit a value in SI is, to ten digits; a whole number as such."""
-    number = float(f"{(si - unit.offset) / unit.factor:.10g}")
+    """Return how many of a unit a value in SI is; a whole number as such.
+
+    Ten digits, where they are the value but for rounding: `x == 80kph` must hold of 80 km/h in m/s.
+    """
+    exact = (si - unit.offset) / unit.factor
+    short = float(f"{exact:.10g}")
+    number = short if math.isclose(short, exact, rel_tol=1e-14) else exact
     return int(number) if number.is_integer() else number
 
 

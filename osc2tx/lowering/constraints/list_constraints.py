@@ -34,6 +34,7 @@ def lower_list(
     """Return a list that has no value as a whole; `None` if no constraint describes it."""
     assert isinstance(field.type, types.ListType)
     said, size = _said(ctx, field, constraints)
+    said = _without_list(field.name, said)
     if size is None:
         size = max(said, default=-1) + 1
     if not 0 < size <= LONGEST:
@@ -68,6 +69,36 @@ def _said(
                 elif _is_size(ctx, subject, field, constraint.place):
                     size = value.value if isinstance(value, ast.IntegerLiteral) else None
     return said, size
+
+
+def _without_list(name: str, said: dict[int, ir.Expression]) -> dict[int, ir.Expression]:
+    """Return the values of elements; one that reads another element gets its value.
+
+    Elements that are drawn have no value to put in, and those that need themselves keep their
+    reference: `in_order_of_use` reports it.
+    """
+
+    def replacement(part: ir.Expression) -> ir.Expression | None:
+        match part:
+            case ir.Index(base=ir.FieldRef(name=read), index=ir.Literal(value=int(index))) if (
+                read == name and index in said and index not in pending
+            ):
+                value = said[index]
+                if isinstance(value, ir.RangeValue | ir.ListValue):
+                    return None
+                pending.append(index)
+                inlined = ir.rewrite(value, replacement)
+                pending.pop()
+                return inlined
+        return None
+
+    pending: list[int] = []
+    found = {}
+    for index, value in said.items():
+        pending.append(index)
+        found[index] = ir.rewrite(value, replacement)
+        pending.pop()
+    return found
 
 
 def _alike(element: types.Type, said: dict[int, ir.Expression]) -> ir.Expression | None:

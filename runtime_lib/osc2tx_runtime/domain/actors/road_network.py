@@ -185,7 +185,7 @@ class RoadNetwork:
 
     def create_route(
         self,
-        routes: Sequence[NetworkPoint | Route | Path],
+        routes: Sequence[NetworkPoint | Route | Path | RoadRoute],
         connect_points_by: ConnectRoutePoints = "waypoint",
         legal_route: bool = True,
     ) -> MadeRoute:
@@ -256,8 +256,8 @@ class RoadNetwork:
 
 
 def _elements(
-    routes: Sequence[NetworkPoint | Route | Path],
-) -> Iterator[NetworkPoint | Route | Path]:
+    routes: Sequence[NetworkPoint | Route | Path | RoadRoute],
+) -> Iterator[NetworkPoint | Route | Path | RoadRoute]:
     """The elements of routes; composed routes are expanded."""
     for each in routes:
         if isinstance(each, MadeRoute):

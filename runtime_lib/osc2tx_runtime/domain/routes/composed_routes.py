@@ -18,7 +18,7 @@ from osc2tx_runtime.domain.map.route_elements import Route
 from osc2tx_runtime.domain.map.segments import MapSegment
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.paths.path_values import NetworkPath, Path
-from osc2tx_runtime.domain.points_and_poses import NetworkPoint, Pose
+from osc2tx_runtime.domain.points_and_poses import NetworkPoint, Pose, RoadRoute
 from osc2tx_runtime.domain.routes.road_paths import way_between
 from osc2tx_runtime.enums import ConnectRoutePoints
 from osc2tx_runtime.opendrive import DRIVING, LanePosition, RoadMap
@@ -42,7 +42,7 @@ class MadeRoute(NetworkPath):
         connect_points_by: Meaning of its points.
     """
 
-    route_elements: Sequence[NetworkPoint | Route | Path] = ()
+    route_elements: Sequence[NetworkPoint | Route | Path | RoadRoute] = ()
     connect_points_by: ConnectRoutePoints = "waypoint"
 
 

@@ -25,6 +25,7 @@ from osc2tx_runtime.domain.points_and_poses import (
     NetworkPoint,
     OdrPoint,
     Pose,
+    RoadRoute,
     RoutePoint,
     XyzPoint,
 )
@@ -72,7 +73,9 @@ def _is_driven(road_map: RoadMap, element: Element) -> bool:
             return isinstance(element, LanePosition)
 
 
-def _elements(road_map: RoadMap, element: NetworkPoint | Route | Path) -> Iterator[Element]:
+def _elements(
+    road_map: RoadMap, element: NetworkPoint | Route | Path | RoadRoute
+) -> Iterator[Element]:
     """The parts of an element of a route; elements in junctions fill gaps anyway."""
     if isinstance(element, Path):
         yield path_in_world(road_map, element)
@@ -80,9 +83,21 @@ def _elements(road_map: RoadMap, element: NetworkPoint | Route | Path) -> Iterat
         found = element.found
         parts = found.parts if found.kind == "compound_route" else (found,)
         yield from (part for part in parts if road_map.roads[part.road].junction is None)
+    elif isinstance(element, RoadRoute):
+        yield _whole(road_map, element)
     else:
         (place,) = _places(road_map, [element])
         yield place
+
+
+def _whole(road_map: RoadMap, route: RoadRoute) -> MapSegment:
+    """The whole road that is the axis of a point, or its lane over the whole road."""
+    if route.lane_id is None:
+        return MapSegment("road", route.road_id)
+    for lane in graph_of(road_map).compound_lanes:
+        if (lane.road, lane.lane) == (route.road_id, route.lane_id):
+            return lane
+    raise PathError(f"road {route.road_id} has no lane {route.lane_id}")
 
 
 def trajectory_in_world(road_map: RoadMap, trajectory: Trajectory) -> Trajectory:
