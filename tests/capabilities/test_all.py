@@ -128,7 +128,7 @@ AWAY = 0.2  # m
 LED = {
     "C12_follow_trajectory": 0.1,
     "C17_careful_crossing": 0.4,
-    "C19_speed_modifier": 0.12,
+    "C19_speed_modifier": 0.02,
     "C23_physical_movement": 0.06,
     "C25_relative_modifiers": 0.12,
 }

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from osc2tx.backends.py_trees.emitter import GeneratedModule, emit
-from osc2tx_runtime import Scenario
+from osc2tx_runtime import RunSettings, Scenario
 from tests.end_to_end.harness import Trace, asam, run
 
 Load = Callable[[GeneratedModule], type[Scenario]]
@@ -141,6 +141,13 @@ def test_a_speed_and_a_headway_at_the_end(play: Callable[[str], Trace]) -> None:
     assert trace.status == "success"
     assert state(trace, 5.0)["v"] == pytest.approx(24.0)
     assert state(trace, 5.0)["s"] == pytest.approx(300.0 - 3.0 * 24.0, abs=1e-3)
+
+
+def test_a_place_of_the_settings_counts(load: Load, tmp_path: Path) -> None:
+    body = f"{AT_ONCE}            position(30m, ahead_of: ego, at: end)\n"
+    scenario = load(emit(asam(HEAD + body, tmp_path)))
+    trace = run(scenario, RunSettings(spawn={"npc": ("1", -3, 240.0)}))
+    assert state(trace, 0.0)["s"] == 240.0
 
 
 def test_what_is_stated_counts(play: Callable[[str], Trace]) -> None:

@@ -156,7 +156,7 @@ DOCUMENTS = {
     "xml_start_speed_of_a_later_actor": None,
     "xml_walker_walks_on": None,
     "xml_relative_lane_after_a_junction": None,
-    "xml_follows_a_speed_too_fast": "takes up a speed relative to one that changes at one rate",
+    "xml_follows_a_speed_too_fast": None,
     "xml_offset_against_s": None,
     "xml_on_then_wait_for_the_same": None,
     "xml_position_at_the_end": None,

@@ -86,11 +86,13 @@ def starts_of(ctx: Context) -> list[Start]:
     """Return the start of each actor; what is wrong with one is in the report."""
     check_declared(ctx)
     found: dict[str, Start] = {}
+    given = dict(map(read_spawn, ctx.options.spawns))
     for scope in ctx.scope.all():
         for placement in scope.scenario.placements:
-            if placement.is_implied and (placement.is_later or not scope.is_first):
-                continue  # it acts already, or enters
             member = scope.cast.get(placement.actor)
+            acts = placement.is_later or not scope.is_first  # it acts already, or enters
+            if placement.is_implied and (acts or (member is not None and member.name in given)):
+                continue
             if is_map(ctx, placement.actor):
                 check_map(ctx, placement)
                 continue
@@ -111,7 +113,6 @@ def starts_of(ctx: Context) -> list[Start]:
         or Start(member, ctx.scope, None, {}, tuple(tows.get(member.name, "").split()))
         for member in ctx.entities
     ]
-    given = dict(map(read_spawn, ctx.options.spawns))
     ctx.present |= {*found, *given}
     return [replace(start, is_given=start.id in given) for start in starts]
 

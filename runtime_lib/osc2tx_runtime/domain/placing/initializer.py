@@ -130,6 +130,8 @@ class ScenarioInitializer(StartRoom[ActorStart]):
     def _starts(self, placements: Sequence[Placement]) -> list[ActorStart]:
         """One start per physical actor, in the order of the cast."""
         written: dict[str, Placement] = {}
+        spawned = self._context.settings.spawn
+        placements = [p for p in placements if not (p.implied and p.actor.id in spawned)]
         for placement in sorted(placements, key=lambda each: each.implied):
             known = written.get(placement.actor.id)
             written[placement.actor.id] = placement if known is None else joined(known, placement)

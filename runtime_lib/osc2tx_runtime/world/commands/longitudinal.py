@@ -111,6 +111,7 @@ class FollowSpeed(Command):
         difference: Least difference (m/s).
         spread: Allowed surplus (m/s) of the difference.
         course: Instead of a difference: its course over time since the start.
+        keeps_up: Comfort is for the way to that speed; what the other actor does comes on top.
     """
 
     reference: str
@@ -118,6 +119,7 @@ class FollowSpeed(Command):
     difference: float = 0.0
     spread: float = 0.0
     course: Profile | None = None
+    keeps_up: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -131,9 +131,8 @@ class _Following:
             return speed
         least = other.v * command.factor + command.difference
         wanted = min(max(me.v, least), least + command.spread)
-        # Comfort is about the approach: a reference that changes its speed is followed at any rate.
-        moved = me.v + other.a * command.factor * inputs.dt
-        speed = towards(moved, wanted, self._limits, COMFORT, inputs.dt)
+        gained = other.a * command.factor * inputs.dt if command.keeps_up else 0.0
+        speed = towards(me.v + gained, wanted, self._limits, COMFORT, inputs.dt)
         speed = towards(me.v, speed, self._limits, 1.0, inputs.dt)
         self._done = abs(speed - wanted) < _SPEED_TOLERANCE
         return speed

@@ -170,13 +170,11 @@ def _rate_towards(
 ) -> float:
     """Return the rate (m/s^2) of the way to a speed relative to another one.
 
-    The world approaches such a speed at comfortable rates, and follows what the other actor does on
-    top of that; the XML has one rate for both. That is exact where one of them is to be done at a
-    time: a speed that is there already follows within the limits, the way to another one is over
-    before the other actor changes its own. Whether it is, the played document shows.
+    The world speeds up and brakes at different rates, the XML has one. That is exact where it is
+    the one of the world whenever the other actor is faster than that.
     """
     limits, mine = leaf.limits, leaf.state.known_speed
-    faster, slower = limits.acceleration, limits.deceleration
+    faster, slower = COMFORT * limits.acceleration, COMFORT * limits.deceleration
     theirs = speed_then(leaf, reference)
     if mine is None or theirs is None:
         bound = "until the speed is reached; the speed itself is exact"
@@ -189,22 +187,19 @@ def _rate_towards(
         )
         if not demand.jumps:
             leaf.ctx.demand(leaf.member.name, Demand(share * demand.speed + abs(more)))
-        if abs(missing) <= SAME and rises <= faster and falls <= slower:
-            return max(faster, slower)
-        up, down = COMFORT * faster, COMFORT * slower
-        for rate in (max(up, down), up, down) if abs(missing) > SAME else ():
-            is_up = rate == up or (missing < 0.0 and rises <= min(rate, up))
-            is_down = rate == down or (missing > 0.0 and falls <= min(rate, down))
+        for rate in (max(faster, slower), faster, slower):
+            is_up = rate == faster or (missing <= SAME and rises <= min(rate, faster))
+            is_down = rate == slower or (missing >= -SAME and falls <= min(rate, slower))
             if is_up and is_down:
                 return rate
         bound = f"until the speed is reached, from which {abs(missing):.2g} m/s are missing"
     call.approximate(
-        f"{leaf.member.name} takes up a speed relative to one that changes at one rate in the XML,"
-        " and in the world at that of the other one as well",
+        f"how fast {leaf.member.name} takes up a speed relative to one that changes is one rate in"
+        " the XML, and another one for braking in the world",
         bound,
         Remedy(instead="`speed` with the speed itself is exact", asks=("SpeedActionDynamics",)),
     )
-    return COMFORT * min(faster, slower)
+    return min(faster, slower)
 
 
 @modifier("change_speed")
