@@ -26,7 +26,6 @@ DIFFERENT = {  # by names of scenarios
     "braking_distances": PROFILE,
     "road_conditions": PROFILE,
     "point_distance": PROFILE,
-    "speed_modifier": "how fast a relative speed is reached is up to the world",
     "relative_path": PATH,
     "road_path": PATH,
     "relative_trajectory": PATH,
