@@ -131,9 +131,12 @@ class _Following:
             return speed
         least = other.v * command.factor + command.difference
         wanted = min(max(me.v, least), least + command.spread)
-        gained = other.a * command.factor * inputs.dt if command.keeps_up else 0.0
-        speed = towards(me.v + gained, wanted, self._limits, COMFORT, inputs.dt)
-        speed = towards(me.v, speed, self._limits, 1.0, inputs.dt)
+        if command.keeps_up:
+            gained = me.v + other.a * command.factor * inputs.dt
+            nearer = towards(gained, wanted, self._limits, COMFORT, inputs.dt)
+            speed = towards(me.v, nearer, self._limits, 1.0, inputs.dt)
+        else:
+            speed = towards(me.v, wanted, self._limits, COMFORT, inputs.dt)
         self._done = abs(speed - wanted) < _SPEED_TOLERANCE
         return speed
 

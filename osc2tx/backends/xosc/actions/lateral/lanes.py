@@ -108,8 +108,10 @@ def lane_change(
     count = 1 if own_lanes is None else own_lanes
     to_lane = math.copysign(_distance(leaf, here, target, count), count)
     way = abs(to_lane + offset - offset_of(state))
-    pace = leaf.within_limit(pace, course_of_shift(way, pace, leaf.limits).duration)
     course = course_of_shift(way, pace, leaf.limits)
+    limited = leaf.within_limit(pace, course.duration)
+    if limited is not pace:
+        pace, course = limited, course_of_shift(way, limited, leaf.limits)
     if not jumps:
         note_drift(leaf, way, pace, course)
         note_slow(leaf, way, course)

@@ -81,8 +81,9 @@ def change_speed(leaf: Leaf, target: float, pace: Pace) -> Change:
             own = course_of_speed(start, target, pace._replace(duration=None), leaf.limits)
             refuse_contradiction(leaf, pace.peak, own.duration, pace.duration)
         course = course_of_speed(start, target, pace, leaf.limits)
-        pace = leaf.within_limit(pace, course.duration)
-        course = course_of_speed(start, target, pace, leaf.limits)
+        limited = leaf.within_limit(pace, course.duration)
+        if limited is not pace:
+            pace, course = limited, course_of_speed(start, target, limited, leaf.limits)
         leaf.course = course
         action = _from_known(leaf, course, target, pace)
         return Change(LONGITUDINAL, (action,), course.duration, during, after)
