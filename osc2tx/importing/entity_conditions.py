@@ -121,7 +121,7 @@ class EntityConditions:
         mode = _mode(node, default=False)
         rule = node.said("rule")
         if kind not in ("longitudinal", "lateral"):
-            measure = f"{a}.object_distance(reference: {b}, direction: euclidean{mode})"
+            measure = f"{a}.object_distance({b}, euclidean{mode})"
             return f"{measure} {COMPARISONS[rule]} {value}"
         method = "object_distance" if system == "entity" else "road_distance"
         if system in ("lane", "trajectory"):
@@ -130,7 +130,7 @@ class EntityConditions:
         sign = self._side(said, b_said, kind)
         if kind == "longitudinal" and sign is not None and sign < 0:
             from_, to = b, a  # the one behind asks, so the distance is positive
-        measure = f"{from_}.{method}(reference: {to}, direction: {kind}{mode})"
+        measure = f"{from_}.{method}({to}, {kind}{mode})"
         compared = f"{measure} {COMPARISONS[rule]} {value}"
         if rule.startswith("less"):
             if kind == "longitudinal" and sign is not None:
@@ -174,10 +174,10 @@ class EntityConditions:
             behind, ahead = (a, b) if sign > 0 else (b, a)
             method = "object_distance" if system == "entity" else "road_distance"
             mode = _mode(node, default=False)
-            way = f"{behind}.{method}(reference: {ahead}, direction: longitudinal{mode})"
+            way = f"{behind}.{method}({ahead}, longitudinal{mode})"
             return f"{way} {COMPARISONS[rule]} {time} * ({behind}.speed - {ahead}.speed)"
         node.approximate("the time to collision counts from the velocities of both boxes")
-        return self._compared(node, f"{a}.time_to_collision(reference: {b})", TIME)
+        return self._compared(node, f"{a}.time_to_collision({b})", TIME)
 
     def _look_alike(self, said: str, other: str) -> bool:
         """Whether two actors look in the same direction at the start."""
@@ -221,21 +221,17 @@ class EntityConditions:
         ):
             node.approximate("the place keeps that of its nominal values")
         x, y = (literal(round(value, 6), LENGTH) for value in found)
-        point = f"point: road.create_xyz_point(x: {x}, y: {y}, z: 0m)"
+        point = f"road.create_xyz_point({x}, {y}, 0m)"
         if node.tag == "ReachPositionCondition":
             within = self._values.quantity(node, "tolerance", LENGTH)
-            return (
-                f"{a}.distance_to_xyz_point({point}, direction: euclidean) <= {within.within(SUM)}"
-            )
+            return f"{a}.distance_to_xyz_point({point}, euclidean) <= {within.within(SUM)}"
         kind = node.text("relativeDistanceType")
         if kind in ("longitudinal", "lateral"):
             node.approximate("the distance to a place is the straight one")
         for name in ("coordinateSystem", "alongRoute", "routingAlgorithm"):
             node.text(name)
         mode = _mode(node, default=False)
-        return self._compared(
-            node, f"{a}.distance_to_xyz_point({point}, direction: euclidean{mode})", LENGTH
-        )
+        return self._compared(node, f"{a}.distance_to_xyz_point({point}, euclidean{mode})", LENGTH)
 
     def _collision(self, node: Node, a: str) -> str | None:
         by = node.inner
@@ -247,13 +243,10 @@ class EntityConditions:
             node.approximate("collisions with any actor of a kind are those with any other actor")
         else:
             others = [self._actor(by)]
-        touching = [
-            f"{a}.object_distance(reference: {b}, direction: euclidean, mode: bounding_boxes) <= 0m"
-            for b in others
-        ]
+        touching = [f"{a}.object_distance({b}, euclidean, bounding_boxes) <= 0m" for b in others]
         return touching[0] if len(touching) == 1 else " or ".join(f"({each})" for each in touching)
 
 
 def _mode(node: Node, *, default: bool) -> str:
     text = (node.text("freespace") or str(default)).lower()
-    return ", mode: bounding_boxes" if text in ("true", "1") else ""
+    return ", bounding_boxes" if text in ("true", "1") else ""

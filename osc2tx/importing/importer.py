@@ -231,7 +231,8 @@ class _Import:
 
     def _find_used(self, program: Program, places: Places, structure: Structure) -> None:
         """Note which parameters the scenario reads, itself or in what gives others."""
-        words = set(re.findall(r"\w+", "\n".join((program.text, *structure.lines, *places.lines))))
+        written = (program.text, *structure.lines, *places.points.lines)
+        words = set(re.findall(r"\w+", "\n".join(written)))
         for parameter in reversed(self._values.parameters.values()):
             parameter.is_used = parameter.name in words
             if parameter.is_used and parameter.expression is not None:
@@ -253,8 +254,8 @@ class _Import:
                     lines += comment_lines(self._comments_of(node))
         lines += self._cast.lines
         lines += declared.parameters()
-        if places.lines:
-            lines += ["", *places.lines]
+        if places.points.lines:
+            lines += ["", *places.points.lines]
         events = [f"event {name}" for name in self._marks.values()]
         if events or structure.lines:
             lines += ["", *events, *structure.lines]

@@ -8,7 +8,7 @@ from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import LENGTH, TIME, literal
 from osc2tx.importing.effects import BOTH, LATERAL, Effect, Reader
-from osc2tx.importing.places import Spot
+from osc2tx.importing.points import Spot
 from osc2tx.importing.program import Statement
 from osc2tx.xosc.player.shapes import CHORD
 
@@ -35,18 +35,18 @@ class Routes(Reader):
 
     def assigned(self, node: Node, said: str, actor: Actor) -> Statement | None:
         """Return what takes an actor along a route."""
-        stops = self._places.stops_of(node)
+        stops = self._places.courses.stops_of(node)
         body = self._places.bodies.get(said)
         if body is not None and body.place is not None:
             stops = [body.place, *stops]
         stops = [*stops[:1], *stops[-1:]]  # it takes the shortest way to the last one
-        if len(stops) != 2 or not self._places.is_way(stops):
+        if len(stops) != 2 or not self._places.courses.is_way(stops):
             node.leave_out("no way along lanes leads to the end of the route")
             return None
         node.use_all()
-        if self._places.leads_on(*stops):
+        if self._places.courses.leads_on(*stops):
             return None  # it goes there by itself
-        way = self._places.way(stops, actor.name)
+        way = self._places.points.route(stops, actor.name)
         return Statement(f"{actor.verb}()", modifiers=[f"along({way})"])
 
     def effects(self, node: Node, said: str, actor: Actor) -> Iterator[Effect]:
@@ -58,10 +58,10 @@ class Routes(Reader):
             return
         if node.tag == "AcquirePositionAction":
             spot = self._places.spot(node.one("Position"), actor.name, at_start=False)
-            if spot is None or not spot.argument.startswith("odr_point"):
+            if spot is None or not spot.odr_point:
                 return
             node.approximate("the way to the place is that of the world")
-            target = spot.argument.replace("odr_point:", "target_odr:", 1)
+            target = f"target_odr: {spot.odr_point}"
             yield Effect(
                 Statement(f"{actor.name}.change_position({target}, on_road_network: true)"),
                 actor.name,
@@ -83,11 +83,11 @@ class Routes(Reader):
         if not any(each.tag == "Polyline" for each in self._places.resolved(node).walk()):
             node.approximate(f"the curve is a polyline with chords {CHORD:g} m from it at most")
         times = [time for time, _ in way]
-        kind, points, on_road = "", self._places.corners(node), ", on_road_network: false"
+        kind, points, on_road = "", self._places.courses.corners(node), ", on_road_network: false"
         if len(points) == len(way):
             kind = "_odr_points"
         else:
-            points = [self._places.pose(pose.x, pose.y, actor.name) for _, pose in way]
+            points = [self._places.points.pose(pose.x, pose.y, actor.name) for _, pose in way]
             on_road = ""
         timed = any(each.tag == "Timing" for each in node.element.walk())
         offset = self._values.quantity(node, "initialDistanceOffset", LENGTH)

@@ -261,7 +261,9 @@ class Speeds(Reader):
         ]
         if abs(own.place.offset) > 1e-9:
             way = where if ahead else f"(-1) * ({where})"
-            spot = self._places.at_gap(node, own_said, said, f"({way})") if at_start else None
+            spot = (
+                self._places.beside.at_gap(node, own_said, said, f"({way})") if at_start else None
+            )
             if spot is not None:
                 call = f"{actor.name}.assign_position({spot.argument})"
                 return Statement(call, length=0.0)

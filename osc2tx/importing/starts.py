@@ -9,7 +9,8 @@ from osc2tx.importing.actions import Actions
 from osc2tx.importing.cast import Cast
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.effects import LATERAL
-from osc2tx.importing.places import Places, Spot
+from osc2tx.importing.places import Places
+from osc2tx.importing.points import Spot
 from osc2tx.importing.program import Statement, composed
 from osc2tx.importing.routes import Routes
 from osc2tx.importing.values import Values
@@ -103,8 +104,7 @@ class Starts:
     def _on_foot(self, said: str) -> list[str]:
         """Return the modifiers of an actor that begins at a point, with a heading of its own."""
         spot, _ = self._spots[said]
-        point = spot.argument.removeprefix("position: ")
-        modifiers = [f"position(at_point: {point}, project_on_route: false, at: start)"]
+        modifiers = [f"position(at_point: {spot.position}, project_on_route: false, at: start)"]
         if spot.yaw:
             modifiers.append(_at_start(spot.yaw))
         speed = self._speeds.get(said)
@@ -130,7 +130,7 @@ class Starts:
         found = {
             said: places.bodies[said].place
             for said, (spot, _) in self._spots.items()
-            if said in places.bodies and spot.argument.startswith("odr_point")
+            if said in places.bodies and spot.odr_point
         }
         taken: dict[str, tuple[str, int, float]] = {}
         for said, place in found.items():
@@ -149,7 +149,7 @@ class Starts:
 
     def _is_at_point(self, said: str) -> bool:
         found = self._spots.get(said)
-        return found is not None and found[0].argument.startswith("position: ")
+        return found is not None and bool(found[0].position)
 
     def going_on(self, said: str) -> list[Statement]:
         """Return how an actor begins and goes on."""

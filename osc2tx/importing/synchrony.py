@@ -124,5 +124,5 @@ class Synchrony(Reader):
         there = self._places.pose_of(place)
         near = literal(round(math.dist(here[:2], there[:2]), 3), LENGTH)
         x, y = (literal(round(value, 6), LENGTH) for value in there[:2])
-        point = f"point: road.create_xyz_point(x: {x}, y: {y}, z: 0m)"
-        return f"{master}.distance_to_xyz_point({point}, direction: euclidean) <= {near}"
+        point = f"road.create_xyz_point({x}, {y}, 0m)"
+        return f"{master}.distance_to_xyz_point({point}, euclidean) <= {near}"

@@ -51,7 +51,7 @@ def test_an_open_place_beside_another_actor_stays_open() -> None:
         'ds="30" offset="0"', 'ds="$Ahead" offset="$Aside"'
     )
     found = imported(text)
-    assert "s: 100m + ahead, t: aside" in found.text
+    assert '"-2", 100m + ahead, aside)' in found.text
     assert faults(found) == []
 
 
@@ -149,7 +149,7 @@ def test_a_gap_at_the_start_keeps_the_offset_of_the_place_before() -> None:
     gap = GAP.format('distance="20"')
     gap = f"<PrivateAction>{gap}</PrivateAction></Private></Actions>"
     found = imported(re.sub(r"</Private>\s*</Actions>", gap, text))
-    assert "s: 100m + (20m + 5m), t: aside" in found.text
+    assert "100m + (20m + 5m), aside)" in found.text
     assert faults(found) == []
     assert apart(found) < 0.1
 

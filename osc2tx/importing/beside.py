@@ -1,0 +1,150 @@
+"""Places that are told by another actor: in its lane or beside it, so far ahead or behind."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from osc2tx.importing.cursor import Node
+from osc2tx.importing.dimensions import LENGTH, PRODUCT, SUM, Quantity, literal
+from osc2tx.importing.document import Document
+from osc2tx.importing.ground import Ground
+from osc2tx.importing.points import Spot, heading_of, odr_point
+from osc2tx.importing.starting import privates, teleports
+from osc2tx.importing.values import Values
+from osc2tx.xosc.element import Element
+from osc2tx_runtime.opendrive import LanePosition
+
+
+class Beside:
+    """Reads places beside other actors."""
+
+    def __init__(
+        self, ground: Ground, document: Document, values: Values, actors: Mapping[str, str]
+    ) -> None:
+        self._ground, self._document = ground, document
+        self._values, self._actors = values, actors
+
+    def in_lanes(self, node: Node, *, at_start: bool) -> Spot | None:
+        """Return a place in lanes and metres beside another actor."""
+        said = node.said("entityRef")
+        reference = self._actors.get(said)
+        if reference is None or node.find("Orientation") is not None:
+            return None
+        lanes = int(self._values.nominal(node, "dLane"))
+        if abs(self._values.nominal(node, "offset")) > 1e-9:
+            return None
+        body, found = self._ground.bodies.get(said), self._ground.static_of(node)
+        direction = 1
+        if self._ground.map is not None and at_start:
+            if (
+                body is None
+                or body.pose is None
+                or found is None
+                or not isinstance(found[0], LanePosition)
+            ):
+                return None
+            theirs, ours = body.in_lane(self._ground.map), found[0]
+            directions = [
+                self._ground.map.travel_direction(each.road, each.lane) for each in (theirs, ours)
+            ]
+            if theirs.road != ours.road or len(set(directions)) > 1 or body.along < 0:
+                return None
+            direction = directions[0]
+        along = "dsLane" if node.has("dsLane") else "ds"
+        ahead = self._values.quantity(node, along, LENGTH)
+        side = "ahead_of" if direction > 0 or along == "dsLane" else "behind"
+        if not ahead.is_open and ahead.value < 0.0:
+            ahead = Quantity(literal(-ahead.value, LENGTH), -ahead.value)
+            side = {"ahead_of": "behind", "behind": "ahead_of"}[side]
+        modifiers = [
+            self._beside_lane(node, reference, lanes),
+            f"position({ahead.text}, {side}: {reference})",
+        ]
+        return Spot(modifiers=modifiers)
+
+    def in_road(self, node: Node) -> Spot | None:
+        """Return a place on the road of another actor, whose own place says where that is."""
+        said = node.said("entityRef")
+        body, found = self._ground.bodies.get(said), self._ground.static_of(node)
+        start = self._start_of(said)
+        if body is None or body.place is None or found is None or start is None:
+            return None
+        place, own = found[0], body.place
+        if not isinstance(place, LanePosition) or start.tag != "LanePosition":
+            return None
+        assert self._ground.map is not None
+        s = self._values.quantity(node.other(start), "s", LENGTH)
+        along = "dsLane" if node.has("dsLane") else "ds"
+        ahead = self._values.quantity(node, along, LENGTH)
+        direction = self._ground.map.travel_direction(own.road, own.lane) * body.along
+        sign = 1 if along == "ds" else direction
+        if place.road != own.road or abs(s.value + sign * ahead.value - place.s) > 1e-6:
+            return None
+        if (node.text("dLane") or "0").startswith("$"):
+            node.approximate(f"dLane keeps the nominal value of `{node.text('dLane')}`")
+        offset = self._values.quantity(node, "offset", LENGTH)
+        t = offset.text if direction > 0 else f"-{offset.within(PRODUCT)}"
+        way = f"{s.within(SUM)} {'+' if sign > 0 else '-'} {ahead.within(PRODUCT)}"
+        if not (s.is_open or ahead.is_open):
+            way = literal(place.s, LENGTH)
+        heading = found[1]
+        return Spot(
+            odr_point(place.road, str(place.lane), way, t),
+            yaw="" if heading is None else heading_of(heading),
+        )
+
+    def at_gap(self, node: Node, said: str, reference: str, way: str) -> Spot | None:
+        """Return the place along the road of another entity, as far aside as it was put before.
+
+        Args:
+            node: The action that says the gap.
+            said: The entity.
+            reference: The other one, in the same lane.
+            way: How far the entity is ahead, along the road.
+        """
+        body, start, own = (
+            self._ground.bodies[said],
+            self._start_of(reference),
+            self._start_of(said),
+        )
+        if body.place is None or start is None or own is None or start.tag != "LanePosition":
+            return None
+        assert self._ground.map is not None
+        s = self._values.quantity(node.other(start), "s", LENGTH)
+        offset = self._values.quantity(node.other(own), "offset", LENGTH)
+        direction = self._ground.map.travel_direction(body.place.road, body.place.lane) * body.along
+        is_left = own.tag == "LanePosition" or direction > 0
+        t = offset.text if is_left else f"-{offset.within(PRODUCT)}"
+        way = f"{s.within(SUM)} {'+' if direction > 0 else '-'} {way}"
+        return Spot(odr_point(body.place.road, str(body.place.lane), way, t))
+
+    def _start_of(self, said: str) -> Element | None:
+        """Return the element of the place at which an entity is put at the start."""
+        return next(
+            (
+                position.inner
+                for private in privates(self._document.root)
+                if private.get("entityRef") == said
+                for position in teleports(private)
+            ),
+            None,
+        )
+
+    def _beside_lane(self, node: Node, reference: str, lanes: int) -> str:
+        text = node.text("dLane") or "0"
+        parameter = self._values.parameters.get(text[1:]) if text.startswith("$") else None
+        if (
+            parameter is not None
+            and lanes != 0
+            and parameter.kind != "double"
+            and parameter.expression is not None
+        ):
+            parameter.is_used = True
+            p = parameter.name
+            return f"lane({p} > 0 ? {p} : -{p}, side_of: {reference}, side: {p} > 0 ? left : right)"
+        if text.startswith("$"):
+            node.approximate(f"dLane keeps the nominal value of `{text}`")
+        if lanes == 0:
+            return f"lane(same_as: {reference})"
+        count = "" if abs(lanes) == 1 else f"{abs(lanes)}, "
+        return f"lane({count}side_of: {reference}, side: {'left' if lanes > 0 else 'right'})"

@@ -1,0 +1,56 @@
+"""Routes and trajectories on the map."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+from osc2tx.importing.cursor import Node
+from osc2tx.importing.dimensions import LENGTH, literal
+from osc2tx.importing.ground import UNKNOWN, Ground
+from osc2tx.importing.points import odr_point
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.player.places import waypoints
+from osc2tx_runtime.opendrive import LanePosition
+
+
+class Courses:
+    """Finds out where routes and trajectories lead."""
+
+    def __init__(self, ground: Ground) -> None:
+        self._ground = ground
+
+    def corners(self, trajectory: Node) -> list[str]:
+        """Return the points of the map that a trajectory leads along; none if others are in it."""
+        found = []
+        for vertex in self._ground.resolved(trajectory).below(xml.Vertex):
+            place = self._ground.known(vertex.one(xml.Position))
+            if not isinstance(place, LanePosition) or self._ground.map is None:
+                return []
+            t = place.offset * self._ground.map.travel_direction(place.road, place.lane)
+            at = literal(round(place.s, 6), LENGTH), literal(round(t, 6), LENGTH)
+            found.append(odr_point(place.road, str(place.lane), *at))
+        return found
+
+    def stops_of(self, route: Node) -> list[LanePosition]:
+        """Return the waypoints of a route in lanes; none if they are not known."""
+        try:
+            assert self._ground.map is not None
+            return waypoints(self._ground.resolved(route), self._ground.bodies, self._ground.map)
+        except UNKNOWN:
+            return []
+
+    def is_way(self, stops: Sequence[LanePosition]) -> bool:
+        """Whether a lane leads from each place to the next one."""
+        road_map = self._ground.map
+        if road_map is None:
+            return False
+        ways = (road_map.route_distance(a, b) for a, b in pairwise(stops))
+        return all(way is not None and way > 0.0 for way in ways)
+
+    def leads_on(self, start: LanePosition, goal: LanePosition) -> bool:
+        """Whether a lane leads to a place without a choice of branches."""
+        assert self._ground.map is not None
+        length = self._ground.map.route_distance(start, goal)
+        there = self._ground.map.advance(start, length or 0.0).position
+        return there[:2] == goal[:2] and abs(there.s - goal.s) < 1.0

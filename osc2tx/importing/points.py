@@ -1,0 +1,92 @@
+"""Points, poses and routes as texts of the language, and their declarations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import field
+
+from osc2tx.importing.dimensions import ANGLE, LENGTH, literal
+from osc2tx.importing.names import Names
+from osc2tx.importing.program import declaration
+from osc2tx.importing.starting import wrapped
+from osc2tx_runtime.opendrive import LanePosition
+from osc2tx_shared.classes import dataclass
+
+
+@dataclass
+class Spot:
+    """A place in the language.
+
+    Attributes:
+        odr_point: A point of the map; `""`: it is none.
+        position: The name of a point in the world; `""`: it is none.
+        modifiers: Modifiers that say it, without their `at`.
+        yaw: A modifier for the heading, where it is not that of the lane.
+    """
+
+    odr_point: str = ""
+    position: str = ""
+    modifiers: list[str] = field(default_factory=list)
+    yaw: str = ""
+
+    @property
+    def argument(self) -> str:
+        """The argument of `assign_position`; `""`: only modifiers say the place."""
+        if self.odr_point:
+            return f"odr_point: {self.odr_point}"
+        return f"position: {self.position}" if self.position else ""
+
+
+def odr_point(road: str, lane: str, s: str, t: str) -> str:
+    """Return a point of the map, in a lane or, without one, at a distance from the road."""
+    return f'road.create_odr_point("{road}", "{lane}", {s}, {t})'
+
+
+def heading_of(h: float) -> str:
+    """Return the modifier for a heading (rad) in the world."""
+    return f"orientation(yaw: {literal(round(wrapped(h), 9), ANGLE)}, measure_by: absolute)"
+
+
+class Points:
+    """Points of the world, poses and routes, which are declared.
+
+    Attributes:
+        lines: Their declarations.
+    """
+
+    def __init__(self, names: Names) -> None:
+        self._names = names
+        self.lines: list[str] = []
+        self._declared: dict[tuple[float, float], str] = {}
+
+    def point(self, x: float, y: float, name: str) -> str:
+        """Return the name of a point in the world."""
+        key = (round(x, 6), round(y, 6))
+        if key not in self._declared:
+            made = self._names.new("", kind="point", base=f"{name}_point")
+            told = [
+                f"it.{axis} == {literal(v, LENGTH)}"
+                for axis, v in zip("xyz", (*key, 0.0), strict=True)
+            ]
+            self.lines += declaration(made, "position_3d", [" and ".join(told)])
+            self._declared[key] = made
+        return self._declared[key]
+
+    def pose(self, x: float, y: float, name: str) -> str:
+        """Return the name of a pose in the world, of a corner of a path."""
+        made = self._names.new("", kind="point", base=f"{name}_pose")
+        told = [
+            f"it.position.{axis} == {literal(round(v, 6), LENGTH)}"
+            for axis, v in zip("xyz", (x, y, 0.0), strict=True)
+        ]
+        self.lines += declaration(made, "pose_3d", [" and ".join(told)])
+        return made
+
+    def route(self, stops: Sequence[LanePosition], name: str) -> str:
+        """Return the name of a route for an actor."""
+        made = self._names.new("", kind="route", base=f"{name}_way")
+        points = ", ".join(
+            odr_point(each.road, str(each.lane), literal(each.s, LENGTH), "0m") for each in stops
+        )
+        self.lines.append(f"{made}: route = road.create_route([{points}])")
+        return made
