@@ -335,8 +335,9 @@ def _sum_up(results: Sequence[Result], form: str) -> None:
         for fault in each.faults:
             complain(f"{name}: {fault}")
         if report.under_test:
-            driven = ", ".join(report.under_test)
-            say(f"{name}: under test: {driven} (`osc2tx run --ego` drives it)")
+            driven, one = ", ".join(report.under_test), report.under_test[0]
+            hint = f"`osc2tx run --expect --ego {one}=MODULE:CLASS` drives it"
+            say(f"{name}: under test: {driven} ({hint})")
     _sum_up_runs([each.imported.report for each in results])
     parts = ", ".join(f"{count} {grade}" for grade, count in sorted(grades.items()))
     say(f"{count_of(len(results), 'scenario')} imported" + (f": {parts}" if parts else ""))

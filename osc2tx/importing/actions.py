@@ -85,9 +85,20 @@ class Actions:
             case "RoutingAction":
                 yield from self._routes.effects(node.inner, said, actor)
             case "ControllerAction" | "ActivateControllerAction":
-                actor.is_under_test = True
+                actor.is_under_test = actor.is_under_test or _gives_control(node)
                 node.use_all()
             case "SynchronizeAction":
                 yield from self._synchrony.effects(node, said, actor)
             case _:
                 node.leave_out("the language has no such action")
+
+
+def _gives_control(node: Node) -> bool:
+    """Whether a controller drives the actor from then on: not one that is only switched off."""
+    parts = list(node.element.walk())
+    switches = [each for each in parts if each.tag == "ActivateControllerAction"]
+    on = [
+        each.get(name) for each in switches for name in ("longitudinal", "lateral", "controllerRef")
+    ]
+    assigned = any(each.tag == "AssignControllerAction" for each in parts)
+    return assigned or any(said not in (None, "false", "0") for said in on)

@@ -9,10 +9,17 @@ from osc2tx_runtime.errors import CapabilityError
 from osc2tx_runtime.language.actions.action import Action
 from osc2tx_runtime.language.actions.base_action import BaseAction
 from osc2tx_runtime.language.context import ExecutionContext
+from osc2tx_runtime.language.tree.compositions import Serial, length_of
+from osc2tx_runtime.language.tree.directives import Until
+from osc2tx_runtime.language.tree.ending import Ending
+from osc2tx_runtime.language.tree.parallel import Parallel
 from osc2tx_runtime.world.protocol import EXTERNAL
 
 if TYPE_CHECKING:
     from osc2tx_runtime.language.tree.base import Behaviour
+
+STARTS = frozenset({"assign_orientation", "assign_position", "assign_speed"})
+"""Actions that say how an actor starts, if they come first."""
 
 
 def check_requirements(root: Behaviour, context: ExecutionContext) -> None:
@@ -22,18 +29,42 @@ def check_requirements(root: Behaviour, context: ExecutionContext) -> None:
         CapabilityError: With all that cannot be, and where.
     """
     actions = [node for node in root.iterate() if isinstance(node, BaseAction)]
+    first = set(at_start(root))
     problems = {
         (action.source, problem): None
         for action in sorted(actions, key=lambda action: action.position)
-        for problem in problems_of(action, context)
+        for problem in problems_of(action, context, is_start=action in first)
     }
     if problems:
         told = "; ".join(f"{where}: {what}" if where else what for where, what in problems)
         raise CapabilityError(f"the world {context.world.name} cannot run this scenario: {told}")
 
 
-def problems_of(action: BaseAction, context: ExecutionContext) -> Iterator[str]:
-    """Yield why the world of a run does not carry out an action."""
+def at_start(node: Behaviour) -> Iterator[Behaviour]:
+    """Yield the leaves that start in the first instant whatever happens."""
+    match node:
+        case Serial():
+            for child in node.children:
+                yield from at_start(child)
+                if length_of(child) != 0:
+                    return
+        case Parallel() | Until() | Ending():
+            for child in node.children:
+                yield from at_start(child)
+        case _:
+            yield node
+
+
+def problems_of(
+    action: BaseAction, context: ExecutionContext, *, is_start: bool = False
+) -> Iterator[str]:
+    """Yield why the world of a run does not carry out an action.
+
+    Args:
+        action: The action.
+        context: The run.
+        is_start: Whether it starts in the first instant.
+    """
     needed = {need: action.action_name for need in action.registered.needs}
     if isinstance(action, Action):
         for modifier in action.modifiers:
@@ -50,6 +81,8 @@ def problems_of(action: BaseAction, context: ExecutionContext) -> Iterator[str]:
     if not action.slots:
         return
     if action.registered.is_momentary:
+        if is_start and action.registered.name in STARTS and "driver_starts" in able:
+            return
         yield f"{action.action_name}: {action.actor.id} is driven from outside"
     elif not context.settings.expect:
         yield (

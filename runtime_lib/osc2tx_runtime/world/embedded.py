@@ -271,10 +271,11 @@ class EmbeddedWorld:
         """Changes a state at once; what one instant assigns holds together.
 
         Raises:
-            ScenarioError: The actor has an external driver.
+            ScenarioError: The actor has an external driver, and has started.
         """
         member = self._member(actor)
-        if not member.follows:
+        is_start = self._scene.step == 0 and "driver_starts" in self.capabilities()
+        if not member.follows and not is_start:
             raise ScenarioError(f"{actor} is driven from outside, so nothing can be assigned to it")
         for name, value, wanted in (
             ("speed", speed, float | None),

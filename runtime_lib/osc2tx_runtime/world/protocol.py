@@ -19,8 +19,11 @@ from .actor_dimensions import Limits, Shape
 from .commands import Command
 from .state import ActorState
 
-Feature = Literal["lanes", "lights", "map", "towing", "traffic_lights", "weather"]
-"""Capability of a world that an action or modifier may require."""
+Feature = Literal["driver_starts", "lanes", "lights", "map", "towing", "traffic_lights", "weather"]
+"""Capability of a world that an action or modifier may require.
+
+`driver_starts`: at step 0 a place and a speed can be assigned to actors with external drivers.
+"""
 
 FEATURES: frozenset[Feature] = frozenset(get_args(Feature))
 

@@ -118,6 +118,21 @@ def test_nothing_can_be_assigned(drivers: ModuleType) -> None:
         Run(body, ego, expect=True)
 
 
+def test_what_is_assigned_at_first_is_its_start(drivers: ModuleType) -> None:
+    """The driver goes on from there; 15 m/s, less 2 m/s^2."""
+    ego = driving(drivers, lambda seen, dt: Control(acceleration=-2.0))
+
+    def body(s: TwoCars) -> Behaviour:
+        put = s.a.assign_position(lane(1), position(200.0))
+        return Serial("", put, s.a.assign_speed(speed=15.0), Wait(elapsed(2.0)))
+
+    done = Run(scenario(body), ego)
+    states = done.states("a")
+    assert (states[0]["s"], states[0]["v"]) == (200.0, 15.0)
+    assert states[-1]["v"] == pytest.approx(11.0)
+    assert states[-1]["x"] - states[0]["x"] == pytest.approx(26.0)
+
+
 @pytest.mark.parametrize(
     ("answer", "said"),
     [

@@ -96,8 +96,8 @@ class CarlaPlant:
         return self._wanted.get("", default)
 
     def capabilities(self) -> frozenset[Feature]:
-        """All there are; `capabilities` says how."""
-        return FEATURES
+        """All but one: stacks spawn their cars; `capabilities` says how."""
+        return FEATURES - {"driver_starts"}
 
     def shape(self, spec: ActorSpec) -> Shape | None:
         """The shape of the scenario; sizes of CARLA are known after spawning."""

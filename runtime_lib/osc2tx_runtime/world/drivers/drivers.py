@@ -110,9 +110,7 @@ class DriversPlant:
             setpoint = setpoints.get(actor)
             if setpoint is None or not setpoint.spec.shape.wheelbase:
                 raise SettingsError(f"--ego {actor}: {actor} is no vehicle of the scenario")
-            state = setpoint.state
-            pose = Pose(state.x, state.y, state.z, state.h)
-            self._vehicles[actor] = SingleTrack(pose, state.v, state.shape)
+            self._put(setpoint)
         self._lines = StopLines(scene.map, scene.signals)
         return {actor: self._measured(scene, setpoints[actor]) for actor in self._drivers}
 
@@ -123,6 +121,9 @@ class DriversPlant:
             ScenarioError: A driver raises something, or answers no `Control`.
         """
         setpoints = scene.setpoints
+        for actor in self._drivers if scene.step == 0 else ():
+            if setpoints[actor].jumps or setpoints[actor].kicked:
+                self._put(setpoints[actor])
         controls = {actor: self._control(actor, scene, setpoints[actor]) for actor in self._drivers}
         found = {}
         for actor, control in controls.items():
@@ -134,6 +135,12 @@ class DriversPlant:
 
     def close(self) -> None:
         """Nothing to leave."""
+
+    def _put(self, setpoint: Setpoint) -> None:
+        """Put a vehicle where it starts."""
+        state = setpoint.state
+        pose = Pose(state.x, state.y, state.z, state.h)
+        self._vehicles[setpoint.spec.id] = SingleTrack(pose, state.v, state.shape)
 
     def _control(self, actor: str, scene: Scene, setpoint: Setpoint) -> Control:
         driver = self._drivers[actor]
