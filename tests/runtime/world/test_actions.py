@@ -210,7 +210,7 @@ def test_remain_stationary_somewhere(run: Run) -> None:
     for state in done.states("a"):
         assert (state["s"], state["lane"], state["v"]) == pytest.approx((90.0, -2, 0.0))
     done = run(scenario(lambda s: s.a.remain_stationary(*there, duration=2.0)))
-    assert "its place along its lane is 50.00 m, not 90.00 m" in done.result.reason
+    assert "its position along its road is 50.00 m, not 90.00 m" in done.result.reason
 
 
 def test_remain_stationary_brakes_first(run: Run) -> None:

@@ -254,7 +254,7 @@ def test_what_holds_at_the_start_is_no_failure(run: Run) -> None:
         ),
         (
             lambda s: [position(80.0, at="start")],
-            "its place along its lane is 60.00 m, not 80.00 m",
+            "its position along its road is 60.00 m, not 80.00 m",
         ),
         (lambda s: [lane(4, at="start")], "in lane -3 of road 1, 2 to the right of where it has"),
         (lambda s: [lateral(0.5, at="start")], "left of its lane's centre is 0.00 m, not 0.50 m"),

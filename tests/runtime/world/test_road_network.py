@@ -13,7 +13,12 @@ from osc2tx_runtime.domain.actors import OdrPoint, Point, Pose
 from osc2tx_runtime.domain.paths.path_curves import PathError
 from osc2tx_runtime.domain.paths.path_values import Path, RelativePath
 from osc2tx_runtime.domain.points_and_poses import RoadRoute, RoutePoint
-from osc2tx_runtime.domain.routes.lane_coordinates import along_lane, place_of_route, route_point_at
+from osc2tx_runtime.domain.routes.lane_coordinates import (
+    place_along_road,
+    place_of_route,
+    position_along_road,
+    route_point_at,
+)
 from osc2tx_runtime.domain.routes.network_paths import path_in_world, trajectory_in_world
 from osc2tx_runtime.domain.routes.road_paths import way_between
 from osc2tx_runtime.errors import ScenarioError
@@ -118,8 +123,24 @@ def test_route_points_there_and_back(load_map: Callable[[str], RoadMap], name: s
         assert back.s == pytest.approx(place.s, abs=1e-5)
         ahead = road_map.advance(place, 1.0).position
         if ahead.road == place.road:
-            gain = along_lane(road_map, ahead) - along_lane(road_map, place)
+            gain = route_point_at(road_map, ahead).s - point.s
             assert gain == pytest.approx(1.0, abs=1e-5)
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_positions_along_roads_there_and_back(
+    load_map: Callable[[str], RoadMap], name: str
+) -> None:
+    road_map = load_map(name)
+    for place in road_map.spawn_points()[::7]:
+        position = position_along_road(road_map, place)
+        assert 0.0 <= position <= road_map.roads[place.road].length
+        for start in (place, road_map.advance(place, 9.0).position):
+            if start.road == place.road:
+                found = place_along_road(road_map, start, position)
+                assert found is not None
+                assert (found.road, found.lane) == (place.road, place.lane)
+                assert found.s == pytest.approx(place.s, abs=1e-9)
 
 
 @pytest.mark.parametrize("name", MAPS)

@@ -36,7 +36,7 @@ class Said:
         number: The lane, where it has a number.
         ahead_of: Ahead of whom it is.
         along: So far (m); negative: behind.
-        from_entry: Metres from the start of the road, instead.
+        position: Metres along the road, instead.
     """
 
     in_lane_of: CastMember | None
@@ -44,7 +44,7 @@ class Said:
     number: LaneNumber | None
     ahead_of: CastMember | None
     along: float
-    from_entry: float | None
+    position: float | None
 
     @property
     def reference(self) -> CastMember:
@@ -57,7 +57,7 @@ class Said:
     def is_of_one(self) -> bool:
         """Whether it is relative to one actor alone."""
         names = {each.name for each in (self.in_lane_of, self.ahead_of) if each is not None}
-        return len(names) == 1 and self.from_entry is None
+        return len(names) == 1 and self.position is None
 
 
 def beside(ctx: Context, start: Start) -> StartPlace:
@@ -91,10 +91,10 @@ def _place(ctx: Context, roads: Roads, said: Said) -> LanePosition:
         place = lane_beside(roads, place, said.lanes)
     if said.ahead_of is not None:
         place = place_ahead(roads, place, _centre(ctx, roads, said.ahead_of), said.along)
-    elif said.from_entry is not None:
-        along = roads.from_entry(place, said.from_entry)
+    elif said.position is not None:
+        along = roads.along_road(place, said.position)
         if along is None:
-            raise NoPlace(f"lane {place.lane} ends before {said.from_entry:g} m")
+            raise NoPlace(f"lane {place.lane} does not lead to {said.position:g} m along its road")
         place = along
     if said.number is None:
         return place
@@ -167,7 +167,7 @@ def _said(ctx: Context, start: Start) -> Said:
         number=number,
         ahead_of=reference,
         along=-along if is_behind else along,
-        from_entry=distance if reference is None else None,
+        position=distance if reference is None else None,
     )
 
 

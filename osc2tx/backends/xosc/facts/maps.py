@@ -14,7 +14,7 @@ from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.facts.refusals import refusing
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_runtime.domain.map.search import find_map
-from osc2tx_runtime.domain.routes.lane_coordinates import road_entry
+from osc2tx_runtime.domain.routes.lane_coordinates import place_along_road
 from osc2tx_runtime.domain.routes.road_paths import way_through
 from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
 from osc2tx_runtime.errors import InputError, ScenarioError
@@ -102,9 +102,9 @@ class Roads:
         step = self.map.advance(place, distance)
         return step.position if abs(step.travelled - distance) < 1e-6 else None
 
-    def from_entry(self, place: LanePosition, distance: float) -> LanePosition | None:
-        """Return the place so far (m) from where the lane of a place begins on its road."""
-        return self.ahead(road_entry(self.map, place), distance)
+    def along_road(self, place: LanePosition, position: float) -> LanePosition | None:
+        """Return the place on a lane at a position (m) along its road."""
+        return place_along_road(self.map, place, position)
 
     def place(self, road: str, lane: int, s: float, t: float) -> LanePosition:
         """Return a place from its coordinates on a road given by its name.

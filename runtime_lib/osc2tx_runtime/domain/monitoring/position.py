@@ -11,7 +11,7 @@ from osc2tx_runtime.domain.monitoring.conditions import Condition, Reading
 from osc2tx_runtime.domain.monitoring.registry import monitors
 from osc2tx_runtime.domain.monitoring.shaped_values import is_course, limits, moment
 from osc2tx_runtime.domain.placing.pose_resolution import pose_of
-from osc2tx_runtime.domain.routes.lane_coordinates import along_lane
+from osc2tx_runtime.domain.routes.lane_coordinates import position_along_road
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.world.measuring.distances import along_lanes
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @monitors("position")
 def position(modifier: Position, phase: Phase) -> Iterator[Condition]:
-    """The position along the road: against a reference, a point, or the start of the lane."""
+    """The position along the road: against a reference, a point, or the start of the road."""
     if modifier.reference is not None:
         side = "ahead of" if modifier.ahead else "behind"
         what = f"its distance {side} {modifier.reference.id}"
@@ -32,7 +32,7 @@ def position(modifier: Position, phase: Phase) -> Iterator[Condition]:
         what = f"its distance {'ahead of' if modifier.ahead else 'behind'} the point"
         measure = _from_point(modifier, phase)
     else:
-        what, measure = "its position along its lane", _on_lane(modifier, phase)
+        what, measure = "its position along its road", _on_road(modifier, phase)
     course = is_course(modifier)
     yield Condition("position", what, "position", moment(modifier), measure, is_target=course)
 
@@ -58,13 +58,13 @@ def _beside(modifier: Position, phase: Phase) -> Callable[[], Reading | None]:
     return measure
 
 
-def _on_lane(modifier: Position, phase: Phase) -> Callable[[], Reading | None]:
+def _on_road(modifier: Position, phase: Phase) -> Callable[[], Reading | None]:
     road_map, me = phase.world.map, phase.me
     size = limits(modifier, phase, Position.size)
 
     def measure() -> Reading | None:
         place = me().lane_position
-        return None if place is None else (along_lane(road_map, place), *size())
+        return None if place is None else (position_along_road(road_map, place), *size())
 
     return measure
 

@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from osc2tx_runtime.domain.map.segments import MapSegment
 from osc2tx_runtime.domain.modifiers import Lane, Position
-from osc2tx_runtime.domain.routes.lane_coordinates import road_entry
+from osc2tx_runtime.domain.routes.lane_coordinates import place_along_road
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.world.geometry.lane_neighbours import lane_with_number, number_of_lane
@@ -164,8 +164,8 @@ class StartPlaces:
             if (point.road, direction) in starts or point.road in short:
                 continue
             starts.add((point.road, direction))
-            step = self._map.advance(road_entry(self._map, point), distance)
-            if abs(step.travelled - distance) < 1e-6:
-                yield step.position
+            place = place_along_road(self._map, point, distance)
+            if place is not None:
+                yield place
             elif lane is None or lane_with_number(self._map, point, lane.number, lane.edge):
                 short.add(point.road)

@@ -33,7 +33,7 @@ from osc2tx_runtime.domain.placing.initial_state import (
 from osc2tx_runtime.domain.placing.point_placement import PointPlaces
 from osc2tx_runtime.domain.placing.pose_resolution import heading_of, one_of_kind
 from osc2tx_runtime.domain.points_and_poses import RoutePoint
-from osc2tx_runtime.domain.routes.lane_coordinates import place_at_distance, road_entry
+from osc2tx_runtime.domain.routes.lane_coordinates import place_along_road, place_at_distance
 from osc2tx_runtime.domain.routes.network_paths import trajectory_in_world
 from osc2tx_runtime.domain.routes.place_on_route import on_route
 from osc2tx_runtime.enums import SideLeftRight
@@ -282,14 +282,14 @@ class Placer:
     def _along_road(
         self, actor: PhysicalObject, place: LanePosition, distance: float
     ) -> LanePosition:
-        start = road_entry(self._map, place)
-        step = self._map.advance(start, distance)
-        if abs(step.travelled - distance) > 1e-6:
+        found = place_along_road(self._map, place, distance)
+        if found is None:
             raise PlacementError(
-                f"{actor.id}: lane {place.lane} of road {place.road} ends after"
-                f" {step.travelled:.1f} m, before {distance:g} m"
+                f"{actor.id}: lane {place.lane} of road {place.road} does not lead to the position"
+                f" {distance:g} m along the road, which is {self._map.roads[place.road].length:.1f}"
+                " m long"
             )
-        return step.position
+        return found
 
     def _centre(self, of: PhysicalObject | None, actor: PhysicalObject) -> LanePosition:
         """Place of a placed actor, on the centre of its driving lane."""

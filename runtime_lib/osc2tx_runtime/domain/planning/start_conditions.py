@@ -33,7 +33,7 @@ from osc2tx_runtime.domain.planning.lateral.lateral_targets import lanes_wanted
 from osc2tx_runtime.domain.planning.longitudinal.goals import way_to
 from osc2tx_runtime.domain.planning.longitudinal.longitudinal_planning import speed_at_start
 from osc2tx_runtime.domain.planning.motion_action import Refused
-from osc2tx_runtime.domain.routes.lane_coordinates import along_lane
+from osc2tx_runtime.domain.routes.lane_coordinates import position_along_road
 from osc2tx_runtime.domain.routes.place_on_route import driven_on_route
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.geometry.curve import turn_between
@@ -167,8 +167,8 @@ def measured(action: ModifiedMotion, position: Position) -> tuple[float, float, 
     """
     if position.reference is None:
         low, high = way_to(action, position)
-        here = along_lane(action.world.map, action.place_of(action.actor.id))
-        return here, here + low, here + high, "its place along its lane is"
+        here = position_along_road(action.world.map, action.place_of(action.actor.id))
+        return here, here + low, here + high, "its position along its road is"
     other = action.world.state(position.reference.id)
     along = along_lanes(action.world.map, other, action.here)
     if along is None:

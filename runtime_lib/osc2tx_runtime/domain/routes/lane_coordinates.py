@@ -7,6 +7,8 @@ goes by the id it has there.
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
+from operator import attrgetter
 
 from osc2tx_runtime import opendrive
 from osc2tx_runtime.domain.map.road_graph import graph_of
@@ -14,17 +16,71 @@ from osc2tx_runtime.domain.map.roads_and_lanes import RoadPart
 from osc2tx_runtime.domain.paths.path_values import Path
 from osc2tx_runtime.domain.points_and_poses import OdrPoint, RoadRoute, RoutePoint
 from osc2tx_runtime.errors import PlacementError
-from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
+from osc2tx_runtime.opendrive import LanePosition, LaneSection, MapError, RoadMap
 
 _AT_END = 1e-5  # m: so near to the end of a lane is there
 _MISS = 1e-6  # m by which a point may miss its road
 _EXACT = 1e-7  # m to which a distance along the road is met
 _ATTEMPTS = 20  # to meet it
 
+_begin_of = attrgetter("begin")
 
-def along_lane(road_map: RoadMap, place: LanePosition) -> float:
-    """Arc length (m) along the centre line of the lane, from where it begins on its road."""
-    return road_map.route_distance(road_entry(road_map, place), place) or 0.0
+
+def position_along_road(road_map: RoadMap, place: LanePosition) -> float:
+    """Metres along the reference line of its road, from where the traffic of its lane enters it.
+
+    It is the position that the modifier `position` states without a reference (DSL 8.3.6, 8.9.2).
+    """
+    forwards = road_map.travel_direction(place.road, place.lane) > 0
+    return place.s if forwards else road_map.roads[place.road].length - place.s
+
+
+def place_along_road(
+    road_map: RoadMap, place: LanePosition, position: float
+) -> LanePosition | None:
+    """The place on a lane at a position along its road; None if the lane does not lead there.
+
+    Args:
+        road_map: The map.
+        place: A place on the lane.
+        position: As of `position_along_road` (m); beyond the end of the road, along the lanes that
+            follow.
+    """
+    length = road_map.roads[place.road].length
+    forwards = road_map.travel_direction(place.road, place.lane) > 0
+    on_road = min(max(position, 0.0), length)
+    found = _in_section_at(road_map, place, on_road if forwards else length - on_road)
+    if found is None or on_road == position:
+        return found
+    step = road_map.advance(found, position - on_road)
+    return step.position if abs(step.travelled - (position - on_road)) < _MISS else None
+
+
+def _in_section_at(road_map: RoadMap, place: LanePosition, s: float) -> LanePosition | None:
+    """The place at an s (m) of its road on a lane, which may have another id there."""
+    sections = road_map.roads[place.road].sections
+    key, wanted = road_map.lane_key(place), max(bisect_right(sections, s, key=_begin_of) - 1, 0)
+    forwards = road_map.travel_direction(place.road, place.lane) > 0
+    while key.section != wanted:
+        step = 1 if wanted > key.section else -1
+        joined = road_map.successors if forwards == (step > 0) else road_map.predecessors
+        beyond = (key.road, key.section + step)
+        found = [other for other in joined(key) if (other.road, other.section) == beyond]
+        if not found:
+            section = sections[key.section]
+            return LanePosition(key.road, key.lane, _last_in(section)) if s == section.end else None
+        key = found[0]
+    return LanePosition(key.road, key.lane, s)
+
+
+def way_to_position(road_map: RoadMap, place: LanePosition, position: float) -> float:
+    """Metres along the lane of a place to a position along its road; negative if it lies behind.
+
+    Where the lane ends before, the rest counts along the road.
+    """
+    there = place_along_road(road_map, place, position)
+    way = None if there is None else road_map.route_distance(place, there)
+    return position - position_along_road(road_map, place) if way is None else way
 
 
 def place_at_distance(
@@ -119,8 +175,7 @@ def _begin(road_map: RoadMap, road: str, lane: int) -> LanePosition:
     sections = road_map.roads[road].sections
     for section in sections if with_s else reversed(sections):
         if lane in section.lanes:
-            s = section.begin if with_s else math.nextafter(section.end, section.begin)
-            return LanePosition(road, lane, s)
+            return LanePosition(road, lane, section.begin if with_s else _last_in(section))
     raise PlacementError(f"road {road} has no lane {lane}")
 
 
@@ -139,8 +194,12 @@ def road_entry(road_map: RoadMap, place: LanePosition) -> LanePosition:
     if with_s:
         return LanePosition(key.road, key.lane, section.begin)
     last = key.section == len(sections) - 1
-    s = section.end if last else math.nextafter(section.end, section.begin)
-    return LanePosition(key.road, key.lane, s)
+    return LanePosition(key.road, key.lane, section.end if last else _last_in(section))
+
+
+def _last_in(section: LaneSection) -> float:
+    """The last s (m) that belongs to a section before another one."""
+    return math.nextafter(section.end, section.begin)
 
 
 def place_of_odr(road_map: RoadMap, point: OdrPoint) -> LanePosition | opendrive.Pose:

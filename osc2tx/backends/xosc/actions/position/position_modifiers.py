@@ -73,7 +73,7 @@ def _along_road(leaf: Leaf, call: Call, distance: float) -> Changes:
         raise Inexpressible("a distance from the start of the road that is not the end of the way")
     if lane is None or roads is None:
         raise Inexpressible("which road it is on is only known during the run")
-    place = roads.from_entry(lane, distance)
+    place = roads.along_road(lane, distance)
     if place is None:
         raise Inexpressible(f"the road ends before {distance:g} m")
     goal = lane_place(roads, place)

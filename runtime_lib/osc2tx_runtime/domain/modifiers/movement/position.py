@@ -131,6 +131,11 @@ class Position(MovementModifier):
         """True for a point in the world."""
         return self.at_point is not None or self.x is not None
 
+    @property
+    def is_on_road(self) -> bool:
+        """True for a position along the road, without a reference."""
+        return self.reference is None and self.reference_point is None and not self.absolute
+
 
 @modifier("location", placement=True, places=True)
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from osc2tx_runtime.domain.modifiers import (
 )
 from osc2tx_runtime.domain.placing.pose_resolution import one_of_kind, pose_of
 from osc2tx_runtime.domain.planning.motion_action import Refused
-from osc2tx_runtime.domain.routes.lane_coordinates import along_lane
+from osc2tx_runtime.domain.routes.lane_coordinates import way_to_position
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.world.commands import FollowSpeed
 
@@ -85,8 +85,8 @@ def way_to(action: ModifiedMotion, position: Position) -> tuple[float, float]:
         way = _way_to_point(action, here, at.x, at.y, at.z)
         return way, way
     if point is None:
-        done = along_lane(action.world.map, here)
-        return low - done, high - done
+        least, greatest = (way_to_position(action.world.map, here, at) for at in (low, high))
+        return least, greatest
     way = _way_to_point(action, here, point.x, point.y, point.z)
     return (way + low, way + high) if position.ahead else (way - high, way - low)
 

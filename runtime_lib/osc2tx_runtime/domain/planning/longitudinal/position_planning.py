@@ -8,11 +8,11 @@ from osc2tx_runtime.domain.modifiers import Along, Distance, Position, value_of
 from osc2tx_runtime.domain.modifiers.base import course_of, own_course, target_of
 from osc2tx_runtime.domain.planning.feasibility import check_course, check_peak
 from osc2tx_runtime.domain.planning.motion_action import Refused
-from osc2tx_runtime.domain.routes.lane_coordinates import along_lane
+from osc2tx_runtime.domain.routes.lane_coordinates import position_along_road, way_to_position
 from osc2tx_runtime.domain.routes.place_on_route import place_on_route
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.commands import Command, Cover, GapCourse
-from osc2tx_runtime.world.geometry.function_profiles import Mapped, change_profile
+from osc2tx_runtime.world.geometry.function_profiles import Computed, Mapped, change_profile
 from osc2tx_runtime.world.measuring.distances import along_lanes
 from osc2tx_runtime.world.motion.moving_body import cruise_of
 
@@ -56,7 +56,9 @@ def position_command(action: ModifiedMotion, modifier: Placing) -> Command:
     relative = isinstance(modifier, Position) and modifier.reference is not None
     way = _gap(action, modifier) if relative else _way(action, modifier)
     course = _course(action, modifier, shape, way)
-    moved = Mapped(course, way.sign, 0.0 if relative else -way.sign * way.here)
+    moved: Profile = Mapped(course, way.sign, 0.0 if relative else -way.sign * way.here)
+    if isinstance(modifier, Position) and modifier.is_on_road and own_course(shape) is not None:
+        moved = _along_lane(action, course)
     if relative:
         assert isinstance(modifier, Position) and modifier.reference is not None
         other = action.world.state(modifier.reference.id).v
@@ -102,9 +104,15 @@ def _way(action: ModifiedMotion, modifier: Placing) -> _Way:
         sign = 1.0 if modifier.ahead else -1.0
         here = least - low if modifier.ahead else least + high
         return _Way(here, min(max(here, least), most), sign, sign * v)
-    here = along_lane(action.world.map, place)
+    here = position_along_road(action.world.map, place)
     low, high = way_to(action, modifier)
     return _Way(here, min(max(here, here + low), here + high), 1.0, v)
+
+
+def _along_lane(action: ModifiedMotion, course: Profile) -> Computed:
+    """The way (m) along the lane over the time, of a course of positions along the road."""
+    road_map, place = action.world.map, action.place_of(action.actor.id)
+    return Computed(lambda t: way_to_position(road_map, place, course.value(t)), course.duration)
 
 
 def _along(action: ModifiedMotion, along: Along) -> _Way:
