@@ -20,7 +20,7 @@ from osc2tx.backends.xosc.conditions.flow import (
     state_of,
 )
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.flattening.storyboard.storyboard import Act, Event
+from osc2tx.backends.xosc.flattening.storyboard import Act, Event
 from osc2tx.backends.xosc.report import GENERIC
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element

@@ -13,7 +13,7 @@ from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.entities import scenario_objects
 from osc2tx.backends.xosc.entities.placing import initial_actions
 from osc2tx.backends.xosc.flattening.flatten import Flattener
-from osc2tx.backends.xosc.flattening.storyboard.storyboard import StoryboardWriter
+from osc2tx.backends.xosc.flattening.storyboard import StoryboardWriter
 from osc2tx.backends.xosc.logical.parameters import declaration
 from osc2tx.ir.source_text import condensed
 from osc2tx.xosc import elements as xml

@@ -200,6 +200,14 @@ class Leaf:
         is_late = self.limit is not None and own > self.limit
         return pace._replace(duration=self.limit) if is_free and is_late else pace
 
+    def is_left(self, side: str) -> bool:
+        """Whether the `inside` or the `outside` of its road is to its left."""
+        roads, lane = self.ctx.roads, self.state.lane
+        is_right_hand = (
+            roads is None or lane is None or roads.map.roads[lane.road].right_hand_traffic
+        )
+        return (side == "inside") is is_right_hand
+
     @property
     def construct(self) -> str:
         """What it is called in reports."""

@@ -15,7 +15,7 @@ from osc2tx.backends.xosc.conditions.comparisons import (
 )
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.start_lanes import faces_along, standing_heading
-from osc2tx.backends.xosc.facts.maps import LanePosition
+from osc2tx.backends.xosc.facts.maps import LanePosition, are_opposed
 from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import CoordinateSystem, Rule
@@ -185,7 +185,7 @@ def note_facing(ctx: Context, c: Comparison, freespace: bool, system: Coordinate
     if system != "road":
         return
     mine, theirs = (_lane_at_start(ctx, name) for name in (c.actor, c.reference()))
-    if ctx.roads is not None and mine and theirs and ctx.roads.are_opposed(mine, theirs):
+    if ctx.roads is not None and mine and theirs and are_opposed(ctx.roads.map, mine, theirs):
         ctx.report.approximate(
             c.name,
             c.source.span,

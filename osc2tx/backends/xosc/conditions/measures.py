@@ -218,11 +218,11 @@ def _coordinate(ctx: Context, c: Comparison, direction: str, aside: float) -> Gr
     Raises:
         Inexpressible: There are several roads, each with coordinates of its own.
     """
-    road = None if ctx.roads is None else ctx.roads.only_road()
-    if road is None or c.member("route_type", "on_road") != "on_road":
+    roads = [] if ctx.roads is None else list(ctx.roads.map.roads)
+    if len(roads) != 1 or c.member("route_type", "on_road") != "on_road":
         reason = "a condition on coordinates of a road needs a map with just one road"
         raise Inexpressible(reason, c.source.span)
-    place = xml.RoadPosition(roadId=road, s=0.0, t=-aside)
+    place = xml.RoadPosition(roadId=roads[0], s=0.0, t=-aside)
     condition = distance_to(ctx, place, c.value + aside, c.rule, "road", direction)
     return ((of_entity(c.actor, condition),),)
 

@@ -5,18 +5,10 @@ from __future__ import annotations
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.registry import WITHOUT_FORM, without_form
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.facts.map_search import (
-    PARTS,
-    Between,
-    MapQuery,
-    MapSegment,
-    PartReference,
-    QueryValue,
-    search_map,
-)
+from osc2tx.backends.xosc.facts.map_search import PARTS, MapQuery, MapSegment, search_map
 from osc2tx.backends.xosc.facts.maps import Roads
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.values.constants import Bounds, Constant, Member, MethodResult, Named
+from osc2tx.backends.xosc.values.constants import Constant, Named
 
 without_form(
     "modifier",
@@ -86,9 +78,7 @@ def _segments(ctx: Context) -> dict[str, MapSegment]:
             if isinstance(each, ir.Struct) and each.type in PARTS and each.value is None
         }
         relations = [
-            MapQuery(
-                call.name, {a.parameter: _plain(ctx.values.of(a.value)) for a in call.arguments}
-            )
+            MapQuery(call.name, {a.parameter: ctx.values.of(a.value) for a in call.arguments})
             for placement in ctx.scenario.placements
             if is_map(ctx, placement.actor)
             for call in placement.modifiers
@@ -98,33 +88,19 @@ def _segments(ctx: Context) -> dict[str, MapSegment]:
     return ctx.segments
 
 
-def _said(ctx: Context, part: ir.Struct) -> dict[str, QueryValue]:
+def _said(ctx: Context, part: ir.Struct) -> dict[str, Constant | MapQuery]:
     """Return what constraints fix about a part."""
-    properties: dict[str, QueryValue] = {}
-    inside: dict[str, dict[str, QueryValue]] = {}
+    properties: dict[str, Constant | MapQuery] = {}
+    crossing: dict[str, Constant | MapQuery] = {}
     for value in part.values:
-        plain = _plain(ctx.values.of(value.value))
         match value.path:
             case (name,):
-                properties[name] = plain
+                properties[name] = ctx.values.of(value.value)
             case ("crossing_type", name):
-                inside.setdefault("crossing_type", {})[name] = plain
+                crossing[name] = ctx.values.of(value.value)
             case _:
                 text = ".".join(value.path)
                 raise Inexpressible(f"`{text}` of `{part.name}` cannot be determined from the map")
-    return {**properties, **{name: MapQuery(name, parts) for name, parts in inside.items()}}
-
-
-def _plain(value: Constant) -> QueryValue:
-    match value:
-        case Named(name=name):
-            return PartReference(name)
-        case Member(name=name):
-            return name
-        case Bounds(lower=low, upper=high):
-            return Between(low, high)
-        case MethodResult():
-            raise Inexpressible(f"what `{value.method}` makes is not looked for on the map")
-        case tuple():
-            return tuple(_plain(each) for each in value)
-    return value
+    if crossing:
+        properties["crossing_type"] = MapQuery("crossing_type", crossing)
+    return properties

@@ -89,7 +89,7 @@ class InitialPlacing(StartRoom[Start]):
         if state.pose is not None or state.lane is None or roads is None:
             return state.pose
         offset = 0.0 if state.offset is None else state.offset.low
-        pose = roads.pose(state.lane._replace(offset=offset))
+        pose = roads.map.pose(state.lane._replace(offset=offset))
         return pose._replace(h=turned(self._ctx, start, pose.h)[0])
 
     def _noted(self, start: Start, pose: Pose | None) -> Placed:
@@ -104,7 +104,7 @@ class InitialPlacing(StartRoom[Start]):
         assert roads is not None
         if self.was_tried(start, place):
             return "another actor"
-        return self.taken_by(box_at(roads.pose(place), start.member.shape))
+        return self.taken_by(box_at(roads.map.pose(place), start.member.shape))
 
 
 OF_MOVEMENT = frozenset({"acceleration", "distance", "physical_movement"})

@@ -17,7 +17,7 @@ from osc2tx.backends.xosc.entities.start_lanes import (
 from osc2tx.backends.xosc.entities.start_statements import Start, StartPlace, speed_at_start
 from osc2tx.backends.xosc.facts.actors import ALIGNED
 from osc2tx.backends.xosc.facts.maps import LanePosition, Roads
-from osc2tx.backends.xosc.facts.start_places import LaneNumber, lane_beside, place_ahead
+from osc2tx.backends.xosc.facts.start_places import LaneNumber, place_at_distance
 from osc2tx.backends.xosc.report import Inexpressible, NoPlace
 from osc2tx.backends.xosc.state import ActorState, known
 from osc2tx_shared.classes import dataclass
@@ -88,20 +88,26 @@ def _place(ctx: Context, roads: Roads, said: Said) -> LanePosition:
     """Return where it is, as the embedded world finds it."""
     place = _centre(ctx, roads, said.in_lane_of or said.reference)
     if said.lanes:
-        place = lane_beside(roads, place, said.lanes)
+        side = "left" if said.lanes > 0 else "right"
+        missing = f"there is no lane {abs(said.lanes)} to the {side} of lane {place.lane}"
+        place = _found(roads.beside(place, said.lanes), missing)
     if said.ahead_of is not None:
-        place = place_ahead(roads, place, _centre(ctx, roads, said.ahead_of), said.along)
+        origin, way = _centre(ctx, roads, said.ahead_of), "ahead" if said.along >= 0.0 else "back"
+        missing = f"the lane does not reach {abs(said.along):g} m {way}"
+        place = _found(place_at_distance(roads.map, place, origin, said.along), missing)
     elif said.position is not None:
-        along = roads.along_road(place, said.position)
-        if along is None:
-            raise NoPlace(f"lane {place.lane} does not lead to {said.position:g} m along its road")
-        place = along
+        missing = f"lane {place.lane} does not lead to {said.position:g} m along its road"
+        place = _found(roads.along_road(place, said.position), missing)
     if said.number is None:
         return place
-    numbered = roads.with_number(place, *said.number)
-    if numbered is None:
-        raise NoPlace(f"there is no lane {said.number.number} beside {said.reference.name}")
-    return numbered
+    missing = f"there is no lane {said.number.number} beside {said.reference.name}"
+    return _found(roads.with_number(place, *said.number), missing)
+
+
+def _found(place: LanePosition | None, otherwise: str) -> LanePosition:
+    if place is None:
+        raise NoPlace(otherwise)
+    return place
 
 
 def _centre(ctx: Context, roads: Roads, member: CastMember) -> LanePosition:
@@ -126,7 +132,7 @@ def _lanes_for_tools(ctx: Context, roads: Roads, said: Said, mine: LanePosition)
         return None
     theirs, pose = _centre(ctx, roads, said.reference), ctx.start_poses[said.reference.name]
     on = roads.locate(*pose[:3])
-    turn = math.remainder(pose.h - roads.pose(theirs).h, math.tau)
+    turn = math.remainder(pose.h - roads.map.pose(theirs).h, math.tau)
     if on is None or (on.road, on.lane) != (theirs.road, theirs.lane) or abs(turn) > ALIGNED:
         return None
     lanes = said.lanes if said.number is None else roads.lanes_between(theirs, mine)
@@ -143,7 +149,7 @@ def _lanes_for_tools(ctx: Context, roads: Roads, said: Said, mine: LanePosition)
     place = None if ahead is None else roads.beside(ahead, lanes)
     if place is None:
         return None
-    there, here = roads.pose(place), roads.pose(mine)
+    there, here = roads.map.pose(place), roads.map.pose(mine)
     return lanes if math.dist(there[:2], here[:2]) < NEAR else None
 
 

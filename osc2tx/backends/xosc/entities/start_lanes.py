@@ -23,7 +23,7 @@ from osc2tx.backends.xosc.facts.actors import (
     course_of_shift,
     lost_across,
 )
-from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
+from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, offset_from
 from osc2tx.backends.xosc.facts.start_places import LaneNumber
 from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import ActorState, known
@@ -37,7 +37,7 @@ def in_lane(ctx: Context, start: Start, place: LanePosition) -> StartPlace:
     """
     offset = lateral_of(ctx, start, place)
     if ctx.roads is not None and goes_straight(ctx, start):
-        pose = ctx.roads.pose(place._replace(offset=offset))
+        pose = ctx.roads.map.pose(place._replace(offset=offset))
         heading, pitch, roll = turned(ctx, start, pose.h)
         there = Pose(round(pose.x, 6), round(pose.y, 6), round(pose.z, 6), round(heading, 9))
         return at_pose(there, pitch, roll)
@@ -78,7 +78,7 @@ def lateral_of(ctx: Context, start: Start, place: LanePosition | None) -> float:
     pose = ctx.start_poses.get(other.name)
     if pose is None or place is None or ctx.roads is None:
         raise Inexpressible(f"where {other.name} is in its lane is only known during the run")
-    theirs = ctx.roads.offset_from(place._replace(offset=0.0), pose)
+    theirs = offset_from(ctx.roads.map, place._replace(offset=0.0), pose.x, pose.y)
     return round(theirs + left_of(lateral, start.member.shape.width, other.shape.width), 6)
 
 
@@ -144,7 +144,7 @@ def orientation_in_lane(
         return None
     if ctx.roads is None or place is None:
         raise Inexpressible("where the lane leads is only known during the run", start.span)
-    heading, pitch, roll = turned(ctx, start, ctx.roads.pose(place).h)
+    heading, pitch, roll = turned(ctx, start, ctx.roads.map.pose(place).h)
     return xml.Orientation(type="absolute", h=round(heading, 9), p=pitch or None, r=roll or None)
 
 
@@ -158,7 +158,7 @@ def note_turn(ctx: Context, start: Start) -> None:
     lane = None if pose is None or roads is None else roads.locate(*pose[:3])
     if member.walks or pose is None or roads is None or lane is None:
         return
-    angle = math.remainder(pose.h - roads.pose(lane).h, math.tau)
+    angle = math.remainder(pose.h - roads.map.pose(lane).h, math.tau)
     speed = ctx.states[member.name].speed
     v = 0.0 if speed is None else speed.low
     if abs(math.sin(angle)) < STRAIGHT or (v == 0.0 and stands(ctx, member.name)):
@@ -213,6 +213,6 @@ def _way_along(ctx: Context, entity: str) -> tuple[str, bool] | None:
     state, roads = ctx.at_start.get(entity), ctx.roads
     if state is None or state.lane is None or roads is None:
         return None
-    if state.pose is not None and cos(state.pose.h - roads.pose(state.lane).h) < 0.999:
+    if state.pose is not None and cos(state.pose.h - roads.map.pose(state.lane).h) < 0.999:
         return None
     return state.lane.road, roads.map.travel_direction(state.lane.road, state.lane.lane) > 0

@@ -105,7 +105,7 @@ def _heading_at(
     if ctx.roads is None:
         return said or 0.0
     on = ctx.roads.locate(*point)
-    along = ctx.roads.direction_at(*point) if on is None else ctx.roads.pose(on).h
+    along = ctx.roads.direction_at(*point) if on is None else ctx.roads.map.pose(on).h
     if said is None:
         return along
     is_in_lane = on is not None and not start.member.walks and math.cos(along - said) > 0.0

@@ -42,44 +42,6 @@ from osc2tx_runtime.world.motion.moving_body import CRUISE as SPEEDS_AT_START
 from osc2tx_runtime.world.motion.towing import DRAWBAR
 from osc2tx_runtime.world.plant.weather_effects import Surroundings
 
-__all__ = [
-    "ADHESION",
-    "ALIGNED",
-    "CATEGORIES",
-    "COMFORT",
-    "COSINE_PEAK",
-    "CRUISE",
-    "DRAWBAR",
-    "FASTEST",
-    "GENTLE",
-    "SIDEWAYS",
-    "TOP_SPEED",
-    "Cosine",
-    "Course",
-    "Limits",
-    "Linear",
-    "Pace",
-    "Profile",
-    "Quintic",
-    "SCurve",
-    "Shape",
-    "apart",
-    "automatic_light",
-    "course_of_acceleration",
-    "course_of_shift",
-    "course_of_speed",
-    "fastest",
-    "held_by",
-    "limits_of",
-    "lost_across",
-    "road_condition",
-    "shape_of",
-    "steepest",
-    "way_between",
-    "way_by_acceleration",
-]
-
-
 STEPS = 200
 """Of a numeric sum over a change."""
 

@@ -8,7 +8,7 @@ from functools import lru_cache
 from itertools import pairwise
 from typing import Literal, NamedTuple
 
-from osc2tx.backends.xosc.facts.refusals import refusing
+from osc2tx.backends.xosc.facts import refusing
 from osc2tx_runtime.domain.paths.path_curves import interval_between_offsets
 from osc2tx_runtime.domain.paths.path_values import Path as Way
 from osc2tx_runtime.domain.paths.path_values import Trajectory

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple, TypeAlias, TypeVar, get_args
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple, TypeVar, cast, get_args
 
+from osc2tx.backends.xosc.facts import refusing
 from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
-from osc2tx.backends.xosc.facts.refusals import refusing
 from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.values.constants import Bounds, Constant, Member, MethodResult, Named
 from osc2tx_runtime.domain.map.crossings import Crossing, CrossingType
 from osc2tx_runtime.domain.map.road_graph import graph_of
 from osc2tx_runtime.domain.map.roads_and_lanes import (
@@ -32,21 +33,6 @@ from osc2tx_runtime.domain.routes.composed_routes import poses_of_route
 from osc2tx_runtime.enums import ConnectRoutePoints
 from osc2tx_runtime.language.values.parameters import Range
 
-__all__ = [
-    "PARTS",
-    "Between",
-    "MapQuery",
-    "MapSegment",
-    "PartReference",
-    "QueryValue",
-    "begin_of",
-    "beginnings_of",
-    "crossing_of",
-    "end_of",
-    "points_of_route",
-    "search_map",
-]
-
 PARTS: Mapping[str, type[RoadPart]] = {
     "Path": RoadPath,
     "compound_lane": CompoundLane,
@@ -61,41 +47,18 @@ PARTS: Mapping[str, type[RoadPart]] = {
 """Type of the library (§8.12) or the dialect -> what is looked for."""
 
 
-class PartReference(NamedTuple):
-    """Another part, by its name."""
-
-    name: str
-
-
-class Between(NamedTuple):
-    """Any number from the lower bound to the upper one."""
-
-    lower: float
-    upper: float
-
-
-QueryValue: TypeAlias = (
-    "Between | bool | int | float | str | PartReference | MapQuery | tuple[QueryValue, ...]"
-)
-
-
 class MapQuery(NamedTuple):
     """A part, or a modifier of the map: its type or name, and what is said about it."""
 
     kind: str
-    properties: Mapping[str, QueryValue]
+    properties: Mapping[str, Constant | MapQuery]
 
 
 @refusing()
 def search_map(
     roads: Roads, parts: Mapping[str, MapQuery], relations: Sequence[MapQuery]
 ) -> dict[str, MapSegment]:
-    """Return the segment of the map for each part.
-
-    Args:
-        roads: The map.
-        parts: What is declared, by name.
-        relations: Modifiers of the map.
+    """Return the segment of the map for each declared part, as the modifiers of the map want it.
 
     Raises:
         Inexpressible: The map has none, or cannot tell.
@@ -131,17 +94,22 @@ def _build(cls: type[BuiltT], query: MapQuery, made: Mapping[str, RoadPart]) -> 
     return cls(**arguments)
 
 
-def _resolved(value: QueryValue, made: Mapping[str, RoadPart]) -> object:
-    if isinstance(value, PartReference):
-        if value.name not in made:
-            raise Inexpressible(f"`{value.name}` is used before it is declared")
-        return made[value.name]
-    if isinstance(value, MapQuery):
-        return _build(CrossingType, value, made)
-    if isinstance(value, Between):
-        return Range(value.lower, value.upper)
-    if isinstance(value, tuple):
-        return tuple(_resolved(each, made) for each in value)
+def _resolved(value: Constant | MapQuery, made: Mapping[str, RoadPart]) -> object:
+    match value:
+        case MapQuery():
+            return _build(CrossingType, value, made)
+        case Named(name=name):
+            if name not in made:
+                raise Inexpressible(f"`{name}` is used before it is declared")
+            return made[name]
+        case Member(name=name):
+            return name
+        case Bounds(lower=low, upper=high):
+            return Range(low, high)
+        case MethodResult():
+            raise Inexpressible(f"what `{value.method}` makes is not looked for on the map")
+        case tuple():
+            return tuple(_resolved(each, made) for each in value)
     return value
 
 
@@ -157,48 +125,22 @@ def crossing_of(segment: MapSegment) -> tuple[Waypoint, Waypoint] | None:
     return begin, end
 
 
-def begin_of(roads: Roads, segment: MapSegment) -> LanePosition:
-    """Return where a segment begins, in direction of travel."""
-    return graph_of(roads.map).begin(segment)
-
-
-def beginnings_of(roads: Roads, segment: MapSegment) -> Iterator[LanePosition]:
-    """Return where the lanes begin in which a segment begins."""
-    return graph_of(roads.map).beginnings(segment)
-
-
-def end_of(roads: Roads, segment: MapSegment) -> LanePosition:
-    """Return where a segment ends."""
-    return graph_of(roads.map).end(segment)
-
-
 @refusing()
 def points_of_route(
     roads: Roads,
     elements: Sequence[LanePosition | Pose | MapSegment | Sequence[Waypoint]],
     connect_by: str,
 ) -> tuple[Waypoint, ...]:
-    """Return the way that a route leads along.
-
-    Args:
-        roads: The map.
-        elements: What it is put together from; waypoints are a path.
-        connect_by: What points stand for (§8.12.29).
+    """Return the way that a route leads along which is put together; waypoints are a path.
 
     Raises:
         Inexpressible: There is no such way.
     """
     parts = [_element(each) for each in elements]
-    kind: ConnectRoutePoints | None = next(
-        (known for known in CONNECT if known == connect_by), None
-    )
-    if kind is None:
-        raise Inexpressible(f"`{connect_by}` is nothing that points can stand for")
-    poses = poses_of_route(roads.map, parts, kind)
+    if connect_by not in get_args(ConnectRoutePoints):
+        raise Inexpressible(f"`{connect_by}` is nothing that points can stand for")  # §8.12.29
+    poses = poses_of_route(roads.map, parts, cast("ConnectRoutePoints", connect_by))
     return tuple(Waypoint(0.0, pose.x, pose.y, pose.z, pose.yaw) for pose in poses)
-
-
-CONNECT: tuple[ConnectRoutePoints, ...] = get_args(ConnectRoutePoints)
 
 
 def _element(

@@ -10,8 +10,8 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Literal, cast
 
+from osc2tx.backends.xosc.facts import refusing
 from osc2tx.backends.xosc.facts.curves import Waypoint
-from osc2tx.backends.xosc.facts.refusals import refusing
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.domain.routes.lane_coordinates import place_along_road
@@ -24,18 +24,17 @@ from osc2tx_runtime.opendrive.model import LaneKey
 from osc2tx_runtime.world.geometry.lane_neighbours import (
     actual_lane,
     are_opposed,
-    lane_beside,
     lane_with_number,
     lanes_to_left,
     offset_from,
+)
+from osc2tx_runtime.world.geometry.lane_neighbours import (
+    lane_beside as lane_either_way,
 )
 from osc2tx_runtime.world.longitudinal.bends_ahead import BendsAhead
 from osc2tx_runtime.world.surroundings.traffic_light_lamps import Lamp, lamps_that_mean, meaning_of
 from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
 from osc2tx_shared.map_files import DEFAULT_MAP
-
-__all__ = ["Lamp", "LanePosition", "Pose", "Roads", "roads_of"]
-
 
 MOST_MAPS = 32
 """Maps that are kept once read."""
@@ -60,13 +59,6 @@ class Roads:
         if lanes == 0:
             return place
         return self.map.neighbour(place, "left" if lanes > 0 else "right", abs(lanes))
-
-    def either_way_beside(self, place: LanePosition, lanes: int) -> LanePosition | None:
-        """Return the centre of a lane beside that of a place, of oncoming traffic as well.
-
-        That is given as an offset from the innermost lane of the direction of the place.
-        """
-        return lane_beside(self.map, place, lanes)
 
     def may_be_beside(self, place: LanePosition, lanes: int) -> LanePosition | None:
         """Return where, from a lane on, the lanes ahead first have one so many to their left."""
@@ -93,10 +85,6 @@ class Roads:
         except ScenarioError:
             return None
 
-    def are_opposed(self, place: LanePosition, other: LanePosition) -> bool:
-        """Whether two places of one road are on lanes that lead opposite ways."""
-        return are_opposed(self.map, place, other)
-
     def ahead(self, place: LanePosition, distance: float) -> LanePosition | None:
         """Return the place so far (m) along the lane."""
         step = self.map.advance(place, distance)
@@ -116,10 +104,6 @@ class Roads:
             place = LanePosition(road, lane, s, t * self.map.travel_direction(road, lane))
             self.map.pose(place)
         return place
-
-    def pose(self, place: LanePosition) -> Pose:
-        """Return where a place is."""
-        return self.map.pose(place)
 
     def direction_at(self, x: float, y: float, z: float) -> float:
         """Return the heading (rad) of the nearest road."""
@@ -141,8 +125,7 @@ class Roads:
     def leftwards(self, lane: LanePosition | None) -> int | None:
         """Return the sign, along t, of what is to the left of travel in a lane.
 
-        Args:
-            lane: The lane; `None` if it is unknown: then it is that of all lanes, if they agree.
+        If the lane is unknown, it is that of all lanes, if they agree.
         """
         if lane is not None:
             return self.map.travel_direction(lane.road, lane.lane)
@@ -157,10 +140,6 @@ class Roads:
             for section in road.sections
             for lane in section.lanes.values()
         )
-
-    def offset_from(self, lane: LanePosition, pose: Pose) -> float:
-        """Return how far (m) a place is to the left of the centre of a lane."""
-        return offset_from(self.map, lane, pose.x, pose.y)
 
     def signal_position(self, signal: str) -> tuple[float, float]:
         """Return where a traffic light stands (m).
@@ -219,15 +198,6 @@ class Roads:
         found = way_through(self.map, places)
         return tuple(Waypoint(0.0, pose.x, pose.y, pose.z, pose.yaw) for pose in found)
 
-    def only_road(self) -> str | None:
-        """Return the road of a map that has just one."""
-        roads = list(self.map.roads)
-        return roads[0] if len(roads) == 1 else None
-
-    def is_right_hand(self, road: str) -> bool:
-        """Whether a road has right-hand traffic."""
-        return self.map.roads[road].right_hand_traffic
-
 
 def roads_of(map_file: str | None, folders: Sequence[Path]) -> Roads | None:
     """Return a map, looked for as `osc2tx run` does; `None` if it is not found.
@@ -239,14 +209,10 @@ def roads_of(map_file: str | None, folders: Sequence[Path]) -> Roads | None:
     if wanted.is_absolute() or ".." in wanted.parts:
         return None  # nothing outside of the folders is read
     try:
-        return _read_now(find_map(map_file, [f for f in folders if f.exists()]))
+        path = find_map(map_file, [f for f in folders if f.exists()])
     except InputError:
         return None
-
-
-def _read_now(path: Path) -> Roads:
-    """Return a map as its file is now: between two builds of one process it may change."""
-    now = path.stat()
+    now = path.stat()  # between two builds of one process the file may change
     return _read(path, now.st_mtime_ns, now.st_size)
 
 
@@ -291,7 +257,7 @@ def _is_beside(road_map: RoadMap, own: LaneKey, number: int, offset: float) -> b
     steps = max(1, round(length / CLOSE))
     for i in range(steps + 1):
         there = LanePosition(own.road, own.lane, section.begin + length * (i / steps), offset)
-        centre = lane_beside(road_map, there, 0)
+        centre = lane_either_way(road_map, there, 0)
         if centre is None or actual_lane(road_map, there).lane != number:
             return False
         if abs(centre.offset - offset) > SAME_PLACE:

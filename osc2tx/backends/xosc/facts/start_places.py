@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal, NamedTuple
 
+from osc2tx.backends.xosc.facts import refusing
 from osc2tx.backends.xosc.facts.actors import Shape
 from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
-from osc2tx.backends.xosc.facts.refusals import refusing
 from osc2tx.backends.xosc.report import Inexpressible, NoPlace
 from osc2tx.diagnostics import Span
 from osc2tx_runtime.domain.modifiers import Lane
@@ -20,23 +20,6 @@ from osc2tx_runtime.running.options import parse_signal, parse_spawn
 from osc2tx_runtime.world.measuring.collision import Box, box_of
 from osc2tx_runtime.world.motion.towing import pose_behind
 from osc2tx_runtime.world.state import ActorState
-
-__all__ = [
-    "Box",
-    "LaneNumber",
-    "Placed",
-    "StartRoom",
-    "TakenBy",
-    "box_at",
-    "given_place",
-    "lane_beside",
-    "open_place",
-    "place_ahead",
-    "plan_starts",
-    "read_signal",
-    "read_spawn",
-    "trailer_pose",
-]
 
 
 class LaneNumber(NamedTuple):
@@ -63,13 +46,7 @@ def open_place(
 ) -> LanePosition:
     """Return where an actor starts whose place no other one and no point says.
 
-    Args:
-        roads: The map.
-        name: Of the actor.
-        lane: In which lane; `None`: any.
-        distance: Metres from the start of the road; `None`: anywhere.
-        segment: Piece of road that it starts on; `None`: any.
-        taken_by: Tells which actor is in the way of a place.
+    Lane, distance from the start of the road (m) and piece of road are any that is `None`.
 
     Raises:
         NoPlace: There is no such place.
@@ -91,34 +68,6 @@ def given_place(
     """
     modifier = None if lane is None else lane.modifier
     return StartPlaces(roads.map).given(name, spawn, modifier, None)
-
-
-def lane_beside(roads: Roads, place: LanePosition, lanes: int) -> LanePosition:
-    """Return the lane a number of lanes to the left of a place.
-
-    Raises:
-        NoPlace: There is no such lane.
-    """
-    beside = roads.beside(place, lanes)
-    if beside is None:
-        side = "left" if lanes > 0 else "right"
-        raise NoPlace(f"there is no lane {abs(lanes)} to the {side} of lane {place.lane}")
-    return beside
-
-
-def place_ahead(
-    roads: Roads, lane: LanePosition, origin: LanePosition, distance: float
-) -> LanePosition:
-    """Return the place on a lane that is so far (m) ahead of a place on it or beside it.
-
-    Raises:
-        NoPlace: The lane does not reach as far.
-    """
-    place = place_at_distance(roads.map, lane, origin, distance)
-    if place is None:
-        way = "ahead" if distance >= 0.0 else "back"
-        raise NoPlace(f"the lane does not reach {abs(distance):g} m {way}")
-    return place
 
 
 def box_at(pose: Pose, shape: Shape) -> Box:
@@ -175,17 +124,13 @@ def plan_starts(
 ) -> list[float | None]:
     """Return when the members of a `parallel` start (s), as the embedded world plans it.
 
-    Args:
-        parts: Name, length (s) if it is known, and whether it is open-ended; the primary first.
-        overlap: A kind of overlap (§7.3.13.2).
-        start_to_start: Bounds of the offset of starts (s).
-        end_to_end: Bounds of the offset of ends (s).
-        span: The composition.
+    Each part, the primary first, has a name, a length (s) if it is known, and may be open-ended.
+    The overlap is a kind (§7.3.13.2), with bounds of the offsets of starts and of ends (s).
 
     Raises:
         Inexpressible: There is no plan, or only the run can tell whether it is kept.
     """
-    kind = next((known for known in OVERLAPS if known == overlap), None)
+    kind = next((known for known in schedule.SPANS if known == overlap), None)
     if kind is None:
         raise Inexpressible(f"`{overlap}` is no overlap", span)
     planned = [
@@ -208,6 +153,3 @@ def _steps(bounds: tuple[float, float] | None) -> schedule.Span | None:
         return None
     low, high = (round(bound * MILLISECONDS) for bound in bounds)
     return schedule.Span(low, high)
-
-
-OVERLAPS = tuple(schedule.SPANS)

@@ -14,22 +14,21 @@ from typing import assert_never
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, all_of, any_of, are_few, chosen
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.flattening.compositions.durations import Role, end_within_duration
-from osc2tx.backends.xosc.flattening.compositions.parallel_overlaps import (
+from osc2tx.backends.xosc.flattening.builder import (
+    RUN_START,
+    StoryboardBuilder,
+    construct_of,
+)
+from osc2tx.backends.xosc.flattening.directives import call, emit, finish, react
+from osc2tx.backends.xosc.flattening.durations import Role, end_within_duration
+from osc2tx.backends.xosc.flattening.leaves import end_open_actions, invoke
+from osc2tx.backends.xosc.flattening.parallel_overlaps import (
     is_open,
     report_conflicts,
     starts_of,
     unless_active,
 )
-from osc2tx.backends.xosc.flattening.events.directives import call, emit, finish, react
-from osc2tx.backends.xosc.flattening.invocations.action_endings import end_open_actions
-from osc2tx.backends.xosc.flattening.invocations.leaves import invoke
-from osc2tx.backends.xosc.flattening.storyboard.builder import (
-    RUN_START,
-    StoryboardBuilder,
-    construct_of,
-)
-from osc2tx.backends.xosc.flattening.storyboard.storyboard import Act
+from osc2tx.backends.xosc.flattening.storyboard import Act
 from osc2tx.backends.xosc.flattening.tree_queries import (
     follows_route,
     is_instant,

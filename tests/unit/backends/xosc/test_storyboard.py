@@ -2,7 +2,7 @@
 
 from osc2tx.backends.xosc.conditions import flow
 from osc2tx.backends.xosc.conditions.flow import Flow, run_start, state_of
-from osc2tx.backends.xosc.flattening.storyboard.storyboard import StoryboardWriter
+from osc2tx.backends.xosc.flattening.storyboard import StoryboardWriter
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.element import Element
 

@@ -12,7 +12,13 @@ from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.facts.actors import Linear, Pace, Profile, apart, course_of_shift, fastest
 from osc2tx.backends.xosc.facts.map_search import MapSegment
-from osc2tx.backends.xosc.facts.maps import LanePosition, is_oncoming, number_of_oncoming
+from osc2tx.backends.xosc.facts.maps import (
+    LanePosition,
+    are_opposed,
+    is_oncoming,
+    lane_either_way,
+    number_of_oncoming,
+)
 from osc2tx.backends.xosc.flattening.tree_queries import shifts_beside
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres
 from osc2tx.backends.xosc.state import LATERAL, ActorState, known
@@ -70,9 +76,7 @@ def _lanes(leaf: Leaf) -> int:
         case "same":
             return 0
         case "inside" | "outside":
-            roads, lane = leaf.ctx.roads, leaf.state.lane
-            is_right_hand = roads is None or lane is None or roads.is_right_hand(lane.road)
-            return count if (side == "inside") is is_right_hand else -count
+            return count if leaf.is_left(side) else -count
     return count if drawn_side(leaf, leaf.node, count) == "left" else -count
 
 
@@ -253,7 +257,7 @@ def lanes_to(leaf: Leaf, reference: CastMember, lanes: int) -> int | None:
     between = roads.lanes_between(mine, theirs)
     if between is None:
         return None
-    return between - lanes if roads.are_opposed(mine, theirs) else between + lanes
+    return between - lanes if are_opposed(roads.map, mine, theirs) else between + lanes
 
 
 def lane_of(leaf: Leaf, other: CastMember) -> LanePosition | None:
@@ -293,7 +297,7 @@ def _from_and_to(leaf: Leaf, lanes: int) -> tuple[LanePosition | None, LanePosit
     roads, lane = leaf.ctx.roads, leaf.state.lane
     if roads is None or lane is None:
         return lane, None
-    here, target = lane, roads.either_way_beside(lane, lanes)
+    here, target = lane, lane_either_way(roads.map, lane, lanes)
     if not leaf.is_start and (target is None or is_oncoming(roads.map, target)):
         # Lanes of its own direction that begin on the way come first.
         later = roads.may_be_beside(lane, lanes)
@@ -316,9 +320,9 @@ def _distance(
     roads = leaf.ctx.roads
     if roads is None or lane is None or target is None:
         return LANE_WIDTH * abs(lanes)
-    centre = roads.either_way_beside(lane, 0)
+    centre = lane_either_way(roads.map, lane, 0)
     assert centre is not None
-    here, there = roads.pose(centre), roads.pose(target)
+    here, there = roads.map.pose(centre), roads.map.pose(target)
     return math.hypot(here.x - there.x, here.y - there.y)
 
 

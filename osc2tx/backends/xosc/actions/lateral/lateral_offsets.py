@@ -22,7 +22,7 @@ from osc2tx.backends.xosc.actions.lateral.lanes import (
 )
 from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, modifier
-from osc2tx.backends.xosc.actions.speed.gap_elements import Gap, reach
+from osc2tx.backends.xosc.actions.speed.gaps import Gap, reach
 from osc2tx.backends.xosc.actions.speed.speed_changes import may_jump
 from osc2tx.backends.xosc.actions.speed.speed_notes import note_slow
 from osc2tx.backends.xosc.context import Context

@@ -83,9 +83,9 @@ def _start(leaf: Leaf, line: Line, corners: Sequence[Waypoint]) -> Pose:
     if roads is None:
         return along
     if state.lane is not None and leaf.is_start:
-        return roads.pose(state.lane)
+        return roads.map.pose(state.lane)
     on = roads.locate(first.x, first.y, first.z)
-    return along if on is None else along._replace(h=roads.pose(on).h)
+    return along if on is None else along._replace(h=roads.map.pose(on).h)
 
 
 def note_schedule(leaf: Leaf, corners: Sequence[Waypoint]) -> None:
@@ -137,7 +137,7 @@ def _place(leaf: Leaf) -> Pose | None:
     if state.pose is not None or ctx.roads is None or start.lane is None:
         return state.pose
     if leaf.is_start:
-        return ctx.roads.pose(start.lane)
+        return ctx.roads.map.pose(start.lane)
     before = ir.predecessor(ctx.scenario.body, leaf.node)
     if before is None or before.duration is None or not ir.is_first(ctx.scenario.body, before):
         return None
@@ -145,7 +145,7 @@ def _place(leaf: Leaf) -> Pose | None:
     if speed is None or state.speed != start.speed or state.offset != start.offset:
         return None
     there = ctx.roads.ahead(start.lane, speed * ctx.values.number(before.duration))
-    return None if there is None else ctx.roads.pose(there)
+    return None if there is None else ctx.roads.map.pose(there)
 
 
 def note_slant(
@@ -163,7 +163,7 @@ def note_slant(
     before, end = corners[-2], corners[-1]
     heading = math.atan2(end.y - before.y, end.x - before.x)
     if line.frame is None and lane is not None and leaf.ctx.roads is not None:
-        heading -= leaf.ctx.roads.pose(lane).h
+        heading -= leaf.ctx.roads.map.pose(lane).h
     elif line.frame not in ALONG_ITS_LANE:
         return 0.0
     drift = abs(speed * math.sin(heading))

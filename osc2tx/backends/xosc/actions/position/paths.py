@@ -26,12 +26,7 @@ from osc2tx.backends.xosc.actions.speed.speed_changes import may_jump
 from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment_of
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve
-from osc2tx.backends.xosc.facts.map_search import (
-    MapSegment,
-    begin_of,
-    crossing_of,
-    end_of,
-)
+from osc2tx.backends.xosc.facts.map_search import MapSegment, crossing_of, graph_of
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
@@ -156,7 +151,7 @@ def _is_there(leaf: Leaf, point: Waypoint) -> bool:
     """Whether an actor surely begins where a line does: tools set out on no line of no length."""
     pose, lane, roads = leaf.state.pose, leaf.state.lane, leaf.ctx.roads
     if pose is None and lane is not None and roads is not None and leaf.is_start:
-        pose = roads.pose(lane)
+        pose = roads.map.pose(lane)
     return pose is not None and math.hypot(point.x - pose.x, point.y - pose.y) < 1e-3
 
 
@@ -268,8 +263,8 @@ def follow(
 
 def assign_route(leaf: Leaf, segment: MapSegment) -> tuple[xml.PrivateAction, LanePosition]:
     """Return the action that gives an actor a route, and the place of its end."""
-    roads = required_roads(leaf.ctx)
-    begin, end = begin_of(roads, segment), end_of(roads, segment)
+    graph = graph_of(required_roads(leaf.ctx).map)
+    begin, end = graph.begin(segment), graph.end(segment)
     lane = leaf.state.lane
     if lane is not None and lane.road == end.road:  # it keeps its own lane
         begin, end = (

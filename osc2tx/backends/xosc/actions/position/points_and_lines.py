@@ -20,8 +20,8 @@ from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment
 from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve
 from osc2tx.backends.xosc.facts.map_search import (
     MapSegment,
-    beginnings_of,
     crossing_of,
+    graph_of,
     points_of_route,
 )
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
@@ -78,7 +78,7 @@ def points_along(
     roads = required_roads(ctx)
     segment = segment_of(ctx, route)
     if segment is not None and crossing_of(segment) is None:
-        for begin in beginnings_of(roads, segment):
+        for begin in graph_of(roads.map).beginnings(segment):
             place = roads.ahead(begin, offset)
             if place is None:
                 raise Inexpressible(f"the route ends before {offset:g} m")

@@ -7,7 +7,7 @@ from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf
 from osc2tx.backends.xosc.actions.position.points_and_lines import xml_position
 from osc2tx.backends.xosc.actions.position.xml_positions import at_place, lane_place
 from osc2tx.backends.xosc.actions.registry import modifier
-from osc2tx.backends.xosc.actions.speed.gap_elements import Gap, reach
+from osc2tx.backends.xosc.actions.speed.gaps import Gap, reach
 from osc2tx.backends.xosc.actions.speed.speed_changes import through_points
 from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
 from osc2tx.backends.xosc.actions.speed.speed_notes import (

@@ -69,7 +69,9 @@ def at_place(
         bound = Metres(REACHED, "before the place, where it counts as there")
         said.approximate("a place is a circle about a point", bound)
         return (of_entity(actor, distance_to(ctx, place, REACHED, "lessThan")),)
-    apart = math.dist(roads.pose(before)[:3], roads.pose(lane)[:3])  # less in a bend than on it
+    apart = math.dist(
+        roads.map.pose(before)[:3], roads.map.pose(lane)[:3]
+    )  # less in a bend than on it
     far = distance_to(ctx, lane_place(roads, before), round(apart - SURE, 6), "greaterThan")
     near = distance_to(ctx, place, BEFORE, "lessThan")
     return of_entity(actor, near), of_entity(actor, far)
@@ -135,7 +137,7 @@ def on_road(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
     if ctx.roads is None:
         return XmlPosition(place, None, None)
     on = ctx.roads.place(road, number, s, t)
-    return XmlPosition(place, on, ctx.roads.pose(on))
+    return XmlPosition(place, on, ctx.roads.map.pose(on))
 
 
 def on_earth(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:

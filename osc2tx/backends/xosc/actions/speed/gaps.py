@@ -7,14 +7,251 @@ there is, which the XML cannot ask for: it has to be known from what stands befo
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from math import inf
+from typing import Literal, TypeAlias
+
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.arguments import Arguments
-from osc2tx.backends.xosc.actions.leaf import Leaf, Performance
+from osc2tx.backends.xosc.actions.lateral.lanes import lateral
+from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
-from osc2tx.backends.xosc.actions.speed.gap_elements import Between, Gap, reach
+from osc2tx.backends.xosc.actions.speed.speed_elements import longitudinal, relative_speed
+from osc2tx.backends.xosc.actions.speed.speed_notes import steady_speed
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx_shared.classes import replace
+from osc2tx.backends.xosc.facts.actors import TOP_SPEED
+from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres, Remedy
+from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
+from osc2tx.xosc import elements as xml
+from osc2tx.xosc.literals import LateralDisplacement, LongitudinalDisplacement
+from osc2tx_shared.classes import dataclass, replace
+
+HOW = "how it closes the gap, and when it is there, is up to the tool"
+"""What reports say about gaps: the standard has no law for their control."""
+
+SURE = 1e-6
+"""Metres by which a gap may be another one and still counts as there."""
+
+ALONG: Mapping[str, LongitudinalDisplacement] = {
+    "ahead": "leadingReferencedEntity",
+    "behind": "trailingReferencedEntity",
+}
+ACROSS: Mapping[str, LateralDisplacement] = {
+    "left": "leftToReferencedEntity",
+    "right": "rightToReferencedEntity",
+}
+
+
+Between: TypeAlias = Literal["ends", "fronts", "points"]
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """A distance to another actor.
+
+    Attributes:
+        reference: The other one.
+        side: On which side of it the actor is: `ahead`, `behind`, `left` or `right`.
+        size: Metres, or seconds.
+        is_time: It is in seconds.
+        between: What it counts between: facing `ends`, `fronts`, or reference `points`.
+    """
+
+    reference: CastMember
+    side: str
+    size: float
+    is_time: bool = False
+    between: Between = "ends"
+
+    @property
+    def is_lateral(self) -> bool:
+        """Whether it counts across the road."""
+        return self.side in ("left", "right")
+
+
+ARRIVING = Remedy(
+    instead="`drive(duration: …)` with `position(…, at: end)`, while the other one keeps its speed,"
+    " is exact",
+    asks=("SpeedActionDynamics",),
+)
+
+
+def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) -> Change:
+    """Return the control that reaches a gap, or keeps one.
+
+    Without limits a tool keeps it rigid: so it is said where it is there already.
+
+    Args:
+        leaf: The invocation.
+        gap: The gap.
+        keeps: It goes on when the gap is reached.
+        missing: Metres by which it is another one at the start; `None` if that is not known.
+    """
+    if gap.is_lateral:
+        return _reach_sideways(leaf, gap, keeps=keeps, missing=missing)
+    size, freespace = _measured(leaf, gap)
+    if missing is None and not gap.is_time:
+        missing = _missing_at_start(leaf, gap, size, freespace=freespace)
+    controls_gaps = "LongitudinalDistanceAction" not in leaf.ctx.profile.unsupported
+    if not controls_gaps and not gap.is_time and _is_there(missing, keeps=keeps):
+        return _keep_speed_of(leaf, gap.reference.name)
+    newer = leaf.ctx.version >= "1.1"
+    _require_side(leaf, gap)
+    is_rigid = _is_rigid(leaf, gap, keeps=keeps, missing=missing)
+    leaf.follow(gap.reference, rigid=is_rigid)
+    limits = leaf.limits
+    constraints = xml.DynamicConstraints(
+        maxAcceleration=limits.acceleration,
+        maxDeceleration=limits.deceleration,
+        maxSpeed=None if newer else TOP_SPEED,
+    )
+    action = xml.LongitudinalDistanceAction(
+        None if is_rigid else constraints,
+        entityRef=gap.reference.name,
+        distance=None if gap.is_time else size,
+        timeGap=size if gap.is_time else None,
+        freespace=freespace,
+        continuous=keeps,
+        displacement=ALONG[gap.side] if newer else None,
+        coordinateSystem="lane" if newer else None,
+    )
+    if is_rigid and gap.is_time and steady_speed(leaf, gap.reference) is None:
+        leaf.approximate(
+            "a time gap without limits follows each change of a speed at once",
+            "while the other one changes its speed, by what it covers in the lag of a driver",
+        )
+    # Tools reach a gap at some speed; what follows has to say which one it wants.
+    during = replace(leaf.state, speed=None).finished(LONGITUDINAL)
+    length = inf if keeps else None
+    return Change(LONGITUDINAL, (longitudinal(action),), length, during, during)
+
+
+def _missing_at_start(leaf: Leaf, gap: Gap, distance: float, *, freespace: bool) -> float | None:
+    """Return by how much (m) a distance is another one at the start of the run, if that is now."""
+    apart = leaf.ctx.init_gaps.get((leaf.member.name, gap.reference.name))
+    if apart is None or not leaf.is_start:
+        return None
+    me, other = leaf.member.shape, gap.reference.shape
+    if gap.side == "ahead":
+        apart, me, other = -apart, other, me
+    return abs(apart - distance - (me.front - other.rear if freespace else 0.0))
+
+
+def _is_there(missing: float | None, *, keeps: bool) -> bool:
+    return keeps and missing is not None and missing <= SURE
+
+
+def _keep_speed_of(leaf: Leaf, reference: str) -> Change:
+    """Return what keeps a gap that is there in tools that control none: the speed of the other."""
+    leaf.approximate(
+        f"{leaf.ctx.profile.name} controls no gap; it gets the speed of {reference} in each step",
+        "off by the way that it takes to change its speed",
+        GENERIC,
+    )
+    leaf.ctx.followed.setdefault(leaf.member.name, set()).add(reference)
+    action = relative_speed(reference, continuous=True)
+    during = replace(leaf.state, speed=None).finished(LONGITUDINAL)
+    return Change(LONGITUDINAL, (action,), inf, during, during)
+
+
+def _is_rigid(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> bool:
+    """Whether a gap is kept that is there; else report that the way to it is up to the tool."""
+    if _is_there(missing, keeps=keeps):
+        mine, theirs = leaf.limits, gap.reference.limits
+        if mine.acceleration < theirs.acceleration or mine.deceleration < theirs.deceleration:
+            leaf.approximate(
+                f"a gap without limits is kept even where {gap.reference.name} changes its speed"
+                f" faster than {leaf.member.name} can",
+                "none while it does not",
+            )
+        return True
+    bound: Metres | str = "until it is there, at most by what was missing at its start"
+    if missing is not None:
+        bound = Metres(missing, "until it is there")
+    leaf.approximate(HOW, bound, ARRIVING)
+    return False
+
+
+def _measured(leaf: Leaf, gap: Gap) -> tuple[float, bool]:
+    """Return the size as the XML counts it, and whether it counts between the facing ends."""
+    if gap.between == "points":
+        return gap.size, False
+    if gap.between == "ends":
+        return round(gap.size, 6), True
+    behind, ahead = leaf.member.shape, gap.reference.shape
+    if gap.side == "ahead":
+        behind, ahead = ahead, behind
+    overhang = behind.front - ahead.front  # from fronts to reference points
+    if not gap.is_time:
+        return round(gap.size + overhang, 6), False
+    if abs(overhang) > 1e-6:
+        leaf.approximate(
+            "a time in the XML counts between reference points, not between fronts",
+            f"off by the time for {abs(overhang):.2g} m",
+        )
+    return round(gap.size, 6), False
+
+
+def _require_side(leaf: Leaf, gap: Gap) -> None:
+    """See to it that 1.0, which cannot say on which side a gap is, does not have to."""
+    if leaf.ctx.version >= "1.1":
+        return
+    known_side, newer = _side_at_start(leaf, gap), Remedy(version="1.1")
+    reason = "OpenSCENARIO XML 1.0 does not say on which side a distance is kept"
+    if known_side == gap.side:
+        return
+    if known_side is not None:
+        raise Inexpressible(reason, leaf.node.span, newer)
+    bound = f"differs only if it is not on the side `{gap.side}` when it begins"
+    leaf.approximate(reason, bound, newer)
+
+
+def _side_at_start(leaf: Leaf, gap: Gap) -> str | None:
+    """Return the side on which an actor is, where nothing has changed it since the start."""
+    before = ir.predecessor(leaf.ctx.scenario.body, leaf.node)
+    if before is not None and before.action.startswith(("change_space_", "change_time_")):
+        return gap.side if leaf.node.action.startswith("keep_") else None
+    if not leaf.is_start or gap.is_lateral:
+        return None
+    apart = leaf.ctx.init_gaps.get((leaf.member.name, gap.reference.name))
+    if apart is None:
+        return None
+    return "behind" if apart > 0.0 else "ahead"
+
+
+def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> Change:
+    if gap.is_time:
+        raise Inexpressible("there is no time across the road in OpenSCENARIO XML", leaf.node.span)
+    _require_side(leaf, gap)
+    newer = leaf.ctx.version >= "1.1"
+    if not newer:
+        leaf.approximate(
+            "OpenSCENARIO XML 1.0 counts a lateral distance across the actor, not across the road",
+            "off while it looks aside, by the sine of that angle times the way between both",
+            Remedy(version="1.1"),
+        )
+    limits = leaf.limits
+    # Between reference points: the free space of the XML shrinks where boxes turn.
+    sides = 0.5 * (leaf.member.shape.width + gap.reference.shape.width)
+    constraints = xml.DynamicConstraints(
+        maxAcceleration=limits.lateral, maxDeceleration=limits.lateral, maxSpeed=LATERAL_SPEED
+    )
+    action = xml.LateralDistanceAction(
+        None if _is_rigid(leaf, gap, keeps=keeps, missing=missing) else constraints,
+        entityRef=gap.reference.name,
+        distance=round(gap.size + sides, 6),
+        freespace=False,
+        continuous=keeps,
+        displacement=ACROSS[gap.side] if newer else None,
+        coordinateSystem="road" if newer else None,
+    )
+    after = replace(leaf.state, offset=None, lane=None).finished(LATERAL)
+    return Change(LATERAL, (lateral(action),), inf if keeps else None, after, after)
+
+
+LATERAL_SPEED = 3.0
+"""m/s across the road; the DSL says none."""
+
 
 OPPOSITE = {"ahead": "behind", "behind": "ahead", "left": "right", "right": "left"}
 
@@ -56,9 +293,7 @@ def _asked_for(leaf: Leaf, node: ir.Invoke, arguments: Arguments) -> Gap:
     target, reference = arguments.required("target"), arguments.required_entity("reference")
     side = arguments.member("direction", "")
     if side in ("inside", "outside"):
-        roads, lane = leaf.ctx.roads, leaf.state.lane
-        is_right_hand = roads is None or lane is None or roads.is_right_hand(lane.road)
-        side = "left" if (side == "inside") is is_right_hand else "right"
+        side = "left" if leaf.is_left(side) else "right"
     if target < 0.0:
         target, side = -target, OPPOSITE[side]
     return Gap(reference, side, target, *_counted(node))

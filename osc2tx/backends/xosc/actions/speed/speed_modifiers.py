@@ -8,10 +8,10 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.arguments import Call
 from osc2tx.backends.xosc.actions.leaf import UNKNOWN_SPEED, Change, Changes, Leaf
 from osc2tx.backends.xosc.actions.registry import modifier
+from osc2tx.backends.xosc.actions.speed.acceleration import speed_by, user_shape
 from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to, may_jump
 from osc2tx.backends.xosc.actions.speed.speed_elements import relative_speed, speed_action
 from osc2tx.backends.xosc.actions.speed.speed_notes import speed_then
-from osc2tx.backends.xosc.actions.speed.user_shapes import speed_by, user_shape
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import COMFORT, FASTEST, Course, Pace
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy

@@ -16,9 +16,9 @@ from typing import Literal, TypeAlias, cast
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.flattening.compositions.parallel_overlaps import is_open, length_of
-from osc2tx.backends.xosc.flattening.events.directives import VERDICT
-from osc2tx.backends.xosc.flattening.storyboard.builder import StoryboardBuilder, construct_of
+from osc2tx.backends.xosc.flattening.builder import StoryboardBuilder, construct_of
+from osc2tx.backends.xosc.flattening.directives import VERDICT
+from osc2tx.backends.xosc.flattening.parallel_overlaps import is_open, length_of
 from osc2tx.backends.xosc.flattening.tree_queries import is_instant
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Bounds

@@ -7,8 +7,8 @@ from osc2tx.backends.xosc.actions.arguments import construct_of_action
 from osc2tx.backends.xosc.conditions.expressions import condition_flow
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Test, run_start, single, state_of
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.flattening.events.events import EventTable
-from osc2tx.backends.xosc.flattening.storyboard.storyboard import ACTION, Act, Event
+from osc2tx.backends.xosc.flattening.events import EventTable
+from osc2tx.backends.xosc.flattening.storyboard import ACTION, Act, Event
 from osc2tx.backends.xosc.flattening.tree_queries import claims
 from osc2tx.backends.xosc.names import member_name
 from osc2tx.backends.xosc.report import Inexpressible, Metres

@@ -14,7 +14,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.start_places import plan_starts
-from osc2tx.backends.xosc.flattening.storyboard.builder import StoryboardBuilder
+from osc2tx.backends.xosc.flattening.builder import StoryboardBuilder
 from osc2tx.backends.xosc.flattening.tree_queries import claims, entry_of, is_instant
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Bounds

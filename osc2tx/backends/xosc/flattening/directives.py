@@ -6,7 +6,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.user_actions import command_of, no_model
 from osc2tx.backends.xosc.conditions.event_conditions import set_parameters
 from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Group, Test, single
-from osc2tx.backends.xosc.flattening.storyboard.builder import StoryboardBuilder
+from osc2tx.backends.xosc.flattening.builder import StoryboardBuilder
 from osc2tx.backends.xosc.names import plain
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible
 from osc2tx.xosc import elements as xml

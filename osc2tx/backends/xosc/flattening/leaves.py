@@ -6,25 +6,26 @@ from math import inf
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.arguments import Arguments
+from osc2tx.backends.xosc.actions.lateral.lanes import LANE_WIDTH
 from osc2tx.backends.xosc.actions.leaf import Change, Globals, Later, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, WITHOUT_FORM
 from osc2tx.backends.xosc.actions.signals.vehicle_lights import followed_lights
-from osc2tx.backends.xosc.actions.speed.speed_elements import in_steps
+from osc2tx.backends.xosc.actions.speed.speed_elements import ends_evenly, hold_speed, in_steps
 from osc2tx.backends.xosc.actions.speed.speed_notes import note_cut
 from osc2tx.backends.xosc.actions.user_actions import global_command, user_action
 from osc2tx.backends.xosc.conditions.flow import Flow, Test
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.flattening.compositions.durations import time_left, time_limit
-from osc2tx.backends.xosc.flattening.invocations.action_endings import record_end_state
-from osc2tx.backends.xosc.flattening.storyboard.builder import (
+from osc2tx.backends.xosc.facts.actors import Pace, apart, course_of_shift
+from osc2tx.backends.xosc.flattening.builder import (
     RUN_START,
     StoryboardBuilder,
     construct_of,
 )
+from osc2tx.backends.xosc.flattening.durations import time_left, time_limit
 from osc2tx.backends.xosc.flattening.tree_queries import entry_of
 from osc2tx.backends.xosc.names import event_name
-from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.state import LONGITUDINAL
+from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
+from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, WAY, ActorState
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 
@@ -224,3 +225,120 @@ def _act_globally(builder: StoryboardBuilder, name: str, actions: Globals, start
     for seconds, switches in later.items():
         builder.add(ctx.names.new(name), tuple(switches), start.later(seconds))
     return done
+
+
+BACK_TO_CENTRE = 1.5
+"""Seconds for the way back after a lane change that was cut short."""
+
+Claims = frozenset[tuple[str, str]]
+
+
+def record_end_state(
+    builder: StoryboardBuilder, leaf: Leaf, change: Change, *, is_over: bool
+) -> None:
+    """Note what is known about the actor when an action has ended."""
+    before = builder.ctx.states[leaf.member.name]
+    state = _merged(before, change.after if is_over else change.during, change.domain)
+    state = state.finished(change.domain).going_on(state)
+    if is_over and change.domain == LONGITUDINAL and ends_evenly(change):
+        state = replace(state, jumped=True)
+    if not is_over and not change.goes_on:
+        state = state.with_unfinished(change.domain, leaf.event)
+    builder.ctx.states[leaf.member.name] = state
+    for noted in (change.during, change.after):
+        builder.note(
+            leaf.member.name, replace(_merged(before, noted, change.domain), unfinished=())
+        )
+
+
+def _merged(before: ActorState, now: ActorState, domain: str) -> ActorState:
+    """Return the state in which only one domain has changed."""
+    if domain == LATERAL:
+        placed = replace(before, offset=now.offset, lane=now.lane, pose=now.pose)
+        return replace(placed, drift=now.drift, aside=now.aside)
+    if domain == LONGITUDINAL:
+        return replace(
+            now,
+            offset=before.offset,
+            lane=before.lane,
+            drift=before.drift,
+            aside=before.aside,
+            unfinished=before.unfinished,
+        )
+    return replace(now, unfinished=before.unfinished)
+
+
+def end_open_actions(
+    builder: StoryboardBuilder, flow: Flow, member: ir.Behavior, taken: Claims
+) -> Flow:
+    """End what is still changing when a member has ended, unless the next one takes over.
+
+    Args:
+        builder: The storyboard.
+        flow: When the member ends.
+        member: The member.
+        taken: Entities and domains that the next member takes over.
+
+    Returns:
+        When the member ends, as a flow that stays true if something had to be ended.
+    """
+    ctx = builder.ctx
+    ended = flow
+    for actor in builder.acting(member):
+        state = ctx.states[actor]
+        left = [
+            (domain, event)
+            for domain, event in state.unfinished
+            if domain != WAY and (actor, domain) not in taken
+        ]
+        if not left:
+            continue
+        actions = tuple(_ending(builder, actor, domain, member) for domain, _ in left)
+        for domain, _ in left:
+            state = state.finished(domain)
+        ctx.states[actor] = state
+        name = ctx.names.new(f"hold_{actor}")
+        ended = builder.latched(ended, name)
+        builder.add(name, actions, ended, actor=actor)
+    return ended
+
+
+def _beside(builder: StoryboardBuilder, actor: str) -> float:
+    """Return by how much (m) the way back to a centre differs at most from the world's."""
+    (member,) = (each for each in builder.ctx.entities if each.name == actor)
+    drift, ways = builder.ctx.states[actor].drift, (0.0, 0.25 * LANE_WIDTH, 0.5 * LANE_WIDTH)
+    return max(
+        apart(
+            course_of_shift(way, Pace(), member.limits, rate),
+            course_of_shift(way, Pace("smooth", None, BACK_TO_CENTRE), member.limits),
+        )
+        for way in ways
+        for rate in (-drift, drift)
+    )
+
+
+def _ending(
+    builder: StoryboardBuilder, actor: str, domain: str, member: ir.Behavior
+) -> xml.PrivateAction:
+    if domain == LONGITUDINAL:
+        return hold_speed(actor)
+    reason = (
+        f"it returns to the centre of the lane that it is in within {BACK_TO_CENTRE:g} s, and"
+        " without the lateral speed that it has"
+    )
+    bound = Metres(_beside(builder, actor), "beside, while it returns")
+    construct = "an interrupted lane change"
+    finishing = Remedy(
+        instead="an uninterrupted lane change is exact", asks=("LaneChangeActionDynamics",)
+    )
+    builder.ctx.report.approximate(construct, member.span, reason, bound, finishing)
+    return xml.PrivateAction(
+        xml.LateralAction(
+            xml.LaneChangeAction(
+                xml.LaneChangeActionDynamics(
+                    dynamicsShape="sinusoidal", dynamicsDimension="time", value=BACK_TO_CENTRE
+                ),
+                xml.LaneChangeTarget(xml.RelativeTargetLane(entityRef=actor, value=0)),
+            )
+        )
+    )

@@ -19,7 +19,7 @@ from osc2tx.backends.xosc.conditions.expressions import condition_flow
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow, Test, at_time, single
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.start_places import read_signal
-from osc2tx.backends.xosc.flattening.storyboard.storyboard import Event
+from osc2tx.backends.xosc.flattening.storyboard import Event
 from osc2tx.backends.xosc.names import plain
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.scopes import Scope

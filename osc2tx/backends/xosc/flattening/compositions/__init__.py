@@ -1,1 +1,0 @@
-"""Durations, overlaps and overrides of compositions, and conflicts between their members."""

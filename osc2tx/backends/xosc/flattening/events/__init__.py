@@ -1,1 +1,0 @@
-"""Events of a scenario, and the directives that emit them or wait for them."""

@@ -1,1 +1,0 @@
-"""Invocations of actions as events of the storyboard, and their ends."""

@@ -1,1 +1,0 @@
-"""The storyboard while it is built: acts, maneuvers, events and their names."""
