@@ -31,6 +31,7 @@ from osc2tx.ir.behaviors import (
     OneOf,
     Parallel,
     Serial,
+    SpecialScenario,
     Trigger,
     Wait,
 )

@@ -218,12 +218,29 @@ class Invoke(BehaviorBase):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SpecialScenario:
+    """A conditional scenario that runs instead of its base if the arguments have these values.
+
+    Attributes:
+        scenario: Its name.
+        key: As `Scenario.key`.
+        values: The arguments that it depends on, each with the constant that it must be.
+    """
+
+    scenario: str
+    key: str
+    values: tuple[Argument, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class InvokeScenario(BehaviorBase):
     """Another scenario as a part of this one.
 
     Attributes:
         scenario: Its name.
         key: Tells it apart from others of the same name, see `Scenario.key`.
+        specials: What runs instead of it, decided when it is invoked: the first that applies, so
+            the most special ones come first.
         actor: The actor for its `actor`.
         arguments: Its parameters and cast, in source order, without `duration`.
         duration: Time or range of time.
@@ -235,6 +252,7 @@ class InvokeScenario(BehaviorBase):
     key: str
     actor: Expression | None
     arguments: tuple[Argument, ...]
+    specials: tuple[SpecialScenario, ...] = ()
     duration: Expression | None = None
     until: tuple[Trigger, ...] = ()
     times: tuple[Argument, ...] = ()

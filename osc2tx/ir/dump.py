@@ -228,6 +228,9 @@ def _behavior(node: Behavior) -> Iterator[str]:
         case InvokeScenario(scenario=scenario, actor=actor, arguments=arguments):
             who = f"{show(actor)}." if actor is not None else ""
             yield f"InvokeScenario {who}{scenario}({show_arguments(arguments)}){place}"
+            for special in node.specials:
+                chosen = f"{special.scenario} if {show_arguments(special.values)}"
+                yield from _indented(iter((chosen,)))
             if node.times:
                 yield from _indented(iter((f"times {show_arguments(node.times)}",)))
             yield from _indented(_limits(node.duration, node.until))

@@ -183,6 +183,10 @@ class _ScenarioVerifier:
             case InvokeScenario():
                 for argument in (*node.arguments, *node.times):
                     self.check_expression(argument.value)
+                given = {argument.parameter for argument in node.arguments}
+                for value in (value for special in node.specials for value in special.values):
+                    self.require(value.parameter in given, f"choice by {value.parameter!r}")
+                    self.check_expression(value.value)
                 if node.actor is not None:
                     self.check_expression(node.actor)
                 self.check_limits(node.duration, node.until)

@@ -198,6 +198,7 @@ class BehaviorTreeBuilder:
     def _scenario_invocation(self, node: ir.InvokeScenario) -> CallView:
         name = self._invocations[node]
         arguments = [*self._label(name.label), code(name_expression(self._classes[node.key]))]
+        arguments += map(self._special, node.specials)
         if node.actor is not None:
             arguments.append(code(self._calls.expressions.write(node.actor), "actor"))
         arguments += self._calls.keywords(node.arguments)
@@ -207,6 +208,12 @@ class BehaviorTreeBuilder:
         if name.known_as is not None:
             arguments.append(code(literal(name.known_as), "known_as"))
         return CallView(self_attribute(PyName("invoke")), tuple(arguments))
+
+    def _special(self, special: ir.SpecialScenario) -> ArgumentView:
+        """Write a conditional scenario: `SlowPhase.when(fast=False)`."""
+        of_class = name_expression(self._classes[special.key])
+        function = PyExpr(f"{of_class.text}.when", Level.ATOM)
+        return ArgumentView(call=CallView(function, self._calls.keywords(special.values)))
 
     def _times(self, times: tuple[ir.Argument, ...]) -> ArgumentView:
         """Write the times of an invoked scenario by their paths."""

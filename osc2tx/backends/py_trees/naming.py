@@ -65,6 +65,7 @@ SCENARIO_ATTRIBUTES = frozenset(
         "short_name",
         "source",
         "started",
+        "when",
     }
 )
 

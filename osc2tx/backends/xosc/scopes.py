@@ -31,6 +31,7 @@ class Scope:
         prefix: Before the names of what is its own.
         path: Labels of the invocations down to it, for keys of parameters.
         inner: Scopes of the scenarios that it invokes, by the span of the invocation.
+        undecided: Why it is open which conditional scenario an invocation runs; likewise.
         by_label: The same by label.
         deeds: How often its members do the same.
         own: Those of its cast that nobody has handed in.
@@ -44,6 +45,7 @@ class Scope:
     path: str
     deeds: Mapping[Deed, int]
     inner: dict[Hashable, Scope] = field(default_factory=dict)
+    undecided: dict[Hashable, Inexpressible] = field(default_factory=dict)
     by_label: dict[str, Scope] = field(default_factory=dict)
     own: list[CastMember] = field(default_factory=list)
     is_first: bool = True
@@ -52,8 +54,10 @@ class Scope:
         """Return the scope of an invoked scenario.
 
         Raises:
-            Inexpressible: It is a scenario around it.
+            Inexpressible: It is a scenario around it, or which one it is depends on the run.
         """
+        if node.span in self.undecided:
+            raise self.undecided[node.span]
         if node.span not in self.inner:
             raise Inexpressible(
                 f"`{node.scenario}` invokes itself, and OpenSCENARIO XML has no recursion",
@@ -93,7 +97,8 @@ def require_room(scenario: ir.Scenario, module: ir.Module) -> None:
         """Return the members of a scenario, and how many scenarios are in each other below it."""
         if key not in sizes and around <= MOST_DEPTH:
             nodes = ir.walk_behaviors(by_key[key].body)
-            inner = [size(n.key, around + 1) for n in nodes if isinstance(n, ir.InvokeScenario)]
+            keys = [key for node in nodes for key in _invocable(node)]
+            inner = [size(key, around + 1) for key in keys]
             members = len(nodes) + sum(members for members, _ in inner)
             sizes[key] = members, 1 + max((depth for _, depth in inner), default=0)
         return sizes.get(key, (0, MOST_DEPTH))
@@ -115,6 +120,13 @@ def require_room(scenario: ir.Scenario, module: ir.Module) -> None:
     )
 
 
+def _invocable(node: ir.Behavior) -> tuple[str, ...]:
+    """Return the keys of the scenarios of which a member may run one."""
+    if not isinstance(node, ir.InvokeScenario):
+        return ()
+    return (node.key, *(special.key for special in node.specials))
+
+
 def open_scopes(
     scenario: ir.Scenario, module: ir.Module, chosen: Mapping[str, Constant] | None = None
 ) -> Scope:
@@ -133,6 +145,19 @@ def key_of(path: str, parameter: ir.Parameter) -> str:
     if parameter.is_global:
         return ir.setting_name(parameter.name)
     return f"{path}.{parameter.name}" if path else parameter.name
+
+
+def chosen_key(node: ir.InvokeScenario, values: Values) -> str:
+    """Return the key of the scenario that an invocation runs, by the values of its arguments.
+
+    Raises:
+        Inexpressible: They are not known before the run.
+    """
+    given = {argument.parameter: argument.value for argument in node.arguments}
+    for special in node.specials:
+        if all(values.of(given[v.parameter]) == values.of(v.value) for v in special.values):
+            return special.key
+    return node.key
 
 
 class _Place(NamedTuple):
@@ -179,8 +204,15 @@ class _Opener:
             if isinstance(declaration, ir.Actor) and declaration.name not in handed_in:
                 self._join(declaration, scope)
         for node in ir.walk_behaviors(scenario.body):
-            if isinstance(node, ir.InvokeScenario) and node.key not in place.around:
-                inner = self._invoke(node, scope, place.around)
+            if isinstance(node, ir.InvokeScenario):
+                try:
+                    callee = self._by_key[chosen_key(node, scope.values)]
+                except Inexpressible as error:
+                    scope.undecided[node.span] = error
+                    continue
+                if callee.key in place.around:
+                    continue
+                inner = self._invoke(node, callee, scope, place.around)
                 inner.is_first = scope.is_first and ir.is_first(scenario.body, node)
         return scope
 
@@ -199,9 +231,10 @@ class _Opener:
         scope.cast[actor.name] = member
         scope.values.know(actor.name, member.sizes)
 
-    def _invoke(self, node: ir.InvokeScenario, scope: Scope, around: tuple[str, ...]) -> Scope:
-        callee = self._by_key[node.key]
-        label = node.label or callee.name.rpartition(".")[2]
+    def _invoke(
+        self, node: ir.InvokeScenario, callee: ir.Scenario, scope: Scope, around: tuple[str, ...]
+    ) -> Scope:
+        label = node.label or node.scenario.rpartition(".")[2]
         given = scope.values.given_below(f"{label}.")
         unknown: dict[str, Inexpressible] = {}
         handed_in: dict[str, CastMember] = {}

@@ -5,17 +5,11 @@ from __future__ import annotations
 from osc2tx import ir
 from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx.analysis.constraints.parameter_lookup import Place
-from osc2tx.analysis.constraints.specialisation import (
-    Behavior,
-    determinant_of,
-    is_certain,
-    is_possible,
-)
+from osc2tx.analysis.constraints.specialisation import determinant_of
 from osc2tx.ir.source_text import statement_name
 from osc2tx.lowering.behavior.composed_behaviors import (
     Composed,
     actor_type_of,
-    has_behavior,
     is_composed,
     lineage_of,
     scenario_key,
@@ -28,6 +22,7 @@ from osc2tx.lowering.behavior.durations import (
 from osc2tx.lowering.behavior.fixed_arguments import without_fixed
 from osc2tx.lowering.behavior.node_names import invocation_name
 from osc2tx.lowering.behavior.reactions import Attached, attached_context, label_of
+from osc2tx.lowering.behavior.special_scenarios import Specialised, SpecialScenarios
 from osc2tx.lowering.behavior.triggers import lower_until
 from osc2tx.lowering.behavior.user_actions import default_arguments, is_user_defined
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
@@ -64,6 +59,7 @@ class InvocationLowering:
         self._ctx = ctx
         self._constraints = constraints
         self._standing = standing
+        self._specials = SpecialScenarios(ctx, constraints)
 
     def lower(self, node: ast.Invocation) -> ir.Behavior | None:
         """Lower an invocation, with what its modifiers attach; `None` if it was refused.
@@ -77,7 +73,7 @@ class InvocationLowering:
         attached = Attached()
         invocation: ir.Invoke | ir.InvokeScenario | None
         if is_composed(callee):
-            special = self._specialised(node, callee)
+            special = self._specials.of(node, callee)
             invocation = self._scenario(node, special, actor, comments, attached)
         else:
             assert isinstance(callee, sym.ActionSymbol)
@@ -160,33 +156,6 @@ class InvocationLowering:
         name = f"{name_of_member(node)}.duration"
         return start_on_path(with_open_duration(self._ctx, invocation, name, node))
 
-    def _specialised(self, node: ast.Invocation, callee: Composed) -> Composed:
-        """Return the special scenario that the values of an invocation select (§7.3.8.2.2).
-
-        It must be known at compile time.
-        """
-        certain: list[Composed] = []
-        for symbol in self._ctx.model.symbols:
-            if not isinstance(symbol, Behavior) or symbol.base is not callee:
-                continue
-            condition = determinant_of(self._ctx.model, symbol)
-            if condition is None or not is_composed(symbol):
-                continue
-            domain = self._constraints.found.domains.get((node, condition.field))
-            if is_certain(domain, condition.value):
-                certain.append(symbol)
-            elif is_possible(domain, condition):
-                self._ctx.unsupported(
-                    "OSC501",
-                    node.span,
-                    f"whether this is a `{symbol.qualified_name}` is open until the run",
-                    help=f"fix what it depends on: `{condition.field.name}: …`",
-                )
-        if len(certain) > 1:
-            names = " and ".join(f"`{each.qualified_name}`" for each in certain)
-            self._ctx.unsupported("OSC501", node.span, f"this is both {names}")
-        return self._specialised(node, certain[0]) if certain else callee
-
     def _conditions(self, callee: Composed) -> set[str]:
         """Return the parameters that a scenario has a value of as it is of a conditional type."""
         found = (determinant_of(self._ctx.model, each) for each in lineage_of(callee))
@@ -206,25 +175,28 @@ class InvocationLowering:
     def _scenario(
         self,
         node: ast.Invocation,
-        callee: Composed,
+        special: Specialised,
         actor: ir.Expression | None,
         comments: tuple[str, ...],
         attached: Attached,
     ) -> ir.InvokeScenario | None:
-        if not has_behavior(callee):
+        callee = special.scenario
+        idle = self._specials.without_behavior(node, special)
+        if idle is not None:
             self._ctx.unsupported(
                 "OSC504",
                 node.span,
-                f"scenario `{callee.qualified_name}` has no `do`",
+                f"scenario `{idle.qualified_name}` has no `do`",
                 help="say what happens in it: `do …`",
             )
             return None
         self._ctx.invoked.append(callee)
-        arguments = self._arguments(node, actor)
+        given = self._arguments(node, actor)
+        arguments = self._specials.drawn(node, special, given, name_of_member(node))
         self.refuse_movement(node, actor, callee, "an invoked scenario", attached)
         types_ = {each.name: symbol_of(each.type) for each in parameters_of(callee)}
-        handed_in = [(each.value, types_.get(each.parameter)) for each in arguments]
-        for whose, type_ in ((actor, callee.actor), *handed_in):
+        objects = [(each.value, types_.get(each.parameter)) for each in arguments]
+        for whose, type_ in ((actor, callee.actor), *objects):
             known_as = type_ if isinstance(type_, sym.ActorSymbol) else None
             for modifier in self._standing.not_known_to(whose, known_as):
                 self._ctx.unsupported(
@@ -241,6 +213,8 @@ class InvocationLowering:
                 f"`{callee.qualified_name}` says itself how long it takes, and leaves that open",
                 help="leave the constraint out there, or the duration here",
             )
+        decided = ("duration", *self._conditions(callee))
+        handed_in = tuple(each for each in arguments if each.parameter not in decided)
         return ir.InvokeScenario(
             span=node.span,
             label=label_of(node),
@@ -249,11 +223,8 @@ class InvocationLowering:
             scenario=callee.qualified_name,
             key=scenario_key(callee),
             actor=actor,
-            arguments=tuple(
-                each
-                for each in without_fixed(self._ctx, callee, arguments)
-                if each.parameter not in ("duration", *self._conditions(callee))
-            ),
+            specials=self._specials.lowered(special, arguments),
+            arguments=without_fixed(self._ctx, callee, handed_in),
             duration=duration if duration is None else with_bounds(duration),
             until=lower_until(self._ctx, node.with_members),
         )

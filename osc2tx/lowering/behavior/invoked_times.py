@@ -138,7 +138,7 @@ class InvokedTimes:
         self, node: ir.InvokeScenario, around: _Frame | None, drawn: dict[str, ir.FieldRef]
     ) -> _Frame:
         scenario = self.scenario_of(node.key)
-        if not isinstance(scenario, ir.Scenario) or scenario.overrides:
+        if not isinstance(scenario, ir.Scenario) or scenario.overrides or node.specials:
             raise _Undecided
         inside = ir.walk_behaviors(scenario.body)
         if any(isinstance(each, ir.Finish) for each in inside):

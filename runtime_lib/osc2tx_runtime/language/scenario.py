@@ -27,6 +27,7 @@ from osc2tx_runtime.language.tree.late_invocation import (
     late_arguments,
 )
 from osc2tx_runtime.language.tree.override import Mode
+from osc2tx_runtime.language.tree.special import Special, choice
 from osc2tx_runtime.language.tree.variables import MISSING, Boundary, Sampled
 from osc2tx_runtime.language.values.broken_values import not_computed
 from osc2tx_shared.classes import replace
@@ -159,7 +160,7 @@ class BaseScenario(ScenarioParts):
         self,
         scenario: type[BaseScenario],
         /,
-        *,
+        *specials: Special[BaseScenario],
         actor: BaseActor | None = None,
         duration: Duration | None = None,
         known_as: str | None = None,
@@ -172,7 +173,7 @@ class BaseScenario(ScenarioParts):
         label: str,
         scenario: type[BaseScenario],
         /,
-        *,
+        *specials: Special[BaseScenario],
         actor: BaseActor | None = None,
         duration: Duration | None = None,
         known_as: str | None = None,
@@ -182,7 +183,7 @@ class BaseScenario(ScenarioParts):
     def invoke(
         self,
         /,
-        *label_and_scenario: Any,
+        *label_and_scenarios: Any,
         actor: BaseActor | None = None,
         duration: Duration | None = None,
         known_as: str | None = None,
@@ -195,8 +196,10 @@ class BaseScenario(ScenarioParts):
         of the actors, not on the order of invocations.
 
         Args:
-            *label_and_scenario: Its class. The label before it may be left out; it is the name for
-                `@label.end`, for settings (`--set label.gap=12`) and in the trace.
+            *label_and_scenarios: Its class, and conditional ones that run instead if the arguments
+                say so: `Phase, SlowPhase.when(fast=False)`. The label before them may be left out;
+                it is the name for `@label.end`, for settings (`--set label.gap=12`) and in the
+                trace.
             actor: Its `actor`, for a scenario of an actor.
             duration: Seconds, or (least, most) seconds, that it takes.
             known_as: Its name in settings and in the trace if it has no label; else the name of the
@@ -208,7 +211,7 @@ class BaseScenario(ScenarioParts):
         Raises:
             ScenarioError: If it does not take the arguments.
         """
-        label, (scenario,) = split_label(label_and_scenario)
+        label, (scenario, *specials) = split_label(label_and_scenarios)
         given = arguments if actor is None else {"actor": actor, **arguments}
         name = unique_name(label or known_as or scenario.name.rpartition(".")[2], self._invoked)
         path = f"{self._path}.{name}" if self._path else name
@@ -224,14 +227,25 @@ class BaseScenario(ScenarioParts):
 
         def made() -> Invocation:
             values = {name: each() if name in late else each for name, each in given.items()}
-            by = replace(caller, arguments=values) if late else caller
-            invoked = scenario(self.settings, caller=by, **values)
+            chosen, values = choice(scenario, specials, values)
+            by = replace(caller, arguments=values)
+            invoked = chosen(self.settings, caller=by, **values)
             self._invoked[name] = invoked
             return Invocation(who, invoked, invoked.create_tree(), duration)
 
-        if late or is_recursive(self, scenario):
-            return LateInvocation(who, self, scenario, made)
+        classes = (scenario, *(special.scenario for special in specials))
+        if late or any(is_recursive(self, each) for each in classes):
+            return LateInvocation(who, self, classes, made)
         return made()
+
+    @classmethod
+    def when(cls, **values: Any) -> Special[BaseScenario]:
+        """Return this scenario as one that runs instead of its base: `SlowPhase.when(fast=False)`.
+
+        Args:
+            **values: The arguments that an invocation of the base has then.
+        """
+        return Special(cls, values)
 
     def override(self, overridden: str, by: str, mode: Mode = "on_start") -> None:
         """Let a behavior end another when it starts; call it in `behavior`.

@@ -52,7 +52,8 @@ def check_arguments(scenario: ScenarioParts) -> None:
         TypeError: A program calls the class so.
         ScenarioError: A scenario invokes it so.
     """
-    known = (*scenario.parameters, *scenario._composite)
+    fixed = (name for name, narrowed in scenario._narrowed.items() if narrowed.is_fixed)
+    known = (*scenario.parameters, *scenario._composite, *fixed)
     for name in scenario._arguments:
         if name not in known and not isinstance(vars(scenario).get(name), BaseActor):
             if scenario._caller is None:

@@ -7,7 +7,7 @@ fails, which ends an alternative of a `one_of` and leaves the others.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
@@ -52,7 +52,7 @@ class LateInvocation(Node):
     Args:
         name: As of the invocation.
         caller: The scenario that invokes.
-        invoked: The class of the scenario.
+        invoked: The classes of which it is one: its own, and conditional ones.
         make: Makes the invocation.
     """
 
@@ -60,7 +60,7 @@ class LateInvocation(Node):
         self,
         name: str,
         caller: ScenarioParts,
-        invoked: type[ScenarioParts],
+        invoked: Sequence[type[ScenarioParts]],
         make: Callable[[], Invocation],
     ) -> None:
         super().__init__(name)
@@ -79,14 +79,15 @@ class LateInvocation(Node):
         self.children, self._pulse_child = [], None
         root = self._caller_scenario._root
         root._recursions += 1
-        is_deep = levels(self._caller_scenario, self._invoked) > MOST_LEVELS
+        around = (levels(self._caller_scenario, each) for each in self._invoked)
+        is_deep = any(depth > MOST_LEVELS for depth in around)
         if is_deep or root._recursions > MOST_INVOCATIONS:
             return
         known = set(root.actors)
         made = self._make()
         if set(root.actors) != known:
             raise UnsupportedError(
-                f"{self._invoked.name} declares actors of its own in an invocation that is made"
+                f"{made.scenario.name} declares actors of its own in an invocation that is made"
                 " when it starts: hand them in",
                 self.source or None,
             )
@@ -112,8 +113,8 @@ class LateInvocation(Node):
         resting = self.context.resting.nodes
         if self._pulse_child is None:
             status = self.fail(
-                f"{self._invoked.name} invokes itself more than {MOST_LEVELS} levels deep, or more"
-                f" than {MOST_INVOCATIONS} times in all"
+                f"{self._invoked[0].name} invokes itself more than {MOST_LEVELS} levels deep, or"
+                f" more than {MOST_INVOCATIONS} times in all"
             )
         else:
             child: Behaviour = self.children[0]

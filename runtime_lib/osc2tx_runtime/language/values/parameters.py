@@ -114,6 +114,12 @@ def fixed(value: ValueT) -> ValueT:
     return value
 
 
+def only(value: Any) -> Domain:
+    """Return the domain that one value alone lies in."""
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    return Range(value, value) if is_number else Choice((value,))
+
+
 def choose(
     name: str,
     default: Any,

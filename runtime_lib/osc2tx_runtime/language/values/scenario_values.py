@@ -12,7 +12,15 @@ from osc2tx_runtime.language.tree.coverage import CoverageItem, ItemOptions
 from osc2tx_runtime.language.values.drawing import ATTEMPTS, Drawing
 from osc2tx_runtime.language.values.external_methods import external_function
 from osc2tx_runtime.language.values.narrowing import Narrowed
-from osc2tx_runtime.language.values.parameters import Choice, Domain, NumberT, Range, ValueT, choose
+from osc2tx_runtime.language.values.parameters import (
+    Choice,
+    Domain,
+    NumberT,
+    Range,
+    ValueT,
+    choose,
+    only,
+)
 from osc2tx_runtime.language.values.walks import Draws
 from osc2tx_runtime.language.values.written_units import AnyUnit, Unit, unit_named
 
@@ -301,12 +309,16 @@ class ScenarioValues:
 
     def _own(self, name: str, default: Any, domain: Domain | None, unit: AnyUnit) -> Any:
         narrowed = self._narrowed.get(name)
-        if narrowed is not None:
-            if narrowed.is_fixed:
-                return narrowed.value
-            default, domain, unit = narrowed.value, narrowed.domain, narrowed.unit or unit
         path = f"{self._path}.{name}" if self._path else name
         generator = self._drawing.draws_for(f"{self._key}/{name}")
+        if narrowed is not None:
+            if narrowed.is_fixed:
+                default = narrowed.value
+                if name in self._arguments:  # it has to be the same
+                    same = only(default)
+                    self._choose(name, path, default, same, generator, self._arguments[name])
+                return default
+            default, domain, unit = narrowed.value, narrowed.domain, narrowed.unit or unit
         given = self._times.get(name, self._arguments.get(name))
         if unit:
             self.parameter_units[name] = self._first.parameter_units[path] = unit_named(unit)
