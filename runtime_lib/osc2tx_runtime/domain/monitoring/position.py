@@ -11,7 +11,7 @@ from osc2tx_runtime.domain.monitoring.conditions import Condition, Reading
 from osc2tx_runtime.domain.monitoring.registry import monitors
 from osc2tx_runtime.domain.monitoring.shaped_values import is_course, limits, moment
 from osc2tx_runtime.domain.placing.pose_resolution import pose_of
-from osc2tx_runtime.domain.routes.lane_coordinates import position_along_road
+from osc2tx_runtime.domain.routes.lane_coordinates import position_from
 from osc2tx_runtime.opendrive import LanePosition
 from osc2tx_runtime.world.measuring.distances import along_lanes
 
@@ -59,12 +59,14 @@ def _beside(modifier: Position, phase: Phase) -> Callable[[], Reading | None]:
 
 
 def _on_road(modifier: Position, phase: Phase) -> Callable[[], Reading | None]:
-    road_map, me = phase.world.map, phase.me
+    road_map, me, origin = phase.world.map, phase.me, phase.first.lane_position
     size = limits(modifier, phase, Position.size)
 
     def measure() -> Reading | None:
         place = me().lane_position
-        return None if place is None else (position_along_road(road_map, place), *size())
+        if place is None:
+            return None
+        return position_from(road_map, origin or place, place), *size()
 
     return measure
 

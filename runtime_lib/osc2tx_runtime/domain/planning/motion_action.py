@@ -247,11 +247,17 @@ class ModifiedMotion(MotionAction):
 
     def initialise(self) -> None:
         """Read the arguments of the modifiers that are read late, and start."""
+        self.__dict__.pop("origin", None)
         if any(callable(value) for each in self._given for value in each.given().values()):
             self.modifiers = with_blame(self, partial(settled, self._given))
             for depending in ("lasting", "orient"):
                 self.__dict__.pop(depending, None)
         super().initialise()
+
+    @cached_property
+    def origin(self) -> LanePosition:
+        """Its place at the start of the action: positions count along the road there, and on."""
+        return self.place_of(self.actor.id)
 
     @cached_property
     def lasting(self) -> tuple[Modifier, ...]:

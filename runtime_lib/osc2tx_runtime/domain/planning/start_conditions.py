@@ -33,7 +33,7 @@ from osc2tx_runtime.domain.planning.lateral.lateral_targets import lanes_wanted
 from osc2tx_runtime.domain.planning.longitudinal.goals import way_to
 from osc2tx_runtime.domain.planning.longitudinal.longitudinal_planning import speed_at_start
 from osc2tx_runtime.domain.planning.motion_action import Refused
-from osc2tx_runtime.domain.routes.lane_coordinates import position_along_road
+from osc2tx_runtime.domain.routes.lane_coordinates import position_from
 from osc2tx_runtime.domain.routes.place_on_route import driven_on_route
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.geometry.curve import turn_between
@@ -166,9 +166,11 @@ def measured(action: ModifiedMotion, position: Position) -> tuple[float, float, 
         Refused: There is no way to the reference.
     """
     if position.reference is None:
-        low, high = way_to(action, position)
-        here = position_along_road(action.world.map, action.place_of(action.actor.id))
-        return here, here + low, here + high, "its position along its road is"
+        place = action.place_of(action.actor.id)
+        here = position_from(action.world.map, action.origin, place)
+        low, high = position.size() if position.is_on_road else way_to(action, position)
+        shift = 0.0 if position.is_on_road else here
+        return here, shift + low, shift + high, "its position along its road is"
     other = action.world.state(position.reference.id)
     along = along_lanes(action.world.map, other, action.here)
     if along is None:

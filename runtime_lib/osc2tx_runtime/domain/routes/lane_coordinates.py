@@ -73,14 +73,37 @@ def _in_section_at(road_map: RoadMap, place: LanePosition, s: float) -> LanePosi
     return LanePosition(key.road, key.lane, s)
 
 
-def way_to_position(road_map: RoadMap, place: LanePosition, position: float) -> float:
-    """Metres along the lane of a place to a position along its road; negative if it lies behind.
+def position_from(road_map: RoadMap, origin: LanePosition, place: LanePosition) -> float:
+    """As `position_along_road`, on from the road of an origin: beyond its end along the lanes.
 
-    Where the lane ends before, the rest counts along the road.
+    Args:
+        road_map: The map.
+        origin: A place on the road at whose start the position is zero.
+        place: A place on it, or on a road to which it leads; on others it counts along that road.
     """
-    there = place_along_road(road_map, place, position)
-    way = None if there is None else road_map.route_distance(place, there)
-    return position - position_along_road(road_map, place) if way is None else way
+    if place.road == origin.road:
+        return position_along_road(road_map, place)
+    length = road_map.roads[origin.road].length
+    forwards = road_map.travel_direction(origin.road, origin.lane) > 0
+    ends = road_map.lanes(origin.road, length if forwards else 0.0, like=origin.lane)
+    end = LanePosition(origin.road, ends[0], length if forwards else 0.0) if ends else origin
+    beyond = road_map.route_distance(end, place)
+    if beyond is None:
+        return position_along_road(road_map, place)
+    return position_along_road(road_map, end) + beyond
+
+
+def way_to_position(
+    road_map: RoadMap, origin: LanePosition, here: LanePosition, position: float
+) -> float:
+    """Metres along the lane from a place to a position on from the road of an origin.
+
+    It is negative if the position lies behind. Where the lane ends before, the rest counts along
+    the road.
+    """
+    there = place_along_road(road_map, here if here.road == origin.road else origin, position)
+    way = None if there is None else road_map.route_distance(here, there)
+    return position - position_from(road_map, origin, here) if way is None else way
 
 
 def place_at_distance(

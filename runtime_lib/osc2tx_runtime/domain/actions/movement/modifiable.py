@@ -236,6 +236,7 @@ class ModifiableAction(ModifiedMotion):
         """Ends with its goal; keeps up with references."""
         if self._jumped and not self.context.effects.is_pending(self):
             self._jumped = False
+            self.__dict__.pop("origin", None)
             self._command_rest()
             return Status.RUNNING
         covered = self._to_cover is None or self._cover() >= self._to_cover - 1e-6

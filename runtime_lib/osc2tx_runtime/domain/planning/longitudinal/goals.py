@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from osc2tx_runtime.domain.modifiers import (
@@ -85,8 +86,8 @@ def way_to(action: ModifiedMotion, position: Position) -> tuple[float, float]:
         way = _way_to_point(action, here, at.x, at.y, at.z)
         return way, way
     if point is None:
-        least, greatest = (way_to_position(action.world.map, here, at) for at in (low, high))
-        return least, greatest
+        along = partial(way_to_position, action.world.map, action.origin, here)
+        return along(low), along(high)
     way = _way_to_point(action, here, point.x, point.y, point.z)
     return (way + low, way + high) if position.ahead else (way - high, way - low)
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from osc2tx_runtime.domain.modifiers import Along, Distance, Position, value_of
 from osc2tx_runtime.domain.modifiers.base import course_of, own_course, target_of
 from osc2tx_runtime.domain.planning.feasibility import check_course, check_peak
 from osc2tx_runtime.domain.planning.motion_action import Refused
-from osc2tx_runtime.domain.routes.lane_coordinates import position_along_road, way_to_position
+from osc2tx_runtime.domain.routes.lane_coordinates import position_from, way_to_position
 from osc2tx_runtime.domain.routes.place_on_route import place_on_route
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.commands import Command, Cover, GapCourse
@@ -104,15 +105,16 @@ def _way(action: ModifiedMotion, modifier: Placing) -> _Way:
         sign = 1.0 if modifier.ahead else -1.0
         here = least - low if modifier.ahead else least + high
         return _Way(here, min(max(here, least), most), sign, sign * v)
-    here = position_along_road(action.world.map, place)
+    here = position_from(action.world.map, action.origin, place)
     low, high = way_to(action, modifier)
     return _Way(here, min(max(here, here + low), here + high), 1.0, v)
 
 
 def _along_lane(action: ModifiedMotion, course: Profile) -> Computed:
     """The way (m) along the lane over the time, of a course of positions along the road."""
-    road_map, place = action.world.map, action.place_of(action.actor.id)
-    return Computed(lambda t: way_to_position(road_map, place, course.value(t)), course.duration)
+    here = action.place_of(action.actor.id)
+    way = partial(way_to_position, action.world.map, action.origin, here)
+    return Computed(lambda t: way(course.value(t)), course.duration)
 
 
 def _along(action: ModifiedMotion, along: Along) -> _Way:
