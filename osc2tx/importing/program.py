@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import field
+from dataclasses import field, replace
 from textwrap import wrap
 from typing import Literal, TypeAlias
 
@@ -77,11 +77,19 @@ def settled(members: Sequence[Statement]) -> list[Statement]:
         if last is None or last.length != math.inf:
             found.append(member)
         elif member.text.startswith("wait ") and member.members is None:
-            last.modifiers.append(f"until {member.text.removeprefix('wait ')}")
-            last.length = None
+            found[-1] = ended(last, member)
         else:
             break
     return found
+
+
+def ended(statement: Statement, by: Statement) -> Statement:
+    """Return something that never ends by itself up to what a wait waits for."""
+    until = by.text.removeprefix("wait ")
+    if statement.text.endswith(".keep_speed()") and until.startswith("elapsed("):
+        duration = until.removeprefix("elapsed(")
+        return replace(statement, text=f"{statement.text[:-1]}duration: {duration}", length=None)
+    return replace(statement, modifiers=[*statement.modifiers, f"until {until}"], length=None)
 
 
 def _length(kind: Kind, members: Sequence[Statement]) -> float | None:

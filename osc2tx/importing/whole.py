@@ -8,6 +8,16 @@ from collections.abc import Sequence
 from osc2tx.importing.cast import Cast
 from osc2tx.importing.conditions import Trigger
 from osc2tx.importing.document import Document
+from osc2tx.importing.endings import (
+    Waits,
+    ends_with,
+    first_of,
+    go_on_behind,
+    held_for,
+    is_open,
+    seconds,
+    without_events,
+)
 from osc2tx.importing.names import Names
 from osc2tx.importing.program import Statement, composed, wait
 from osc2tx.importing.report import ImportReport
@@ -28,139 +38,183 @@ class Whole:
         self, structure: Structure, branches: Sequence[Branch], inits: Starts, end: Trigger
     ) -> Statement:
         """Return the behavior of branches, with their starts and what ends it."""
-        actors = list(self._cast.actors.items())
-        leading: list[Statement] = list(inits.world)
-        by_name = {
-            actor.name: [b for b in branches if actor.name in b.actors] for _, actor in actors
+        endings = self._endings(structure, end)
+        branches, endings = without_events(branches, endings, structure.lines)
+        members = _Members(self._cast, inits, branches)
+        begun = [*members.begin(), *inits.ways()]
+        course = self._composed(structure, begun, members, endings)
+        return composed("serial", [*members.leading, *course])
+
+    def _endings(self, structure: Structure, end: Trigger) -> list[Waits]:
+        """Return what ends the scenario, each way of it as what is waited for."""
+        if not is_endless(end):
+            groups = (structure.waits(Trigger([group])) for group in end.groups)
+            return [waits or [wait("elapsed(0s)")] for waits in groups]
+        self._report.add(
+            "approximated",
+            "<StopTrigger>",
+            f"nothing ends the document; the scenario ends after {LONGEST}",
+            self._document.root.place,
+        )
+        return [[wait(f"elapsed({LONGEST})")]]
+
+    def _composed(
+        self,
+        structure: Structure,
+        begun: list[Statement],
+        members: _Members,
+        endings: Sequence[Waits],
+    ) -> list[Statement]:
+        """Return all that goes on side by side, up to the end."""
+        waits = first_of(endings)
+        branches = [each for each in members.branches if members.content(each)]
+        if not begun and not branches:
+            return waits
+        lasting = {id(each): members.lasting(each, seconds(waits)) for each in branches}
+        for branch in branches if all(map(is_open, begun)) else ():
+            rest = ends_with(branch, waits)
+            others = [lasting[id(each)] for each in branches if each is not branch]
+            if rest is not None and None not in others:
+                content = [*members.content(branch), *held_for(members.going(branch), rest)]
+                lasting[id(branch)] = composed("serial", content)
+                side_by_side = [*begun, *filter(None, lasting.values())]
+                return [composed("parallel", side_by_side)]
+        side_by_side = [*begun, *(each for each in lasting.values() if each is not None)]
+        if all(map(is_open, begun)) and None not in lasting.values():
+            return [composed("parallel", [*side_by_side, composed("serial", waits)])]
+        done = [members.done(each) for each in branches]
+        return [self._until(structure, [*begun, *filter(None, done)], endings)]
+
+    def _until(
+        self, structure: Structure, members: list[Statement], endings: Sequence[Waits]
+    ) -> Statement:
+        """Return members side by side, some of which last longer or shorter than the scenario."""
+        texts = [each[0].text.removeprefix("wait ") for each in endings]
+        if any(len(each) > 1 or not each[0].text.startswith("wait ") for each in endings):
+            name = self._names.new("", kind="event", base="finished")
+            structure.lines.append(f"event {name}")
+            members.append(composed("serial", [*first_of(endings), Statement(f"emit {name}")]))
+            texts = [f"@{name}"]
+        if len(texts) > 1:
+            structure.lines.append("event forever")
+        members.append(wait(texts[0] if len(texts) == 1 else "@forever"))
+        whole = Statement("parallel", members=members)
+        whole.modifiers = [f"until {each}" for each in texts]
+        return whole
+
+
+class _Members:
+    """What the actors of a scenario do side by side.
+
+    Attributes:
+        branches: What happens, one branch beside the other.
+        leading: What comes before all that.
+    """
+
+    def __init__(self, cast: Cast, inits: Starts, branches: Sequence[Branch]) -> None:
+        self._inits, self.branches = inits, branches
+        self._actors = cast.actors
+        self._of = {
+            each.name: [b for b in branches if each.name in b.actors]
+            for each in cast.actors.values()
         }
-        single = {id(b) for b in branches if len(b.actors) == 1}
-        shared = [actor.name for _, actor in actors if len(by_name[actor.name]) > 1]
-        members: list[Statement] = []
-        placed: set[str] = set()
-        is_open = True
-        order = inits.order([said for said, _ in actors])
-        together = bool(shared) or inits.has_relations
-        for said in order:
-            actor = self._cast.actors[said]
-            mine = by_name[actor.name]
+        self._order = inits.order(list(cast.actors))
+        self._placed: set[str] = set()
+        self.leading: list[Statement] = list(inits.world)
+        self._lead()
+
+    def _lead(self) -> None:
+        """Put the actors in their places that others refer to, or several branches move."""
+        single = {id(b) for b in self.branches if len(b.actors) == 1}
+        shared = any(len(mine) > 1 for mine in self._of.values())
+        together = shared or self._inits.has_relations
+        for said in self._order:
+            actor = self._actors[said]
+            mine = self._of[actor.name]
             is_alone = not mine or (len(mine) == 1 and id(mine[0]) in single)
-            stays = (
-                is_alone and not inits.has_way(said) and (not together or inits.turns_alone(said))
-            )
-            if actor.kind != "movable_object" and stays:
+            own_turn = not together or self._inits.turns_alone(said)
+            stays = is_alone and not self._inits.has_way(said) and own_turn
+            if actor.kind == "movable_object" or not stays:
+                self.leading += self._inits.statements(said)
+                self._placed.add(said)
+
+    def begin(self) -> list[Statement]:
+        """Return what actors do that no branch moves."""
+        found: list[Statement] = []
+        for said in self._order:
+            actor = self._actors[said]
+            is_moved = bool(self._of[actor.name]) or actor.kind == "movable_object"
+            if is_moved or not self._inits.places(said):
                 continue
-            leading += inits.statements(said)
-            placed.add(said)
-        for said in order:
-            actor = self._cast.actors[said]
-            if by_name[actor.name] or actor.kind == "movable_object" or not inits.places(said):
-                continue
-            if said in placed:
-                members += inits.lasting(said) or inits.going(said)
-            elif going_on := inits.going_on(said):
+            if said in self._placed:
+                found += self._inits.lasting(said) or self._inits.going(said)
+            elif going_on := self._inits.going_on(said):
                 if all(each.length == 0.0 for each in going_on):
-                    leading += going_on
+                    self.leading += going_on
                 else:
-                    members.append(composed("serial", going_on))
-        ways = inits.ways()
-        members += ways
-        is_open = not ways
-        for branch in branches:
-            branch_said = [said for said, actor in actors if by_name[actor.name] == [branch]]
-            own = [
-                said for said, actor in actors if actor.name in branch.actors and said not in placed
-            ]
-            before = [each for said in own for each in inits.statements(said, branch.members)]
-            content = [*before, *branch.members]
-            if branch.members and branch.members[0].text.startswith("wait "):
-                lasting = [each for said in branch_said for each in inits.lasting(said)]
-                content = [*before, *lasting, *branch.members]
-            elif branch.members and branch.members[0].members is not None:
-                # what is waited for in several ways goes on beside what is done up to then
-                beside = [each for said in branch_said for each in inits.lasting(said)]
-                later = composed("serial", branch.members)
-                content = [*before, composed("parallel", [*beside, later])]
-            content = self._held(content, [s for s in branch_said if inits.has_path(s)])
-            last = [
-                each
-                for said, actor in actors
-                if by_name[actor.name] == [branch]
-                for each in inits.going(said)
-            ]
-            if content and content[-1].length != math.inf and last:
-                content.append(composed("parallel", last))
-            is_open = is_open and content[-1:] != [] and content[-1].length == math.inf
-            if content:
-                members.append(composed("serial", content))
-        if not members and not leading:
-            members = [wait(f"elapsed({LONGEST})")]
-        return self._ended(structure, leading, members, end, is_open=is_open, branches=branches)
+                    found.append(composed("serial", going_on))
+        return found
+
+    def _only_in(self, branch: Branch) -> list[str]:
+        return [said for said, actor in self._actors.items() if self._of[actor.name] == [branch]]
+
+    def content(self, branch: Branch) -> list[Statement]:
+        """Return a branch with the starts of its actors, up to its last event."""
+        own = [
+            said
+            for said, actor in self._actors.items()
+            if actor.name in branch.actors and said not in self._placed
+        ]
+        alone = self._only_in(branch)
+        before = [each for said in own for each in self._inits.statements(said, branch.members)]
+        content = [*before, *branch.members]
+        beside = [each for said in alone for each in self._inits.lasting(said)]
+        if branch.members and branch.members[0].text.startswith("wait "):
+            content = [*before, *beside, *branch.members]
+        elif branch.members and branch.members[0].members is not None:
+            # what is waited for in several ways goes on beside what is done up to then
+            later = composed("serial", branch.members)
+            content = [*before, composed("parallel", [*beside, later])]
+        return self._held(content, [each for each in alone if self._inits.has_path(each)])
 
     def _held(self, content: list[Statement], said: Sequence[str]) -> list[Statement]:
         """Return statements with a first wait during which actors hold their speeds."""
         if not said or not content or not content[0].text.startswith("wait "):
             return content
         until = f"until {content[0].text.removeprefix('wait ')}"
-        holds = [Statement(self._cast.actors[each].goes_on) for each in said]
-        held = composed("parallel", holds)
+        held = composed("parallel", [Statement(self._actors[each].goes_on) for each in said])
         held.modifiers.append(until)
         return [held, *content[1:]]
 
-    def _ended(
-        self,
-        structure: Structure,
-        leading: list[Statement],
-        members: list[Statement],
-        end: Trigger,
-        *,
-        is_open: bool,
-        branches: Sequence[Branch],
-    ) -> Statement:
-        endings: list[str] = []
-        if is_endless(end):
-            self._report.add(
-                "approximated",
-                "<StopTrigger>",
-                f"nothing ends the document; the scenario ends after {LONGEST}",
-                self._document.root.place,
-            )
-            endings.append(f"elapsed({LONGEST})")
-        for group in () if is_endless(end) else end.groups:
-            waits = structure.waits(Trigger([group]))
-            if not waits:
-                endings.append("elapsed(0s)")
-            elif len(waits) == 1 and waits[0].text.startswith("wait "):
-                endings.append(waits[0].text.removeprefix("wait "))
-            else:
-                name = self._names.new("", kind="event", base="finished")
-                structure.lines.append(f"event {name}")
-                members.append(composed("serial", [*waits, Statement(f"emit {name}")]))
-                endings.append(f"@{name}")
-        if members and not is_open and len(endings) > 1:
-            structure.lines.append("event forever")
-            members.append(wait("@forever"))
-            is_open = True
-        whole = _until(members, endings, is_open=is_open)
-        return composed("serial", [*leading, whole]) if leading else whole
+    def going(self, branch: Branch) -> list[Statement]:
+        """Return what the actors of a branch go on with that would not do so by themselves."""
+        return [each for said in self._only_in(branch) for each in self._inits.going(said)]
+
+    def done(self, branch: Branch) -> Statement | None:
+        """Return a branch to its end; `None`: it is empty."""
+        content, last = self.content(branch), self.going(branch)
+        if content and content[-1].length != math.inf and last:
+            content.append(composed("parallel", last))
+        return composed("serial", content) if content else None
+
+    def lasting(self, branch: Branch, up_to: float | None) -> Statement | None:
+        """Return a branch that is over before the end or goes on behind its own; `None`: neither.
+
+        Args:
+            branch: The branch.
+            up_to: When the scenario ends (s); `None`: not known.
+        """
+        found = self.done(branch)
+        if found is None or is_open(found):
+            return found
+        length = seconds([found])
+        if length is not None and up_to is not None and length < up_to:
+            return found
+        vehicles = {each.name for each in self._actors.values() if each.kind == "vehicle"}
+        last = go_on_behind(branch, self.branches, vehicles)
+        return composed("serial", [found, composed("parallel", last)]) if last else None
 
 
 def is_endless(end: Trigger) -> bool:
     """Whether a trigger of the end is never met."""
     return all(any(each.kind == "never" for each in group) for group in end.groups)
-
-
-def _until(members: list[Statement], endings: Sequence[str], *, is_open: bool) -> Statement:
-    """Return members side by side that end when one of some conditions is met.
-
-    Args:
-        members: What happens.
-        endings: The conditions.
-        is_open: Whether the members go on until then by themselves.
-    """
-    if not members:
-        return composed("one_of", [wait(each) for each in endings])
-    if not is_open:
-        members = [*members, wait(endings[0])]
-    whole = Statement("parallel", members=members)
-    whole.modifiers = [f"until {each}" for each in endings]
-    return whole

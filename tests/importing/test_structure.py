@@ -136,7 +136,8 @@ def test_an_act_that_is_stopped_ends_its_events() -> None:
     found = imported(text.replace("</Act>", stop))
     assert not faults(found)
     assert "until elapsed(5s)" in found.text
-    assert "@act.end" in found.text
+    assert "act:" in found.text
+    assert "event finished" not in found.text  # the scenario is over with its last composition
     assert apart(found) < 0.1
 
 
@@ -173,5 +174,5 @@ def test_a_parameter_that_is_set_in_the_run_is_an_event() -> None:
 def test_the_end_of_being_earlier_is_a_time() -> None:
     ending = at_time("4").replace("greaterOrEqual", "lessThan").replace("none", "falling")
     found = imported(document("", end=ending))
-    assert "until elapsed(4s)" in found.text
+    assert "wait elapsed(4s)" in found.text
     assert apart(found) < 0.1
