@@ -21,8 +21,8 @@ from osc2tx.importing.distributions import Distribution, read_distribution
 from osc2tx.importing.document import Folders, Refused
 from osc2tx.importing.importer import Imported, import_document
 from osc2tx.importing.names import snake
+from osc2tx.importing.parameters import Parameter
 from osc2tx.importing.report import ImportReport, Measured
-from osc2tx.importing.values import Parameter
 from osc2tx.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions
 from osc2tx.xosc import Element, Unreadable, read

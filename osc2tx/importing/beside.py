@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from osc2tx.importing.cursor import Node
-from osc2tx.importing.dimensions import LENGTH, PRODUCT, SUM, Quantity, literal
+from osc2tx.importing.dimensions import LENGTH, PRODUCT, Quantity, literal, total
 from osc2tx.importing.document import Document
 from osc2tx.importing.ground import Ground
 from osc2tx.importing.points import Spot, heading_of, odr_point
@@ -84,7 +84,7 @@ class Beside:
             node.approximate(f"dLane keeps the nominal value of `{node.text('dLane')}`")
         offset = self._values.quantity(node, "offset", LENGTH)
         t = offset.text if direction > 0 else f"-{offset.within(PRODUCT)}"
-        way = f"{s.within(SUM)} {'+' if sign > 0 else '-'} {ahead.within(PRODUCT)}"
+        way = total(LENGTH, (1, s), (sign, ahead)).text
         if not (s.is_open or ahead.is_open):
             way = literal(place.s, LENGTH)
         heading = found[1]
@@ -93,14 +93,17 @@ class Beside:
             yaw="" if heading is None else heading_of(heading),
         )
 
-    def at_gap(self, node: Node, said: str, reference: str, way: str) -> Spot | None:
+    def at_gap(
+        self, node: Node, said: str, reference: str, gap: Quantity, *, ahead: bool
+    ) -> Spot | None:
         """Return the place along the road of another entity, as far aside as it was put before.
 
         Args:
             node: The action that says the gap.
             said: The entity.
             reference: The other one, in the same lane.
-            way: How far the entity is ahead, along the road.
+            gap: How far the entity is ahead or behind, along the road.
+            ahead: Whether it is ahead.
         """
         body, start, own = (
             self._ground.bodies[said],
@@ -115,8 +118,8 @@ class Beside:
         direction = self._ground.map.travel_direction(body.place.road, body.place.lane) * body.along
         is_left = own.tag == "LanePosition" or direction > 0
         t = offset.text if is_left else f"-{offset.within(PRODUCT)}"
-        way = f"{s.within(SUM)} {'+' if direction > 0 else '-'} {way}"
-        return Spot(odr_point(body.place.road, str(body.place.lane), way, t))
+        way = total(LENGTH, (1, s), (direction if ahead else -direction, gap))
+        return Spot(odr_point(body.place.road, str(body.place.lane), way.text, t))
 
     def _start_of(self, said: str) -> Element | None:
         """Return the element of the place at which an entity is put at the start."""
@@ -141,6 +144,8 @@ class Beside:
         ):
             parameter.is_used = True
             p = parameter.name
+            if {abs(each) for each in self._values.allowed(parameter) or ()} == {1.0}:
+                return f"lane(side_of: {reference}, side: {p} > 0 ? left : right)"
             return f"lane({p} > 0 ? {p} : -{p}, side_of: {reference}, side: {p} > 0 ? left : right)"
         if text.startswith("$"):
             node.approximate(f"dLane keeps the nominal value of `{text}`")

@@ -10,7 +10,7 @@ from osc2tx.importing.cursor import Ledger, Node
 from osc2tx.importing.dimensions import LENGTH, literal
 from osc2tx.importing.document import Document
 from osc2tx.importing.names import Names, snake
-from osc2tx.importing.program import INDENT, declaration
+from osc2tx.importing.program import INDENT, declaration, keeps
 from osc2tx.importing.report import ImportReport
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Element, Unresolved
@@ -230,7 +230,7 @@ class Cast:
         )
         kind, constraints = facts(node, self._document)
         lines = [f"actor {type_name} inherits {kind}:"]
-        lines += [f"{INDENT}keep({each})" for each in constraints] or [f"{INDENT}event unused"]
+        lines += [f"{INDENT}{each}" for each in keeps(constraints)] or [f"{INDENT}event unused"]
         library.types[type_name] = lines
         library.entries[said] = (type_name, kind)
 

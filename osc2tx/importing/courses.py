@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from itertools import pairwise
 
@@ -10,8 +11,32 @@ from osc2tx.importing.dimensions import LENGTH, literal
 from osc2tx.importing.ground import UNKNOWN, Ground
 from osc2tx.importing.points import odr_point
 from osc2tx.xosc import elements as xml
+from osc2tx.xosc.player.bodies import Pose
 from osc2tx.xosc.player.places import waypoints
 from osc2tx_runtime.opendrive import LanePosition
+
+MILLIMETRES = 2e-3  # m: how near a point of the map has to be to the place that it stands for
+SPARSE = 0.05  # m: a corner that is nearer to the line between others is left out
+
+
+def sparse(poses: Sequence[Pose]) -> list[Pose]:
+    """Return the corners that a polyline needs to lead along all of them."""
+    if len(poses) < 3:
+        return list(poses)
+    (x, y, _), (to_x, to_y, _) = poses[0], poses[-1]
+    length = math.hypot(to_x - x, to_y - y)
+    off = [
+        (
+            abs((each.x - x) * (to_y - y) - (each.y - y) * (to_x - x)) / length
+            if length > SPARSE
+            else math.dist(each[:2], (x, y))
+        )
+        for each in poses[1:-1]
+    ]
+    worst = max(range(len(off)), key=off.__getitem__)
+    if off[worst] <= SPARSE:
+        return [poses[0], poses[-1]]
+    return [*sparse(poses[: worst + 2])[:-1], *sparse(poses[worst + 1 :])]
 
 
 class Courses:
@@ -29,6 +54,24 @@ class Courses:
                 return []
             t = place.offset * self._ground.map.travel_direction(place.road, place.lane)
             at = literal(round(place.s, 6), LENGTH), literal(round(t, 6), LENGTH)
+            found.append(odr_point(place.road, str(place.lane), *at))
+        return found
+
+    def on_map(self, poses: Sequence[Pose]) -> list[str]:
+        """Return the points of the map at some places; none if one of them is beside all lanes."""
+        found: list[str] = []
+        road_map = self._ground.map
+        for pose in poses if road_map is not None else ():
+            assert road_map is not None
+            place = road_map.locate(pose.x, pose.y, heading=pose.h)
+            if place is None:
+                return []
+            place = place._replace(s=round(place.s, 3), offset=round(place.offset, 3))
+            there = road_map.pose(place)
+            if math.dist(there[:2], pose[:2]) > MILLIMETRES:
+                return []
+            t = place.offset * road_map.travel_direction(place.road, place.lane)
+            at = literal(place.s, LENGTH), literal(t, LENGTH)
             found.append(odr_point(place.road, str(place.lane), *at))
         return found
 

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from math import isfinite
 from pathlib import Path
 
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import TYPES
-from osc2tx.importing.distributions import Open
+from osc2tx.importing.distributions import Open, meets
 from osc2tx.importing.document import Document
-from osc2tx.importing.expressions import Untyped, parsed
+from osc2tx.importing.expressions import Untyped
+from osc2tx.importing.parameters import Parameter
 from osc2tx.importing.program import comment_lines, declaration
 from osc2tx.importing.report import ImportReport
-from osc2tx.importing.values import Parameter, Values
+from osc2tx.importing.values import Values
 from osc2tx.xosc import Element
 
 SIGNS = {
@@ -85,6 +87,8 @@ class Declarations:
                     nodes[said].use_all()
                     value = nodes[said].element.get("value") or ""
                     reason = "nothing that varies here reads it"
+                    if said in self._values.aliases:
+                        reason = "it is another one with its unit"
                     place = nodes[said].place
                     self._report.idle.append((f"parameter {said}", value, reason, str(place)))
         for holder in self._root.children("VariableDeclarations"):
@@ -107,6 +111,7 @@ class Declarations:
             value = self._values.in_unit(float(self._document.parameters[said]), parameter)
         constraints = self._constraints(node, parameter)
         if said in self._open:
+            constraints = constraints if not self._is_kept(node, self._open[said]) else []
             varied = self._varied(node, self._open[said], parameter)
             if varied.startswith("it in "):
                 value = ""
@@ -129,6 +134,17 @@ class Declarations:
         except (ValueError, OverflowError):
             node.leave_out("its distribution has no form here")
             return ""
+
+    def _is_kept(self, node: Node, open_: Open) -> bool:
+        """Whether all that a parameter may be meets its constraints; they change nothing then."""
+        limits = tuple(repr(each) for each in (open_.low, open_.high) if isfinite(each))
+        values = open_.values if len(open_.values) > 1 else limits
+        if len(values) < 2 or not all(meets(node.element, each) for each in values):
+            return False
+        for group in node.children("ConstraintGroup"):
+            for each in group.children():
+                each.idle("the values of its distribution are within it")
+        return True
 
     def _constraints(self, node: Node, parameter: Parameter) -> list[str]:
         groups = []
@@ -155,7 +171,7 @@ class Declarations:
         try:
             if sign is None:
                 raise Untyped(rule)
-            expression = parsed(text)
+            expression = self._values.parsed(text)
             if parameter.is_hourly:
                 return f"it {sign} {self._values._hourly(expression).text}"
             if not text.startswith("$"):

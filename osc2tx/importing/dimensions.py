@@ -96,6 +96,25 @@ def literal(value: float, dimension: Dimension) -> str:
     return f"{text}{unit}" if unit else text if "." in text else f"{text}.0"
 
 
+def total(dimension: Dimension, *parts: tuple[int, Quantity]) -> Quantity:
+    """Return the sum of quantities with signs; the numbers in it are added up."""
+    number = round(sum(sign * each.value for sign, each in parts if not each.is_open), 9)
+    opened = [(sign, each) for sign, each in parts if each.is_open]
+    value = sum(sign * each.value for sign, each in parts)
+    if not opened:
+        return Quantity(literal(number, dimension), value)
+    known = Quantity(literal(abs(number), dimension), abs(number))
+    summands = [((1 if number > 0.0 else -1), known)] if number else []
+    comes_first = not parts[0][1].is_open or opened[0][0] < 0
+    ordered = [*summands, *opened] if comes_first else [*opened, *summands]
+    text = "".join(
+        f" {'+' if sign > 0 else '-'} {each.within(SUM if sign > 0 else PRODUCT)}"
+        for sign, each in ordered
+    )
+    text = text.removeprefix(" + ") if text.startswith(" + ") else f"-{text.removeprefix(' - ')}"
+    return Quantity(text, value, True, SUM)
+
+
 def short(value: float) -> str:
     """Return a number without needless digits."""
     text = f"{value:.{DIGITS}f}".rstrip("0").rstrip(".")

@@ -122,6 +122,19 @@ def _meets(own: float, group: Element, values: Mapping[str, float]) -> bool:
     return True
 
 
+def meets(declaration: Element, text: str) -> bool:
+    """Whether a number meets the constraints of a parameter, all of whose limits are numbers."""
+    groups = [each.children for each in declaration.children if each.tag == "ConstraintGroup"]
+
+    def is_within(limit: Element) -> bool:
+        return RULES[limit.get("rule") or ""](float(text), float(limit.get("value") or ""))
+
+    try:
+        return any(all(map(is_within, group)) for group in groups)
+    except (KeyError, ValueError):
+        return False
+
+
 def read_distribution(root: Element, report: ImportReport) -> Distribution:
     """Return the values of a document with distributions.
 

@@ -141,7 +141,9 @@ def go_on_behind(branch: Branch, branches: Sequence[Branch], vehicles: Container
     others = {slot for each in branches if each is not branch for slot in _slots(each)}
     for actor in sorted(branch.actors):
         told = [text for text in _texts(branch.members) if text.startswith(f"{actor}.")]
-        if (actor, LONGITUDINAL) not in others:
+        slot = (actor, LONGITUDINAL)
+        first = next(each for each in branches if actor in each.actors)
+        if slot not in others and (first is branch or slot in _slots(branch)):
             found.append(Statement(f"{actor}.keep_speed()", length=math.inf))
         elif (
             actor in vehicles

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TypeAlias
 
 from osc2tx.xosc.arithmetic import CONSTANTS
@@ -131,6 +131,33 @@ def _operation(sign: str, left: Expression, right: Expression) -> Expression:
         computed = {"+": a + b, "-": a - b, "*": a * b}.get(sign)
         return Number(a / b if computed is None else computed)
     return Operation(sign, left, right)
+
+
+def substituted(node: Expression, given: Mapping[str, Expression]) -> Expression:
+    """Return an expression with others in the places of names."""
+    if isinstance(node, Name):
+        return given.get(node.name, node)
+    if isinstance(node, Operation):
+        left, right = substituted(node.left, given), substituted(node.right, given)
+        return Operation(node.sign, left, right)
+    return node
+
+
+def without_sign(node: Expression) -> Expression | None:
+    """Return what an expression is the negative of; `None`: it has no sign."""
+    if isinstance(node, Number):
+        return Number(-node.value) if node.value < 0.0 else None
+    if isinstance(node, Name):
+        return None
+    if node.sign == "-" and node.left == Number(0.0):
+        return node.right
+    if node.sign not in "*/":
+        return None
+    left = without_sign(node.left)
+    if left is not None:
+        return Operation(node.sign, left, node.right)
+    right = without_sign(node.right)
+    return None if right is None else Operation(node.sign, node.left, right)
 
 
 def names_in(node: Expression) -> Iterator[str]:

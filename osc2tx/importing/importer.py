@@ -14,6 +14,7 @@ from osc2tx.importing.distributions import Distribution
 from osc2tx.importing.document import NOWHERE, Document, Folders, Refused, with_values
 from osc2tx.importing.expressions import Untyped
 from osc2tx.importing.names import Names, snake
+from osc2tx.importing.parameters import Parameter
 from osc2tx.importing.places import Places
 from osc2tx.importing.program import Program, comment_lines
 from osc2tx.importing.report import ImportReport
@@ -21,7 +22,7 @@ from osc2tx.importing.starting import is_straight_ahead
 from osc2tx.importing.starts import Starts
 from osc2tx.importing.steps import BoardReader
 from osc2tx.importing.structure import Structure
-from osc2tx.importing.values import Parameter, Values
+from osc2tx.importing.values import Values
 from osc2tx.importing.whole import Whole, is_endless
 from osc2tx.xosc import Element, Unreadable, read
 from osc2tx.xosc import elements as xml
@@ -118,7 +119,7 @@ class _Import:
         self._names = Names(self._report, ("road", "environment_"))
         self._scenario = self._names.new(name, kind="scenario")
         self._report.scenario = self._scenario
-        self._values = Values(document, self._names)
+        self._values = Values(document, self._names, self._open)
         self._cast = Cast(document, self._values, self._ledger, self._names, libraries)
         self._marks: dict[tuple[str, str], str] = {}
         self._measured = {
@@ -178,7 +179,7 @@ class _Import:
         whole = Whole(self._document, self._cast, self._names, self._report)
         program.body = whole.behavior(structure, structure.branches(), inits, board.end)
         self._find_used(program, places, structure)
-        program.declarations = self._declarations(places, actions, structure)
+        program.declarations = self._declarations(places, actions, structure, program.text)
         program.imports = sorted(self._cast.imports)
         self._report.under_test = [each.name for each in actors.values() if each.is_under_test]
         self._close()
@@ -241,7 +242,9 @@ class _Import:
                 except (Untyped, ValueError):
                     continue
 
-    def _declarations(self, places: Places, actions: Actions, structure: Structure) -> list[str]:
+    def _declarations(
+        self, places: Places, actions: Actions, structure: Structure, written: str
+    ) -> list[str]:
         declared = Declarations(
             self._document, self._root, self._values, self._report, self._open, self._comments_of
         )
@@ -256,7 +259,8 @@ class _Import:
         lines += declared.parameters()
         if places.points.lines:
             lines += ["", *places.points.lines]
-        events = [f"event {name}" for name in self._marks.values()]
+        words = set(re.findall(r"\w+", written))
+        events = [f"event {name}" for name in self._marks.values() if name in words]
         if events or structure.lines:
             lines += ["", *events, *structure.lines]
         return lines

@@ -13,6 +13,7 @@ from osc2tx_shared.classes import dataclass
 Kind: TypeAlias = Literal["serial", "parallel", "one_of"]
 WIDTH = 92
 INDENT = "    "
+KEPT = WIDTH - len("keep()")
 
 
 @dataclass
@@ -161,4 +162,16 @@ def declaration(
     head = f"{name}: {type_name}" + (f" = {value}" if value else "")
     if not constraints:
         return [head]
-    return [f"{head} with:", *(f"{INDENT}keep({each})" for each in constraints)]
+    return [f"{head} with:", *(f"{INDENT}{each}" for each in keeps(constraints))]
+
+
+def keeps(constraints: Sequence[str]) -> list[str]:
+    """Return constraints, several on a line where they fit."""
+    found: list[str] = []
+    for each in constraints:
+        joined = f"{found[-1]} and {each}" if found else each
+        if found and len(joined) <= KEPT and " or " not in joined:
+            found[-1] = joined
+        else:
+            found.append(each)
+    return [f"keep({each})" for each in found]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from osc2tx.importing.cast import Actor
+from osc2tx.importing.courses import SPARSE, sparse
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import LENGTH, TIME, literal
 from osc2tx.importing.effects import BOTH, LATERAL, Effect, Reader
@@ -80,16 +81,20 @@ class Routes(Reader):
             return
         if any(text.startswith("$") for each in node.element.walk() for _, text in each.attributes):
             node.approximate("the trajectory is that of its nominal values")
-        if not any(each.tag == "Polyline" for each in self._places.resolved(node).walk()):
-            node.approximate(f"the curve is a polyline with chords {CHORD:g} m from it at most")
-        times = [time for time, _ in way]
-        kind, points, on_road = "", self._places.courses.corners(node), ", on_road_network: false"
-        if len(points) == len(way):
-            kind = "_odr_points"
-        else:
-            points = [self._places.points.pose(pose.x, pose.y, actor.name) for _, pose in way]
-            on_road = ""
+        is_curve = not any(each.tag == "Polyline" for each in self._places.resolved(node).walk())
         timed = any(each.tag == "Timing" for each in node.element.walk())
+        times, poses = [time for time, _ in way], [pose for _, pose in way]
+        if is_curve:
+            poses = poses if timed else sparse(poses)
+            off = CHORD if timed else CHORD + SPARSE
+            node.approximate(f"the curve is a polyline with chords {off:g} m from it at most")
+        kind, on_road = "_odr_points", ", on_road_network: false"
+        points = self._places.courses.corners(node)
+        if len(points) != len(poses):
+            points = self._places.courses.on_map(poses)
+        if len(points) != len(poses):
+            points = [self._places.points.pose(pose.x, pose.y, actor.name) for pose in poses]
+            kind = on_road = ""
         offset = self._values.quantity(node, "initialDistanceOffset", LENGTH)
         node.use_all()
         listed = ", ".join(points)

@@ -17,6 +17,7 @@ from osc2tx.importing.dimensions import (
     TIME,
     Quantity,
     literal,
+    total,
 )
 from osc2tx.importing.effects import LONGITUDINAL, PROFILES, Effect, Reader, of_dynamics
 from osc2tx.importing.program import Statement, composed
@@ -250,19 +251,21 @@ class Speeds(Reader):
             moving = said if ahead else own_said
             known = self._speeds.get(moving) if at_start else None
             speed = known.within(PRODUCT) if known else f"{self._actors[moving].name}.speed"
-            gap = f"{time.within(PRODUCT)} * {speed}"
+            gap = Quantity(f"{time.within(PRODUCT)} * {speed}", 0.0, True, PRODUCT)
         else:
-            gap = self._values.quantity(node, "distance", LENGTH).within(SUM)
-        where = f"{gap} + {literal(round(space, 6), LENGTH)}" if space else gap
+            gap = self._values.quantity(node, "distance", LENGTH)
+        way = total(LENGTH, (1, gap), (1, Quantity(literal(space, LENGTH), space)))
+        where = way.text
         side = "ahead_of" if ahead else "behind"
         modifiers = [
             f"lane(same_as: {reference})",
             f"position({where}, {side}: {reference})",
         ]
         if abs(own.place.offset) > 1e-9:
-            way = where if ahead else f"(-1) * ({where})"
             spot = (
-                self._places.beside.at_gap(node, own_said, said, f"({way})") if at_start else None
+                self._places.beside.at_gap(node, own_said, said, way, ahead=ahead)
+                if at_start
+                else None
             )
             if spot is not None:
                 call = f"{actor.name}.assign_position({spot.argument})"

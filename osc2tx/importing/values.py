@@ -1,14 +1,11 @@
-"""Parameters and expressions of a document as typed ones with units.
+"""Expressions of a document as typed ones with units.
 
-Attributes say what dimension they have, so expressions say which ones their parameters have:
-`${$v / 3.6}` where a speed stands makes `$v` a speed in kph. A parameter with several dimensions
-is a plain number, which gets its unit where it is used.
+A parameter with several dimensions is a plain number, which gets its unit where it is used.
 """
 
 from __future__ import annotations
 
-import re
-from collections import defaultdict
+from collections.abc import Mapping
 from math import isfinite
 
 from osc2tx.importing.cursor import Node
@@ -25,6 +22,7 @@ from osc2tx.importing.dimensions import (
     literal,
     short,
 )
+from osc2tx.importing.distributions import Open
 from osc2tx.importing.document import Document
 from osc2tx.importing.expressions import (
     Expression,
@@ -35,91 +33,38 @@ from osc2tx.importing.expressions import (
     is_per_hour,
     names_in,
     parsed,
+    substituted,
+    without_sign,
 )
-from osc2tx.importing.inference import Votes, uses_in, vote
-from osc2tx.importing.names import Names, snake
+from osc2tx.importing.names import Names
+from osc2tx.importing.parameters import Parameter, Parameters
 from osc2tx.xosc.element import Unresolved
-from osc2tx_shared.classes import dataclass
-
-
-@dataclass
-class Parameter:
-    """A parameter of the document.
-
-    Attributes:
-        name: Its name in the scenario.
-        kind: Its type in the document.
-        dimension: What its uses say that it is.
-        is_hourly: Whether its number counts kilometres per hour.
-        expression: What gives it; `None` for texts and truth values.
-        is_used: Whether the scenario reads it.
-    """
-
-    name: str
-    kind: str
-    dimension: Dimension = NUMBER
-    is_hourly: bool = False
-    expression: Expression | None = None
-    is_used: bool = False
-
-    @property
-    def unit(self) -> tuple[str, float]:
-        """The unit of its number, with its SI value."""
-        if self.is_hourly:
-            return "kph", 1.0 / 3.6
-        if self.dimension == ANGLE:
-            return "rad", 1.0
-        return UNITS.get(self.dimension, (("", 1.0),))[0]
 
 
 class Values:
-    """The parameters of a document, and its expressions over them.
+    """The values of a document, expressions over its parameters.
 
     Attributes:
         parameters: By their names in the document.
+        aliases: Parameters that are others in another unit, with these.
+        allowed: Gives the only values that a parameter may have; `None`: others are possible.
     """
 
-    def __init__(self, document: Document, names: Names) -> None:
+    def __init__(
+        self, document: Document, names: Names, open_: Mapping[str, Open] | None = None
+    ) -> None:
         self._document = document
-        self.parameters: dict[str, Parameter] = {}
-        self._declare(names)
-        self._infer()
+        found = Parameters(document, names, open_ or {})
+        self.parameters, self.aliases = found.by_name, found.aliases
+        self.allowed = found.allowed
 
-    def _declare(self, names: Names) -> None:
-        for node in self._document.root.children:
-            for each in node.children if node.tag == "ParameterDeclarations" else ():
-                said = each.get("name") or ""
-                kind = (each.get("parameterType") or "").lower()
-                expression = None
-                if kind in ("double", "int", "integer", "unsignedint", "unsignedshort"):
-                    try:
-                        expression = parsed(each.get("value") or "")
-                    except Untyped:
-                        expression = None
-                base = snake(re.sub(r"_(kph|mps|mps2|mpss|m|s|deg|rad|kmh)$", "", said))
-                name = names.new(said, kind="parameter", base=base)
-                self.parameters[said] = Parameter(name, kind, expression=expression)
+    def parsed(self, text: str) -> Expression:
+        """Return the expression of an attribute over parameters that are declared.
 
-    # --- inference --------------------------------------------------------------------------------
-
-    def _infer(self) -> None:
-        uses = uses_in(self._document.root)
-        votes: Votes = defaultdict(set)
-        before = -1
-        while (count := sum(map(len, votes.values()))) > before:
-            before = count
-            for expression, dimension in uses:
-                vote(expression, dimension, False, votes)
-            self._take(votes)
-
-    def _take(self, votes: Votes) -> None:
-        """Take what votes say, and let the expressions of parameters vote for others."""
-        for said, parameter in reversed(self.parameters.items()):
-            found = votes[said]
-            if len(found) == 1 and parameter.kind == "double":
-                parameter.dimension, parameter.is_hourly = next(iter(found))
-            if parameter.expression is not None and parameter.dimension != NUMBER:
-                vote(parameter.expression, parameter.dimension, parameter.is_hourly, votes)
+        Raises:
+            Untyped: It has none.
+        """
+        return substituted(parsed(text.strip()), self.aliases)
 
     # --- values -----------------------------------------------------------------------------------
 
@@ -136,7 +81,7 @@ class Values:
             return Quantity(literal(default, dimension), default)
         value = self.nominal(node, name)
         try:
-            return self._typed(parsed(text.strip()), dimension, value)
+            return self._typed(self.parsed(text), dimension, value)
         except Untyped:
             node.approximate(f"`{text}` has no form with units, so {name} keeps its nominal value")
             return Quantity(literal(value, dimension), value)
@@ -218,8 +163,10 @@ class Values:
                 return Quantity(
                     f"-{self._written(node.right, wanted).within(PRODUCT)}", 0.0, True, PRODUCT
                 )
-            left, right = self._written(node.left, wanted), self._written(node.right, wanted)
-            return _joined(left, node.sign, right, SUM)
+            positive = without_sign(node.right)
+            sign = node.sign if positive is None else "-" if node.sign == "+" else "+"
+            right = self._written(node.right if positive is None else positive, wanted)
+            return _joined(self._written(node.left, wanted), sign, right, SUM)
         return self._scaled(node, wanted)
 
     def _named(self, node: Name, wanted: Dimension) -> Quantity:

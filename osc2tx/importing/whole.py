@@ -19,7 +19,7 @@ from osc2tx.importing.endings import (
     without_events,
 )
 from osc2tx.importing.names import Names
-from osc2tx.importing.program import Statement, composed, wait
+from osc2tx.importing.program import Statement, composed, ended, wait
 from osc2tx.importing.report import ImportReport
 from osc2tx.importing.starts import Starts
 from osc2tx.importing.structure import Branch, Structure
@@ -95,9 +95,11 @@ class Whole:
             structure.lines.append(f"event {name}")
             members.append(composed("serial", [*first_of(endings), Statement(f"emit {name}")]))
             texts = [f"@{name}"]
-        if len(texts) > 1:
+        elif len(texts) > 1:
             structure.lines.append("event forever")
-        members.append(wait(texts[0] if len(texts) == 1 else "@forever"))
+            members.append(wait("@forever"))
+        else:
+            members.append(wait(texts[0]))
         whole = Statement("parallel", members=members)
         whole.modifiers = [f"until {each}" for each in texts]
         return whole
@@ -181,10 +183,8 @@ class _Members:
         """Return statements with a first wait during which actors hold their speeds."""
         if not said or not content or not content[0].text.startswith("wait "):
             return content
-        until = f"until {content[0].text.removeprefix('wait ')}"
-        held = composed("parallel", [Statement(self._actors[each].goes_on) for each in said])
-        held.modifiers.append(until)
-        return [held, *content[1:]]
+        held = [ended(Statement(self._actors[each].goes_on), content[0]) for each in said]
+        return [composed("parallel", held), *content[1:]]
 
     def going(self, branch: Branch) -> list[Statement]:
         """Return what the actors of a branch go on with that would not do so by themselves."""

@@ -35,7 +35,7 @@ def test_on_a_straight_road_actors_go_on_by_themselves() -> None:
 def test_a_gap_without_limits_is_there_at_once() -> None:
     text = in_same_lane(document(event("Gap", GAP.format('distance="20"'), at_time("1"))))
     found = imported(text)
-    assert "position(20m + 5m, ahead_of: ego)" in found.text
+    assert "position(25m, ahead_of: ego)" in found.text
     assert apart(found) < 0.1
 
 
@@ -149,7 +149,7 @@ def test_a_gap_at_the_start_keeps_the_offset_of_the_place_before() -> None:
     gap = GAP.format('distance="20"')
     gap = f"<PrivateAction>{gap}</PrivateAction></Private></Actions>"
     found = imported(re.sub(r"</Private>\s*</Actions>", gap, text))
-    assert "100m + (20m + 5m), aside)" in found.text
+    assert "125m, aside)" in found.text
     assert faults(found) == []
     assert apart(found) < 0.1
 
