@@ -6,7 +6,7 @@ of events) is waited for first; then what may change.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import field
 
 from osc2tx.importing.cast import Actor
@@ -223,9 +223,16 @@ class Conditions:
             raise Unresolved("a condition of no entity", triggering.place)
         if all(text == "true" for text in texts):
             return Condition("always", condition)
-        word = " or " if rule == "any" else " and "
-        joined = texts[0] if len(texts) == 1 else word.join(f"({text})" for text in texts)
+        joined = joined_by("or" if rule == "any" else "and", texts)
         return Condition("expression", condition, joined, edge, delay, lasting=lasting)
+
+
+def joined_by(word: str, texts: Sequence[str]) -> str:
+    """Return expressions joined by `and` or `or`, those of the other one in brackets."""
+    other = {"and": " or ", "or": " and "}[word]
+    if len(texts) == 1:
+        return texts[0]
+    return f" {word} ".join(f"({text})" if other in text else text for text in texts)
 
 
 def _holds(given: str, rule: str, value: str) -> bool:

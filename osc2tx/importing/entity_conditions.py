@@ -220,8 +220,7 @@ class EntityConditions:
             if each is not node.element
         ):
             node.approximate("the place keeps that of its nominal values")
-        x, y = (literal(round(value, 6), LENGTH) for value in found)
-        point = f"road.create_xyz_point({x}, {y}, 0m)"
+        point = self._places.points.goal(*found, a)
         if node.tag == "ReachPositionCondition":
             within = self._values.quantity(node, "tolerance", LENGTH)
             return f"{a}.distance_to_xyz_point({point}, euclidean) <= {within.within(SUM)}"

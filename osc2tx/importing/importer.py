@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from pathlib import Path
 
 from osc2tx.importing.actions import Actions
@@ -257,12 +258,14 @@ class _Import:
                     lines += comment_lines(self._comments_of(node))
         lines += self._cast.lines
         lines += declared.parameters()
-        if places.points.lines:
-            lines += ["", *places.points.lines]
         words = set(re.findall(r"\w+", written))
+        points = [line for line in places.points.lines if _is_read(line, words)]
+        if points:
+            lines += ["", *points]
         events = [f"event {name}" for name in self._marks.values() if name in words]
-        if events or structure.lines:
-            lines += ["", *events, *structure.lines]
+        events += [line for line in structure.lines if _is_read(line, words)]
+        if events:
+            lines += ["", *events]
         return lines
 
     def _close(self) -> None:
@@ -274,3 +277,9 @@ class _Import:
         for text in rest:
             self._report.idle.append(("comment", text, "it stands beside nothing that is here", ""))
         self._ledger.close()
+
+
+def _is_read(line: str, words: Collection[str]) -> bool:
+    """Whether the scenario reads the event or point that a line declares; others it does."""
+    name = re.match(r"event (\w+)$|(\w+): xyz_point =", line)
+    return name is None or (name[1] or name[2]) in words

@@ -12,11 +12,11 @@ from collections.abc import Mapping
 from osc2tx.importing.beside import Beside
 from osc2tx.importing.courses import Courses
 from osc2tx.importing.cursor import Node
-from osc2tx.importing.dimensions import ANGLE, LENGTH, literal
+from osc2tx.importing.dimensions import LENGTH, literal
 from osc2tx.importing.document import Document
 from osc2tx.importing.ground import Ground
 from osc2tx.importing.names import Names
-from osc2tx.importing.points import Points, Spot, heading_of, odr_point
+from osc2tx.importing.points import Points, Spot, degrees, heading_of, odr_point
 from osc2tx.importing.starting import STRAIGHT, wrapped
 from osc2tx.importing.values import Values
 from osc2tx.xosc.player.bodies import Pose
@@ -101,7 +101,7 @@ class Places(Ground):
         turned = wrapped(turned)
         if abs(turned) < STRAIGHT:
             return ""
-        return f"yaw({literal(round(turned, 9), ANGLE)})"
+        return f"yaw({degrees(turned)})"
 
     def _road(self, node: Node) -> Spot:
         road = self._values.text(node, "roadId")

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import field
 
-from osc2tx.importing.dimensions import ANGLE, LENGTH, literal
+from osc2tx.importing.dimensions import LENGTH, literal, short
 from osc2tx.importing.names import Names
 from osc2tx.importing.program import declaration
 from osc2tx.importing.starting import wrapped
@@ -44,7 +45,13 @@ def odr_point(road: str, lane: str, s: str, t: str) -> str:
 
 def heading_of(h: float) -> str:
     """Return the modifier for a heading (rad) in the world."""
-    return f"orientation(yaw: {literal(round(wrapped(h), 9), ANGLE)}, measure_by: absolute)"
+    return f"orientation(yaw: {degrees(h)}, measure_by: absolute)"
+
+
+def degrees(h: float) -> str:
+    """Return a heading (rad) between half turns, without the rounding of numbers in radians."""
+    found = round(math.degrees(wrapped(h)), 6)
+    return f"{short(180.0 if found == -180.0 else found)}deg"
 
 
 class Points:
@@ -57,18 +64,28 @@ class Points:
     def __init__(self, names: Names) -> None:
         self._names = names
         self.lines: list[str] = []
-        self._declared: dict[tuple[float, float], str] = {}
+        self._declared: dict[tuple[str, float, float], str] = {}
 
     def point(self, x: float, y: float, name: str) -> str:
         """Return the name of a point in the world."""
-        key = (round(x, 6), round(y, 6))
+        key = ("point", round(x, 6), round(y, 6))
         if key not in self._declared:
             made = self._names.new("", kind="point", base=f"{name}_point")
             told = [
                 f"it.{axis} == {literal(v, LENGTH)}"
-                for axis, v in zip("xyz", (*key, 0.0), strict=True)
+                for axis, v in zip("xyz", (*key[1:], 0.0), strict=True)
             ]
             self.lines += declaration(made, "position_3d", [" and ".join(told)])
+            self._declared[key] = made
+        return self._declared[key]
+
+    def goal(self, x: float, y: float, name: str) -> str:
+        """Return the name of a point in the world whose distance is measured."""
+        key = ("goal", round(x, 6), round(y, 6))
+        if key not in self._declared:
+            made = self._names.new("", kind="point", base=f"{name}_goal")
+            at = ", ".join(literal(value, LENGTH) for value in (*key[1:], 0.0))
+            self.lines.append(f"{made}: xyz_point = road.create_xyz_point({at})")
             self._declared[key] = made
         return self._declared[key]
 

@@ -123,6 +123,5 @@ class Synchrony(Reader):
         assert place is not None
         there = self._places.pose_of(place)
         near = literal(round(math.dist(here[:2], there[:2]), 3), LENGTH)
-        x, y = (literal(round(value, 6), LENGTH) for value in there[:2])
-        point = f"road.create_xyz_point({x}, {y}, 0m)"
+        point = self._places.points.goal(*there[:2], master)
         return f"{master}.distance_to_xyz_point({point}, euclidean) <= {near}"

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 
-from osc2tx.importing.conditions import Condition, Trigger
+from osc2tx.importing.conditions import Condition, Trigger, joined_by
 from osc2tx.importing.dimensions import PRODUCT, TIME, Quantity, literal
 from osc2tx.importing.names import snake
 from osc2tx.importing.program import Statement, composed, wait
 from osc2tx.importing.steps import ENDS, Board, Step
 
+ON_A_LINE = 70
+"""Characters of a condition that is in brackets if it is longer, between which lines break."""
 STARTS = ("startTransition", "runningState")
 
 
@@ -77,22 +79,18 @@ class Waiting:
             found.append(wait(_edge(edges[0])))
         elif len(edges) == 1:
             name = self._event(_edge(edges[0]), edges[0])
-            conjunction = " and ".join(_operand(each.text) for each in levels)
+            conjunction = joined_by("and", [each.text for each in levels])
             found.append(wait(f"@{name} if {conjunction}"))
         elif edges:
             edges[0].node.approximate(
                 "edges of several conditions are the edge of their conjunction"
             )
-            conjunction = " and ".join(_operand(each.text) for each in (*edges, *levels))
+            conjunction = joined_by("and", [each.text for each in (*edges, *levels)])
             found.append(wait(f"rise({conjunction})"))
         elif levels:
-            found.append(
-                wait(
-                    " and ".join(
-                        _operand(each.text) if len(levels) > 1 else each.text for each in levels
-                    )
-                )
-            )
+            conjunction = joined_by("and", [each.text for each in levels])
+            is_long = len(levels) > 1 and len(conjunction) > ON_A_LINE
+            found.append(wait(f"({conjunction})" if is_long else conjunction))
         if late > 0.0:
             only = expressions[0]
             is_alone = len(expressions) == 1 and only.lasting == 0.0 and only.delay is not None
@@ -231,10 +229,6 @@ def _edge(condition: Condition) -> str:
     if condition.edge == "risingOrFalling":
         condition.node.approximate("of both edges the rising one counts")
     return f"rise({condition.text})"
-
-
-def _operand(text: str) -> str:
-    return f"({text})" if " or " in text or " and " in text else text
 
 
 def _lateness(condition: Condition) -> float:
