@@ -28,12 +28,9 @@ from osc2tx_shared.classes import replace
 
 
 def adapted(ctx: Context, acts: Sequence[Act], end: Flow) -> tuple[tuple[Act, ...], Flow]:
-    """Return acts and end as the tool understands them; what it cannot do is reported.
+    """Return acts, the outermost one last, and the end as the tool understands them.
 
-    Args:
-        ctx: The context.
-        acts: The acts, the outermost one last.
-        end: When the scenario ends.
+    What it cannot do is reported.
     """
     if ctx.profile.stop_name:
         name, span = ctx.names.new("end_of_the_run"), ctx.scenario.span

@@ -92,16 +92,7 @@ class Context:
         choosing: Choosing = NOTHING_OPEN,
         outlook: Outlook | None = None,
     ) -> None:
-        """Take the scenario.
-
-        Args:
-            scenario: What is written down.
-            module: Where it stands.
-            options: What was chosen.
-            folder: Where the source lies, if it has a folder.
-            choosing: Its open parameters, and what stands for them.
-            outlook: What it asks for, if that is known from writing it down before.
-        """
+        """Take the scenario, the folder of its source, and what is known from writing it before."""
         self.scenario = scenario
         self.module = module
         self.options = options

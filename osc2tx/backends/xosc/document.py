@@ -169,8 +169,9 @@ def entry_scenarios(module: ir.Module) -> tuple[ir.Scenario, ...]:
     One that others invoke, and to which they have to give values, is a part of theirs.
     """
     own = (scenario for scenario in module.scenarios if not scenario.is_imported)
-    return tuple(each for each in own if not (each.is_invoked and _is_incomplete(each)))
-
-
-def _is_incomplete(scenario: ir.Scenario) -> bool:
-    return any(isinstance(d, ir.Parameter) and d.is_required for d in scenario.declarations)
+    return tuple(
+        each
+        for each in own
+        if not each.is_invoked
+        or not any(isinstance(d, ir.Parameter) and d.is_required for d in each.declarations)
+    )

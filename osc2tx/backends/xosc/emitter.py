@@ -65,11 +65,8 @@ def emit(
 ) -> tuple[XmlScenario, ...]:
     """Write down the scenarios of a file.
 
-    Args:
-        module: The verified IR.
-        options: What was chosen.
-        folder: Where the source lies; maps are looked for there.
-        stem: What the names of the documents begin with; by default that of the source.
+    Maps are looked for in the folder of the source. The names of the documents begin with the stem,
+    by default that of the source.
     """
     scenarios = entry_scenarios(module)
     stem = PurePosixPath(module.source).stem if stem is None else stem

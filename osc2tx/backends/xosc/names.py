@@ -60,14 +60,9 @@ def deeds(scenario: ir.Scenario) -> Mapping[Deed, int]:
 
 
 def event_name(done: Mapping[Deed, int], node: ir.Invoke, actor: str | None = None) -> str:
-    """Return what the event of an action is called.
+    """Return what the event of an action is called; `done` are the deeds of its scenario.
 
     The action alone will do where it is done once; else its arguments and modifiers follow.
-
-    Args:
-        done: The `deeds` of its scenario.
-        node: The invocation.
-        actor: The entity that acts, if there is one.
     """
     if node.label is not None:
         return node.label

@@ -74,7 +74,6 @@ class Inexpressible(Unwritable):
     """
 
     def __init__(self, reason: str, span: Span | None = None, remedy: Remedy = NOTHING) -> None:
-        """Take what there is to say."""
         super().__init__(reason)
         self.span = span
         self.remedy = remedy
@@ -175,11 +174,6 @@ class Entry:
     remedy: Remedy = NOTHING
 
     @property
-    def is_in_words(self) -> bool:
-        """Whether it is an approximation that says in words alone how far off it is."""
-        return self.grade is Grade.APPROXIMATED and isinstance(self.bound, str)
-
-    @property
     def code(self) -> str:
         """The diagnostic that reports it where XML is asked for."""
         return "OSC514" if self.grade is Grade.INEXPRESSIBLE else "OSC515"
@@ -212,7 +206,6 @@ class LossReport:
     """
 
     def __init__(self, options: XmlOptions) -> None:
-        """Start with nothing."""
         self.options = options
         self._tool = PROFILES[options.profile]
         self._entries: dict[Span, dict[str, list[Entry]]] = {}
@@ -232,23 +225,13 @@ class LossReport:
         remedy: Remedy = NOTHING,
     ) -> None:
         """Note that a construct means nearly the same in the XML."""
-        self._lose(Grade.APPROXIMATED, construct, span, reason, bound, remedy)
+        remedy = remedy.with_tool(self._tool)
+        self._add(Entry(construct, span, Grade.APPROXIMATED, reason, bound, remedy))
 
     def cannot(self, construct: str, span: Span, reason: str, remedy: Remedy = NOTHING) -> None:
         """Note that a construct cannot be written down."""
-        self._lose(Grade.INEXPRESSIBLE, construct, span, reason, "", remedy)
-
-    def _lose(
-        self,
-        grade: Grade,
-        construct: str,
-        span: Span,
-        reason: str,
-        bound: Metres | str,
-        remedy: Remedy,
-    ) -> None:
         remedy = remedy.with_tool(self._tool)
-        self._add(Entry(construct, span, grade, reason, bound, remedy))
+        self._add(Entry(construct, span, Grade.INEXPRESSIBLE, reason, remedy=remedy))
 
     def refuse(self, construct: str, span: Span, error: Unwritable) -> None:
         """Note that a construct cannot be written down, as an attempt has shown."""
@@ -268,12 +251,12 @@ class LossReport:
         self._bound_by(f"not measured: {reason}")
 
     def _bound_by(self, text: str) -> None:
+        """Add to approximations that say in words alone how far off they are."""
         for of_span in self._entries.values():
             for same in of_span.values():
-                same[:] = [
-                    replace(each, bound=f"{each.bound}; {text}") if each.is_in_words else each
-                    for each in same
-                ]
+                for i, each in enumerate(same):
+                    if each.grade is Grade.APPROXIMATED and isinstance(each.bound, str):
+                        same[i] = replace(each, bound=f"{each.bound}; {text}")
 
     def _add(self, entry: Entry) -> None:
         """Add an entry; what is not exact stands instead of what is."""

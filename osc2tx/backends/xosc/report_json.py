@@ -19,13 +19,7 @@ FORMAT = 4
 
 
 def report_json(report: LossReport, scenario: ir.Scenario, module: ir.Module) -> str | None:
-    """Return the report of a scenario; none if all of it is exact and needs no remark.
-
-    Args:
-        report: The grades of its constructs.
-        scenario: The scenario.
-        module: Where it stands.
-    """
+    """Return the report of a scenario; none if all of it is exact and needs no remark."""
     exact = [entry for entry in report.entries if entry.grade is Grade.EXACT]
     lost = [_entry_data(entry, module) for entry in report.losses]
     notes = dict.fromkeys(f"{entry.construct}: {entry.reason}" for entry in exact if entry.reason)

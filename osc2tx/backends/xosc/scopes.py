@@ -132,10 +132,7 @@ def open_scopes(
 ) -> Scope:
     """Return the scope of a scenario, with those of what it invokes.
 
-    Args:
-        scenario: The scenario.
-        module: Where it stands.
-        chosen: Values of open parameters, by their keys.
+    Chosen are values of open parameters, by their keys.
     """
     return _Opener(module, chosen or {}).open(scenario, {}, {}, _Place("", "", (scenario.key,)))
 

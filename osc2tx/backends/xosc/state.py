@@ -103,6 +103,11 @@ class ActorState:
         """Its speed (m/s), if it is known to be just one."""
         return self.speed.low if self.speed is not None and self.speed.is_known else None
 
+    @property
+    def is_changing_speed(self) -> bool:
+        """Whether a change of its speed may not be over."""
+        return any(domain == LONGITUDINAL for domain, _ in self.unfinished)
+
     def with_unfinished(self, domain: str, event: str) -> ActorState:
         """Return the state in which an event may not be over."""
         return replace(self, unfinished=(*self._others(domain), (domain, event)))

@@ -112,13 +112,9 @@ class Arguments:
             return Pace(), None
         if not isinstance(shape, Named) or not values.is_library_shape(shape.name):
             raise Inexpressible("a user-defined shape is computed during the run")
-        profile = values.field(shape.name, "rate_profile")
-        peak, target = (values.field(shape.name, name) for name in ("rate_peak", "target"))
-        pace = Pace(
-            profile.name if isinstance(profile, Member) else "none",
-            float(peak) if isinstance(peak, (int, float)) else None,
-        )
-        return pace, float(target) if isinstance(target, (int, float)) else None
+        profile = values.member_in(shape.name, "rate_profile") or "none"
+        peak, target = (values.number_in(shape.name, name) for name in ("rate_peak", "target"))
+        return Pace(profile, peak), target
 
     def member(self, name: str, default: str) -> str:
         """Return the name of a member of an enum."""
@@ -177,7 +173,6 @@ class Call(Arguments):
     """
 
     def __init__(self, ctx: Context, node: ir.ModifierCall) -> None:
-        """Take the modifier."""
         super().__init__(ctx, node)
         self.node = node
         self.name = node.name

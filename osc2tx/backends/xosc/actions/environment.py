@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from datetime import datetime, timedelta
+from typing import cast
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.arguments import Arguments
@@ -36,18 +37,7 @@ HEAVIEST_RAIN = 50.0
 FAR = 100000.0
 """Visual range (m) where fog is not mentioned."""
 
-OKTAS: tuple[FractionalCloudCover, ...] = (
-    "zeroOktas",
-    "oneOktas",
-    "twoOktas",
-    "threeOktas",
-    "fourOktas",
-    "fiveOktas",
-    "sixOktas",
-    "sevenOktas",
-    "eightOktas",
-    "nineOktas",
-)
+OKTAS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 
 
 # --- sun and air --------------------------------------------------------------------------------
@@ -63,7 +53,7 @@ def _celestial_position(ctx: Context, node: ir.Invoke, arguments: Arguments) -> 
         ctx.weather["sun_azimuth"] = azimuth
     if elevation is not None:
         ctx.weather["sun_elevation"] = elevation
-    return (environment_action(ctx, node, _sun(ctx)),)
+    return (environment_action(ctx, node, xml.Weather(_sun(ctx))),)
 
 
 def _sun(ctx: Context) -> xml.Sun:
@@ -91,7 +81,8 @@ def _air(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     if temperature is None and pressure is None:
         return ()
     ctx.require("temperature and pressure of the air", "1.1")
-    return (environment_action(ctx, node, temperature=temperature, pressure=pressure),)
+    weather = xml.Weather(temperature=temperature, atmosphericPressure=pressure)
+    return (environment_action(ctx, node, weather),)
 
 
 @global_action("wind")
@@ -107,7 +98,7 @@ def _wind(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     # from east.
     whither = (-0.5 * math.pi - ctx.weather["wind_direction"]) % (2.0 * math.pi)
     wind = xml.Wind(direction=round(whither, 9), speed=ctx.weather["wind_speed"])
-    return (environment_action(ctx, node, wind),)
+    return (environment_action(ctx, node, xml.Weather(wind)),)
 
 
 # --- fog, clouds, rain and snow -----------------------------------------------------------------
@@ -116,7 +107,7 @@ def _wind(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
 @global_action("fog")
 def _fog_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     ctx.weather["visual_range"] = arguments.required("visual_range")
-    return (environment_action(ctx, node, _fog(ctx)),)
+    return (environment_action(ctx, node, xml.Weather(_fog(ctx))),)
 
 
 def _fog(ctx: Context) -> xml.Fog:
@@ -135,9 +126,10 @@ def _clouds_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globa
             f"{cloudiness:g} oktas are called cloudy, which is 1 to 7",
             Remedy(version="1.2"),
         )
-    if ctx.version >= "1.2":
-        return (environment_action(ctx, node, cover=OKTAS[round(cloudiness)]),)
-    return (environment_action(ctx, node, state=_cloud_state(ctx)),)
+    if ctx.version < "1.2":
+        return (environment_action(ctx, node, xml.Weather(cloudState=_cloud_state(ctx))),)
+    cover = cast("FractionalCloudCover", f"{OKTAS[round(cloudiness)]}Oktas")
+    return (environment_action(ctx, node, xml.Weather(fractionalCloudCover=cover)),)
 
 
 def _cloud_state(ctx: Context) -> CloudState:
@@ -161,7 +153,7 @@ def _precipitation_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -
             f"1 stands for {HEAVIEST_RAIN:g} mm/h and more",
             Remedy(version="1.1"),
         )
-    return (environment_action(ctx, node, _precipitation(ctx)),)
+    return (environment_action(ctx, node, xml.Weather(_precipitation(ctx))),)
 
 
 def _precipitation(ctx: Context) -> xml.Precipitation:
@@ -195,40 +187,25 @@ def initial_environment(ctx: Context) -> tuple[xml.GlobalAction, ...]:
             )
         if "datetime" in said:
             with ctx.report_as(f"actor {actor.type}", actor.span):
-                told = (
-                    environment_action(ctx, actor)  # in 1.0 all of it has to be stated
+                actions.append(
+                    environment_action(ctx, actor, xml.Weather())  # 1.0 states all of it
                     if ctx.version == "1.0"
                     else _environment(ctx, actor.name, time_of_day(ctx))
                 )
-                actions.append(told)
     return tuple(actions)
 
 
 def environment_action(
-    ctx: Context,
-    source: ir.Invoke | ir.Actor,
-    *weather: xml.WeatherPart,
-    temperature: float | None = None,
-    pressure: float | None = None,
-    cover: FractionalCloudCover | None = None,
-    state: CloudState | None = None,
+    ctx: Context, source: ir.Invoke | ir.Actor, weather: xml.Weather
 ) -> xml.GlobalAction:
     """Return the action that changes parts of the weather; 1.0 has to state all of it."""
-    parts: dict[str, xml.WeatherPart] = {part.tag: part for part in weather}
     clock = None
     if ctx.version == "1.0":
-        parts = {part.tag: part for part in (_sun(ctx), _fog(ctx), _precipitation(ctx))}
-        state = _cloud_state(ctx)
+        parts = _sun(ctx), _fog(ctx), _precipitation(ctx)
+        weather = xml.Weather(*parts, cloudState=_cloud_state(ctx))
         clock = _stated_again(ctx, source)
-    told = xml.Weather(
-        *parts.values(),
-        temperature=temperature,
-        atmosphericPressure=pressure,
-        fractionalCloudCover=cover,
-        cloudState=state,
-    )
     name = event_name(ctx.scope.deeds, source) if isinstance(source, ir.Invoke) else source.name
-    return _environment(ctx, name, told, clock, _road(ctx, source))
+    return _environment(ctx, name, weather, clock, _road(ctx, source))
 
 
 def _stated_again(ctx: Context, source: ir.Invoke | ir.Actor) -> xml.TimeOfDay:

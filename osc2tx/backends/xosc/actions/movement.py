@@ -85,7 +85,7 @@ def _assign_speed(leaf: Leaf) -> Performance:
 @action("keep_speed")
 def _keep_speed(leaf: Leaf) -> Performance:
     changes = apply_modifiers(leaf)
-    if any(domain == LONGITUDINAL for domain, _ in leaf.state.unfinished):
+    if leaf.state.is_changing_speed:
         after = leaf.state.finished(LONGITUDINAL)
         held = Change(LONGITUDINAL, (hold_speed(leaf.member.name),), 0.0, after, after)
         changes = (held, *changes)

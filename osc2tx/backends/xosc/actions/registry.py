@@ -55,11 +55,9 @@ def _registering(
 
 
 def action(*names: str, takes: Iterable[str] | None = None) -> Callable[[Perform], Perform]:
-    """Register a handler for actions of the library.
+    """Register a handler for actions of the library, by their names without actors.
 
-    Args:
-        *names: The actions, without their actors.
-        takes: Domains that the elements take over; by default what the actions control.
+    The elements take over some domains, by default those that the actions control.
     """
     return _registering(ACTIONS, "", names, takes)
 

@@ -69,11 +69,8 @@ Half = TypeVar("Half", xml.TrailerCoupler, xml.TrailerHitch)
 
 
 def _half(ctx: Context, kind: type[Half], member: CastMember, field: str, usual: float) -> Half:
-    x, z = (ctx.values.field(member.actor.name, field, f"position_{axis}") for axis in "xz")
-    return kind(
-        dx=round(float(x) if isinstance(x, (int, float)) else usual, 6),
-        dz=float(z) if isinstance(z, (int, float)) else None,
-    )
+    x, z = (ctx.values.number_in(member.actor.name, field, f"position_{axis}") for axis in "xz")
+    return kind(dx=round(usual if x is None else x, 6), dz=z)
 
 
 def couplings(ctx: Context, member: CastMember) -> tuple[xml.VehiclePart, ...]:

@@ -54,6 +54,11 @@ class Comparison(NamedTuple):
         value = self.arguments.get(parameter)
         return value.name if isinstance(value, Member) else default
 
+    @property
+    def is_free(self) -> bool:
+        """Whether it counts between bounding boxes, as `mode` says."""
+        return self.member("mode", "reference_points") == "bounding_boxes"
+
 
 Groups: TypeAlias = "tuple[tuple[xml.ConditionPart, ...], ...]"
 """Conditions: an OR of ANDs; an edge belongs to the first one of a group."""

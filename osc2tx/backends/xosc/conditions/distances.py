@@ -16,7 +16,7 @@ from osc2tx.backends.xosc.conditions.comparisons import (
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.start_lanes import faces_along, standing_heading
 from osc2tx.backends.xosc.facts.maps import LanePosition, are_opposed
-from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
+from osc2tx.backends.xosc.report import NOTHING, Inexpressible, Metres, Remedy
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import CoordinateSystem, Rule
 
@@ -24,14 +24,14 @@ from osc2tx.xosc.literals import CoordinateSystem, Rule
 def object_distance(ctx: Context, c: Comparison) -> Groups:
     """Compare a distance in the axes of the actor (§8.7.3)."""
     direction = c.member("direction", "euclidean")
-    freespace = c.member("mode", "reference_points") == "bounding_boxes"
     if direction == "euclidean":
-        return ((relative_distance(ctx, c, direction, None, freespace=freespace),),)
+        return ((relative_distance(ctx, c, direction, None, freespace=c.is_free),),)
     what = f"a {direction} distance in the axes of an object"
     ctx.require(what, "1.1", c.source.span, "`road_distance` is in all versions")
     if direction == "vertical":
         raise Inexpressible("there is no condition on a vertical distance", c.source.span)
-    return _signed(ctx, c, direction, freespace, "entity", ahead_is_positive=True)
+    shifted = None if c.is_free else _shifted(ctx, c, direction)
+    return shifted or _signed(ctx, c, direction, c.is_free, "entity", ahead_is_positive=True)
 
 
 def along_road(
@@ -39,15 +39,12 @@ def along_road(
 ) -> Measure:
     """Return the measure of a distance along or across the road, with a sign.
 
-    Args:
-        ahead_is_positive: It is positive if the reference is ahead of the actor, or left of it.
-        freespace: Between bounding boxes; `None`: as the argument `mode` says.
-        direction: `None`: as the argument says.
+    It is positive if the reference is ahead of the actor, or left of it, or the other way round.
+    Whether it counts between bounding boxes, and its direction, are by default as arguments say.
     """
 
     def measure(ctx: Context, c: Comparison) -> Groups:
-        is_free = c.member("mode", "reference_points") == "bounding_boxes"
-        is_free = is_free if freespace is None else freespace
+        is_free = c.is_free if freespace is None else freespace
         along = direction or c.member("direction", "longitudinal")
         return _signed(ctx, c, along, is_free, "road", ahead_is_positive=ahead_is_positive)
 
@@ -56,6 +53,11 @@ def along_road(
 
 FAR = 10000.0
 """Metres that no pair of actors is apart."""
+
+NO_SIGN = "conditions on distances have no sign"
+
+WITH_ORDER = {"longitudinal": Remedy(version="1.2")}
+"""What can say by direction which of two actors is ahead."""
 
 MANY_LANES = 100
 """Lanes that no road has, for tools that find no lane at all without a range."""
@@ -72,30 +74,19 @@ def _signed(
 ) -> Groups:
     """Return the conditions for a distance with a sign, which the XML measures without.
 
-    Args:
-        ctx: The context.
-        c: The comparison.
-        direction: `longitudinal` or `lateral`.
-        freespace: Between bounding boxes.
-        system: Coordinate system of the XML.
-        ahead_is_positive: The distance is positive if the reference is ahead of the actor.
+    It is `longitudinal` or `lateral` in a coordinate system of the XML.
     """
-    shifted = None if freespace else _shifted(ctx, c, direction, system)
-    if shifted is not None:
-        return shifted
     me, other = c.actor, c.reference()
     is_ahead, rule, value = ahead_is_positive, c.rule, c.value
     if value < 0.0:
         is_ahead, rule, value = not is_ahead, MIRRORED[rule], -value
-    note_facing(ctx, c, freespace, system)
+    if system == "road":
+        note_facing(ctx, c, freespace)
     has_order = direction == "longitudinal" and ctx.can("RelativeClearanceCondition", "1.2")
     if value == 0.0 and not freespace:  # only the order counts
         if not has_order:
-            remedy = Remedy(version="1.2") if direction == "longitudinal" else Remedy()
-            reason = (
-                "conditions on distances have no sign, so they cannot ask for that of a distance"
-            )
-            raise Inexpressible(reason, c.source.span, remedy)
+            reason = f"{NO_SIGN}, so they cannot ask for that of a distance"
+            raise Inexpressible(reason, c.source.span, WITH_ORDER.get(direction, NOTHING))
         return ((is_clear(ctx, me, other, ahead=is_ahead is rule.startswith("less")),),)
     amount = c._replace(rule=rule, value=value)
     distance = relative_distance(ctx, amount, direction, system, freespace=freespace)
@@ -113,14 +104,8 @@ def in_order(
 ) -> Groups:
     """Return the conditions for a measure without a sign, and for the side that it is on.
 
-    Args:
-        ctx: The context.
-        c: The comparison.
-        measure: Compares the amount.
-        direction: `longitudinal` or `lateral`.
-        is_ahead: The reference is ahead of the actor where the measure is positive.
-        rule: Of the measure.
-        amount: What it is compared with, with its unit.
+    The reference is ahead of the actor, or not, where what is measured is positive. The rule is
+    that of the measure, which compares with an amount.
     """
     me, other = c.actor, c.reference()
     if direction == "longitudinal" and ctx.can("RelativeClearanceCondition", "1.2"):
@@ -130,24 +115,21 @@ def in_order(
     ctx.report.approximate(
         f"sign of {c.name}",
         c.source.span,
-        "conditions on distances have no sign",
+        NO_SIGN,
         f"differs only while {other} is on the other side of {me} by more than {amount}",
-        Remedy(version="1.2") if direction == "longitudinal" else Remedy(),
+        WITH_ORDER.get(direction, NOTHING),
     )
     return ((measure,),)
 
 
-def _shifted(
-    ctx: Context, c: Comparison, direction: str, system: CoordinateSystem
-) -> Groups | None:
+def _shifted(ctx: Context, c: Comparison, direction: str) -> Groups | None:
     """Return the condition on the distance to a place far beyond the reference.
 
     That distance is the one asked for, with its sign, and so much more. The place lies in the
     direction of an axis of the actor, so its heading has to be known: it stands.
     """
-    if system != "entity" or not ctx.can("RelativeWorldPosition", "1.1"):
-        return None
-    heading = standing_heading(ctx, c.actor)
+    can_shift = ctx.can("RelativeWorldPosition", "1.1")
+    heading = standing_heading(ctx, c.actor) if can_shift else None
     if heading is None:
         return None
     angle = heading if direction == "longitudinal" else heading + 0.5 * pi
@@ -157,7 +139,7 @@ def _shifted(
         dy=round(FAR * sin(angle), 6),
         dz=0.0,
     )
-    condition = distance_to(ctx, place, FAR + c.value, c.rule, system, direction)
+    condition = distance_to(ctx, place, FAR + c.value, c.rule, "entity", direction)
     return ((of_entity(c.actor, condition),),)
 
 
@@ -180,10 +162,8 @@ def is_clear(ctx: Context, me: str, other: str, *, ahead: bool) -> xml.ByEntityC
     )
 
 
-def note_facing(ctx: Context, c: Comparison, freespace: bool, system: CoordinateSystem) -> None:
+def note_facing(ctx: Context, c: Comparison, freespace: bool) -> None:
     """Report what a distance along the road depends on: how the other one looks, and its lane."""
-    if system != "road":
-        return
     mine, theirs = (_lane_at_start(ctx, name) for name in (c.actor, c.reference()))
     if ctx.roads is not None and mine and theirs and are_opposed(ctx.roads.map, mine, theirs):
         ctx.report.approximate(

@@ -68,15 +68,17 @@ def _awaited(event: ir.EventRef | ir.LabelEvent | ir.InnerEvent | None) -> Occur
     return None
 
 
+def emitted_by(node: ir.Behavior) -> list[str]:
+    """Return the events that a member emits itself."""
+    emissions = node.reactions if isinstance(node, ir.On) else (node,)
+    return [each.event.name for each in emissions if isinstance(each, ir.Emit)]
+
+
 def _occurring(site: ir.Behavior) -> Iterator[Occurring]:
     """Yield the events that a member emits, and its label."""
     if site.label is not None:
         yield "label", site.label
-    match site:
-        case ir.Emit(event=emitted):
-            yield "event", emitted.name
-        case ir.On(reactions=reactions):
-            yield from (("event", r.event.name) for r in reactions if isinstance(r, ir.Emit))
+    yield from (("event", name) for name in emitted_by(site))
 
 
 def _paths(node: ir.Behavior, path: Path) -> Iterator[tuple[int, Path]]:

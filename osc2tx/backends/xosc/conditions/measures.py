@@ -21,6 +21,7 @@ from osc2tx.backends.xosc.conditions.comparisons import (
     relative_speed,
 )
 from osc2tx.backends.xosc.conditions.distances import (
+    NO_SIGN,
     along_road,
     in_order,
     note_facing,
@@ -81,13 +82,9 @@ def time_gap(ctx: Context, c: Comparison) -> Groups:
 def _between(ctx: Context, c: Comparison, *, is_ahead: bool, freespace: bool) -> Groups:
     """Return the conditions for a time with a sign, which is that of who follows.
 
-    Args:
-        ctx: The context.
-        c: The comparison.
-        is_ahead: The reference leads where the time is positive.
-        freespace: Between bounding boxes.
+    The reference leads, or follows, where the time is positive.
     """
-    note_facing(ctx, c, freespace, "road")
+    note_facing(ctx, c, freespace)
     rule, value = c.rule, c.value
     if value < 0.0:
         is_ahead, rule, value = not is_ahead, MIRRORED[rule], -value
@@ -188,12 +185,11 @@ def _distance_to(ctx: Context, c: Comparison, direction: str, system: Coordinate
             ctx.report.approximate(
                 f"sign of {c.name}",
                 c.source.span,
-                "conditions on distances have no sign",
+                NO_SIGN,
                 f"differs only once the point is passed by more than {value:g} m",
             )
-    freespace = c.member("mode", "reference_points") == "bounding_boxes"
-    axes = None if is_free else system
-    condition = distance_to(ctx, point.element, value, rule, axes, direction, freespace=freespace)
+    axes, boxes = None if is_free else system, c.is_free
+    condition = distance_to(ctx, point.element, value, rule, axes, direction, freespace=boxes)
     return ((of_entity(c.actor, condition),),)
 
 
@@ -201,23 +197,18 @@ ASIDE = 100.0
 """Metres to the right of a road where nobody is."""
 
 
-def s_coordinate(ctx: Context, c: Comparison) -> Groups:
-    """Compare the own s along the road: the distance to where the road begins (§8.7.3)."""
-    return _coordinate(ctx, c, "longitudinal", 0.0)
+def coordinate(ctx: Context, c: Comparison) -> Groups:
+    """Compare the own s along the road, or t across it (§8.7.3).
 
-
-def t_coordinate(ctx: Context, c: Comparison) -> Groups:
-    """Compare the own t across the road: the distance to a line far to the right of it."""
-    ctx.require("a lateral distance to a point", "1.1", c.source.span)
-    return _coordinate(ctx, c, "lateral", ASIDE)
-
-
-def _coordinate(ctx: Context, c: Comparison, direction: str, aside: float) -> Groups:
-    """Return the condition on the distance to a line that is so far (m) to the right of the road.
+    It is the distance to where the road begins, or to a line far to the right of it.
 
     Raises:
         Inexpressible: There are several roads, each with coordinates of its own.
     """
+    direction, aside = "longitudinal", 0.0
+    if c.name == "get_t_coord":
+        ctx.require("a lateral distance to a point", "1.1", c.source.span)
+        direction, aside = "lateral", ASIDE
     roads = [] if ctx.roads is None else list(ctx.roads.map.roads)
     if len(roads) != 1 or c.member("route_type", "on_road") != "on_road":
         reason = "a condition on coordinates of a road needs a map with just one road"
@@ -246,8 +237,8 @@ MEASURES: Mapping[str, Measure] = {
     "time_gap": time_gap,
     "time_headway": time_headway,
     "time_to_collision": time_to_collision,
-    "get_s_coord": s_coordinate,
-    "get_t_coord": t_coordinate,
+    "get_s_coord": coordinate,
+    "get_t_coord": coordinate,
     "distance_to_xyz_point": distance_to_xyz,
     "distance_to_odr_point": distance_to_road_point,
     "distance_to_route_point": distance_to_road_point,

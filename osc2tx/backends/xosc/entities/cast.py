@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from osc2tx import ir
 from osc2tx.backends.xosc.facts.actors import CATEGORIES, Limits, Shape, limits_of, shape_of
 from osc2tx.backends.xosc.names import plain
-from osc2tx.backends.xosc.values.constants import Member, as_number
 from osc2tx.backends.xosc.values.folding import Values
 from osc2tx_shared.classes import dataclass
 
@@ -74,8 +73,7 @@ def cast_member(actor: ir.Actor, name: str, values: Values) -> CastMember | None
     if kind is None:
         return None
     library_kind = next(t for t in actor.lineage if t in KINDS)
-    chosen = values.field(actor.name, "vehicle_category")
-    category = chosen.name if isinstance(chosen, Member) else None
+    category = values.member_in(actor.name, "vehicle_category")
     sized = category if category in CATEGORIES else None  # others have no counterpart anyway
     model = values.field(actor.name, "model")
     model_name = model if isinstance(model, str) else None
@@ -94,18 +92,17 @@ def _shape(
     actor: ir.Actor, kind: str, category: str | None, model: str | None, values: Values
 ) -> Shape:
     shape = shape_of(kind, category, model)
-    sizes = {
-        name: as_number(values.field(actor.name, "bounding_box", name))
-        for name in ("length", "width", "height")
-    }
-    overhang = as_number(values.field(actor.name, "rear_overhang"))
-    centre = as_number(values.field(actor.name, "bounding_box", "center", "x"))
-    length = sizes["length"] or shape.length
+    given, width, height = (
+        values.number_in(actor.name, "bounding_box", name) for name in ("length", "width", "height")
+    )
+    overhang = values.number_in(actor.name, "rear_overhang")
+    centre = values.number_in(actor.name, "bounding_box", "center", "x")
+    length = given or shape.length
     rear = shape.rear * length / shape.length if overhang is None else overhang
     return Shape(
         length=length,
-        width=sizes["width"] or shape.width,
-        height=sizes["height"] or shape.height,
+        width=width or shape.width,
+        height=height or shape.height,
         rear=rear if centre is None else 0.5 * length - centre,
         wheelbase=shape.wheelbase * length / shape.length,
     )

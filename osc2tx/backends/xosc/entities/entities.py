@@ -71,9 +71,8 @@ def axles(ctx: Context, member: CastMember) -> list[xml.AxlesPart]:
 
 def _as_said(ctx: Context, name: str, path: tuple[str, ...], usual: Axle) -> Axle:
     """Return an axle with the constraints on it below a path of an object, else as usual."""
-    said = {part: ctx.values.field(name, *path, part) for part in Axle._fields}
-    numbers = {part: float(v) for part, v in said.items() if isinstance(v, (int, float))}
-    return usual._replace(**numbers)
+    said = {part: ctx.values.number_in(name, *path, part) for part in Axle._fields}
+    return usual._replace(**{part: v for part, v in said.items() if v is not None})
 
 
 def _axle(
@@ -122,14 +121,11 @@ def scenario_objects(ctx: Context) -> list[xml.ScenarioObject]:
         with ctx.within(scope):
             for member in scope.own:
                 with ctx.report_as(f"actor {member.actor.type}", member.actor.span):
-                    objects.append(_scenario_object(ctx, member))
+                    check_model(ctx, member)
+                    body = _BODIES[member.kind](ctx, member)
+                    objects.append(xml.ScenarioObject(body, name=member.name))
     towed = towing(ctx)  # tools want to know a trailer before the vehicle that tows it
     return sorted(objects, key=lambda each: each.get("name") not in towed)
-
-
-def _scenario_object(ctx: Context, member: CastMember) -> xml.ScenarioObject:
-    check_model(ctx, member)
-    return xml.ScenarioObject(_BODIES[member.kind](ctx, member), name=member.name)
 
 
 def _vehicle(ctx: Context, member: CastMember) -> xml.Vehicle:
@@ -234,9 +230,8 @@ def _bounding_box(ctx: Context, member: CastMember) -> xml.BoundingBox:
     shape = member.shape
     center = {"x": round(shape.centre, 6), "y": 0.0, "z": shape.height / 2}
     for axis in center:
-        given = ctx.values.field(member.actor.name, "bounding_box", "center", axis)
-        if isinstance(given, (int, float)):
-            center[axis] = float(given)
+        given = ctx.values.number_in(member.actor.name, "bounding_box", "center", axis)
+        center[axis] = center[axis] if given is None else given
     return xml.BoundingBox(
         xml.Center(x=center["x"], y=center["y"], z=center["z"]),
         xml.Dimensions(width=shape.width, length=shape.length, height=shape.height),

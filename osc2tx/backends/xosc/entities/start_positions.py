@@ -20,18 +20,13 @@ from osc2tx.backends.xosc.facts.start_places import (
     read_spawn,
 )
 from osc2tx.backends.xosc.report import Inexpressible, NoPlace
-from osc2tx.backends.xosc.values.constants import Constant, Named, as_number
+from osc2tx.backends.xosc.values.constants import Constant, Named
 
 at_start("location", "position", "along", "lane", "lateral", "on_path")
 
 
 def position_of(ctx: Context, start: Start, taken_by: TakenBy) -> StartPlace:
     """Return the position of an actor at the start, and what is known about the actor there.
-
-    Args:
-        ctx: The context.
-        start: What is said about its start.
-        taken_by: Tells which actor is in the way of a place.
 
     Raises:
         NoPlace: There is no such place.
@@ -58,24 +53,10 @@ def _at_pose(ctx: Context, start: Start, location: Arguments) -> StartPlace:
     pose = location.get("pose")
     if not isinstance(pose, Named):
         raise Inexpressible("the pose is not known before the run", location.source.span)
-    numbers = {
-        name: _part(ctx, pose.name, path)
-        for name, path in (
-            ("x", ("position", "x")),
-            ("y", ("position", "y")),
-            ("z", ("position", "z")),
-            ("h", ("orientation", "yaw")),
-            ("p", ("orientation", "pitch")),
-            ("r", ("orientation", "roll")),
-        )
-    }
-    x, y, z = (numbers[name] or 0.0 for name in "xyz")
-    h = numbers["h"] or 0.0
-    return at_pose(Pose(x, y, z, h), numbers["p"], numbers["r"])
-
-
-def _part(ctx: Context, owner: str, path: tuple[str, ...]) -> float | None:
-    return as_number(ctx.values.field(owner, *path))
+    number_in = ctx.values.number_in
+    x, y, z = (number_in(pose.name, "position", axis) or 0.0 for axis in "xyz")
+    yaw, pitch, roll = (number_in(pose.name, "orientation", n) for n in ("yaw", "pitch", "roll"))
+    return at_pose(Pose(x, y, z, yaw or 0.0), pitch, roll)
 
 
 def _at_point(ctx: Context, start: Start, position: Arguments) -> StartPlace:
@@ -83,7 +64,7 @@ def _at_point(ctx: Context, start: Start, position: Arguments) -> StartPlace:
         point = position.get("at_point")
         if not isinstance(point, Named):
             raise Inexpressible("the point is not known before the run", position.source.span)
-        x, y, z = (_part(ctx, point.name, (name,)) or 0.0 for name in "xyz")
+        x, y, z = (ctx.values.number_in(point.name, axis) or 0.0 for axis in "xyz")
         if position.get("project_on_route") is not False:
             return _near_point(ctx, start, (x, y, z))
         said = None

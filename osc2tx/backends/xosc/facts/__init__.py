@@ -17,9 +17,7 @@ from osc2tx_runtime.opendrive import MapError
 def refusing(kind: type[Inexpressible] = Inexpressible, about: str = "") -> Iterator[None]:
     """Refuse what the world refuses inside, or in a function that this decorates.
 
-    Args:
-        kind: The refusal.
-        about: What its reason begins with.
+    `about` is what the reason begins with.
     """
     try:
         yield

@@ -106,12 +106,7 @@ def way_by_acceleration(
 ) -> float:
     """Return how far (m) an actor may get ahead or stay behind where its acceleration goes on.
 
-    Args:
-        speed: At the start of the change (m/s).
-        target: m/s.
-        pace: Of the change; it takes the time that it needs.
-        rates: The least and the greatest acceleration that it may have at the start (m/s^2).
-        limits: Of the actor.
+    That is between two rates (m/s^2) at the start of the change, which takes the time it needs.
     """
     change = SpeedChange(target, *pace._replace(duration=None).told)
     at_rest = speed_profile(change, speed, limits)
@@ -121,10 +116,7 @@ def way_by_acceleration(
 def way_between(one: Course, other: Course, within: float | None = None) -> float:
     """Return how far (m) two courses of the speed are from each other at most, on the way.
 
-    Args:
-        one: A course.
-        other: Another one.
-        within: Seconds to look at; `None`: until both are over.
+    Looked at are so many seconds, by default until both are over.
     """
     step = (max(one.duration, other.duration) if within is None else within) / STEPS
     apart = farthest = 0.0

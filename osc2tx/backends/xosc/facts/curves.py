@@ -114,9 +114,7 @@ def curve_through(points: Sequence[Waypoint], *, is_timed: bool, is_smooth: bool
 def thinned(points: Sequence[Waypoint], *, is_timed: bool) -> tuple[Waypoint, ...]:
     """Return points of a curve whose straight lines stay within `TOLERANCE` of all of them.
 
-    Args:
-        points: Points of the curve, close together.
-        is_timed: Whether a place counts at its time, and not wherever it is on the curve.
+    If it is timed, a place counts at its time, and not wherever it is on the curve.
     """
     kept = [points[0]]
     first = 0
@@ -166,12 +164,7 @@ def off_the_line(
 ) -> float:
     """Return how far (m) an actor is at most from where the corners of a line would have it.
 
-    Args:
-        line: Its way.
-        corners: Of the line, from where it is on.
-        start: Where it is, and how it looks.
-        speed: m/s, which it keeps.
-        actor: What it is.
+    The corners are those from where it is on; it keeps its speed (m/s).
 
     Raises:
         Inexpressible: The way has no length, as that to where the actor is already.

@@ -76,19 +76,9 @@ class StoryboardBuilder:
         lasting: float = 0.0,
         is_step: bool = False,
     ) -> Flow:
-        """Add an event to the maneuver of an actor.
+        """Add an event to the maneuver of an actor, or of none; return when it is complete.
 
-        Args:
-            name: Its name.
-            actions: What it does.
-            start: When.
-            actor: The actor; `None` for what concerns no entity.
-            repeats: How often it may start.
-            lasting: Seconds that it surely takes.
-            is_step: It is one step of a change that is reported as a whole.
-
-        Returns:
-            When it is complete.
+        It surely lasts so many seconds; for the others see `Event`.
         """
         made = Event(name, actions, start, self.place, repeats=repeats, is_step=is_step)
         self.act.add(actor, made)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.user_actions import command_of, no_model
-from osc2tx.backends.xosc.conditions.event_conditions import set_parameters
-from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Group, Test, single
+from osc2tx.backends.xosc.conditions.event_conditions import emitted_by, set_parameters
+from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Test, single
 from osc2tx.backends.xosc.flattening.builder import StoryboardBuilder
 from osc2tx.backends.xosc.names import plain
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible
@@ -32,7 +32,7 @@ def react_periodically(
     begin = start.later(0.0 if every.offset is None else ctx.values.number(every.offset))
     pulse = ctx.names.new("pulse")
     up = (*actions, ctx.mark(pulse))
-    emitted = dict.fromkeys(r.event.name for r in node.reactions if isinstance(r, ir.Emit))
+    emitted = dict.fromkeys(emitted_by(node))
     down = (*(builder.events.setting(name, "false") for name in emitted),)
     down = (*down, ctx.set_variable(pulse, "false"))
     is_up = Test(ctx.variable_is(pulse, "equalTo", "true"), delay=0.5 * period)
@@ -98,12 +98,10 @@ def finish(builder: StoryboardBuilder, node: ir.Finish, start: Flow) -> Flow:
 
 def react(builder: StoryboardBuilder, node: ir.On, start: Flow) -> Flow:
     """Write down reactions as an event that starts again at each occurrence."""
-    ctx, events = builder.ctx, builder.events
-    emitted, actions = [], []
+    ctx, events, actions = builder.ctx, builder.events, []
     for reaction in node.reactions:
         if not isinstance(reaction, ir.Emit):
             raise Inexpressible("only `emit` can react", reaction.span)
-        emitted.append(reaction.event.name)
         actions += [*set_parameters(ctx, reaction), events.setting(reaction.event.name)]
     condition = node.trigger.condition
     if isinstance(condition, ir.Every) and node.trigger.event is None:
@@ -126,7 +124,7 @@ def react(builder: StoryboardBuilder, node: ir.On, start: Flow) -> Flow:
                 for group in occurs.groups
             )
         )
-        reset = tuple(events.setting(event, "false") for event in emitted)
+        reset = tuple(events.setting(event, "false") for event in emitted_by(node))
         builder.add(ctx.names.new(f"after_{name}"), reset, over, repeats=repeats)
     ctx.report.exact("on", node.span)
     return NEVER
@@ -135,10 +133,13 @@ def react(builder: StoryboardBuilder, node: ir.On, start: Flow) -> Flow:
 def _each_time(occurs: Flow, start: Flow) -> Flow:
     """Return a flow with an edge in each group: a variable that is set comes and goes."""
     since = {test for group in start.groups for test in group}
-    return Flow(tuple(_with_edge(group, since) for group in occurs.groups))
-
-
-def _with_edge(group: Group, since: set[Test]) -> Group:
-    if any(test.edge != "none" for test in group):
-        return group
-    return tuple(test if test in since else replace(test, edge="rising") for test in group)
+    return Flow(
+        tuple(
+            (
+                group
+                if any(test.edge != "none" for test in group)
+                else tuple(t if t in since else replace(t, edge="rising") for t in group)
+            )
+            for group in occurs.groups
+        )
+    )

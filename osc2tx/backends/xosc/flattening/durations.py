@@ -10,8 +10,9 @@ In `parallel(duration: 8s)` the members that never end by themselves end after 8
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Literal, TypeAlias, cast
+from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
+from typing import Literal, TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
@@ -50,7 +51,9 @@ def end_within_duration(
     if isinstance(node, ir.OneOf):
         reason = "the member that ends within the duration wins, which only the run shows"
         raise Inexpressible(reason, node.duration.span)
-    length, fills = _length(builder, node), _fills(node)
+    length = _length(builder, node)
+    # A member without end fills what the others leave of a duration.
+    fills = isinstance(node, ir.Parallel) and any(map(is_open, node.members))
     if length is not None and length <= high and (fills or low <= length):
         return (start.later(low) if length < low else content) | until
     if length is not None and role != "racer":
@@ -70,11 +73,6 @@ def end_within_duration(
         builder.keep(filled, start.later(low))
         failed = failed | over & builder.is_unset(filled)
     return _failing(builder, node, over & start.later(low), failed, role) | until
-
-
-def _fills(node: Timed) -> bool:
-    """Whether a member without end fills what the others leave of a duration."""
-    return isinstance(node, ir.Parallel) and any(map(is_open, node.members))
 
 
 def _always_fails(length: float, low: float, high: float) -> str:
@@ -135,23 +133,15 @@ def time_left(ctx: Context, node: ir.Invoke) -> float | None:
     if not is_open(node):
         return None
     passed: float | None = 0.0
-    child: ir.Behavior = node
-    for parent in reversed(_around(ctx.scope.scenario.body, node)):
+    for parent, before, after in _around(ctx, node):
         fixed = _fixed(ctx, parent)
-        if isinstance(parent, ir.Serial):
-            *before, last = parent.members
-            if last is not child:
-                return None
-            for member in before:
-                length = length_of(ctx, member)
-                passed = None if passed is None or length is None else passed + length
-        elif not _ends_with_it(parent, has_duration=fixed is not None):
+        if after or not (isinstance(parent, ir.Serial) or _ends_with_it(parent, fixed)):
             return None
+        passed = _later(ctx, passed, before)
         if fixed is not None:
             return _rest(node, fixed, passed)
         if parent.duration is not None:
             return None
-        child = parent
     return None
 
 
@@ -159,20 +149,24 @@ def time_limit(ctx: Context, node: ir.Invoke) -> float | None:
     """Return the time (s) that compositions leave an action for its goal, if that is known."""
     if is_open(node) or node.duration is not None or ctx.module.dialect == "carla":
         return None
-    passed, child = 0.0, cast(ir.Behavior, node)
-    for parent in reversed(_around(ctx.scope.scenario.body, node)):
-        if isinstance(parent, ir.Serial):
-            index = next(i for i, each in enumerate(parent.members) if each is child)
-            lengths = [length_of(ctx, member) for member in parent.members[:index]]
-            if None in lengths or not all(map(is_instant, parent.members[index + 1 :])):
-                return None
-            passed += sum(length or 0.0 for length in lengths)
-        elif not _start_together(parent):
+    passed: float | None = 0.0
+    for parent, before, after in _around(ctx, node):
+        passed = _later(ctx, passed, before)
+        if passed is None or not all(map(is_instant, after)):
+            return None
+        if not (isinstance(parent, ir.Serial) or _start_together(parent)):
             return None
         if parent.duration is not None:
             return max(0.0, ctx.values.bounds(parent.duration)[1] - passed)
-        child = parent
     return None
+
+
+def _later(ctx: Context, passed: float | None, members: Sequence[ir.Behavior]) -> float | None:
+    """Return a time (s) after members that follow one another, if their lengths are known."""
+    for member in members:
+        length = length_of(ctx, member)
+        passed = None if passed is None or length is None else passed + length
+    return passed
 
 
 def _rest(node: ir.Invoke, fixed: float, passed: float | None) -> float | None:
@@ -186,14 +180,30 @@ def _rest(node: ir.Invoke, fixed: float, passed: float | None) -> float | None:
     raise Inexpressible(reason, ending.span)
 
 
-def _around(body: ir.Behavior, node: ir.Invoke) -> Sequence[ir.Composition]:
-    """Return the compositions around a member, the outermost first."""
-    compositions = (ir.Serial, ir.Parallel, ir.OneOf)
-    return [
-        each
+def _around(
+    ctx: Context, node: ir.Behavior
+) -> Iterator[tuple[ir.Composition, Sequence[ir.Behavior], Sequence[ir.Behavior]]]:
+    """Yield the compositions around a member, from the inside out.
+
+    Each goes with the members before and after that one, if they follow one another.
+    """
+    parents = _parents(ctx.scope.scenario.body)
+    while (parent := parents.get(id(node))) is not None:
+        members = parent.members if isinstance(parent, ir.Serial) else (node,)
+        index = next(i for i, each in enumerate(members) if each is node)
+        yield parent, members[:index], members[index + 1 :]
+        node = parent
+
+
+@lru_cache(maxsize=16)  # of a scenario and those that it invokes
+def _parents(body: ir.Behavior) -> Mapping[int, ir.Composition]:
+    """Return the composition that each member stands in, by the id of the member."""
+    return {
+        id(member): each
         for each in ir.walk_behaviors(body)
-        if isinstance(each, compositions) and ir.holds(each, node)
-    ]
+        if isinstance(each, ir.Serial | ir.Parallel | ir.OneOf)
+        for member in each.members
+    }
 
 
 def _fixed(ctx: Context, node: ir.Composition) -> float | None:
@@ -204,11 +214,11 @@ def _fixed(ctx: Context, node: ir.Composition) -> float | None:
     return None if is_range else ctx.values.number(node.duration)
 
 
-def _ends_with_it(node: ir.Composition, *, has_duration: bool) -> bool:
+def _ends_with_it(node: ir.Composition, duration: float | None) -> bool:
     """Whether the open-ended members of a composition start and end with it."""
     if not isinstance(node, ir.Parallel) or not _start_together(node):
         return False
-    return has_duration or all(map(_never_ends, node.members))
+    return duration is not None or all(is_instant(each) or is_open(each) for each in node.members)
 
 
 def _start_together(node: ir.Composition) -> bool:
@@ -216,8 +226,3 @@ def _start_together(node: ir.Composition) -> bool:
     if not isinstance(node, ir.Parallel) or node.overlap not in (None, "start"):
         return False
     return not (node.start_to_start or node.end_to_end)
-
-
-def _never_ends(node: ir.Behavior) -> bool:
-    """Whether a member of a `parallel` does not end it."""
-    return is_instant(node) or is_open(node)

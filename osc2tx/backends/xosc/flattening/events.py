@@ -13,6 +13,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.conditions.event_conditions import (
     begins_at_once,
     early_triggers,
+    emitted_by,
     triggers_of,
 )
 from osc2tx.backends.xosc.conditions.expressions import condition_flow
@@ -38,7 +39,8 @@ class EventTable:
         self._scope = scope
         scenario = scope.scenario
         self._declared = {d.name: d for d in scenario.declarations if isinstance(d, ir.Event)}
-        self._emitted = Counter(emit.event.name for emit in _emissions(scenario.body))
+        nodes = ir.walk_behaviors(scenario.body)
+        self._emitted = Counter(name for node in nodes for name in emitted_by(node))
         self._reacting = _reactions(scenario.body)
         self._early = early_triggers(scenario.body)
         self._fleeting = {
@@ -67,7 +69,7 @@ class EventTable:
         yield from (name for name, count in self._emitted.items() if count > 1)
         for node in ir.walk_behaviors(self._scope.scenario.body):
             if isinstance(node, ir.On) and self.may_recur(node.trigger):
-                yield from (r.event.name for r in node.reactions if isinstance(r, ir.Emit))
+                yield from emitted_by(node)
 
     def may_recur(self, trigger: ir.Trigger, seen: frozenset[str] = frozenset()) -> bool:
         """Whether a trigger may occur more than once; what comes from outside is set once."""
@@ -91,13 +93,9 @@ class EventTable:
             time = self._signals.get(self._scope.prefix + name)
             if time is None:
                 continue
-            event = Event(
-                self._ctx.names.new(f"signal_{plain(self._scope.prefix + name)}"),
-                (self._ctx.set_variable(self.variable(name), "true"),),
-                single(at_time(time)),
-                declared.span,
-            )
-            events.append(event)
+            called = self._ctx.names.new(f"signal_{plain(self._scope.prefix + name)}")
+            at = single(at_time(time))
+            events.append(Event(called, (self.setting(name),), at, declared.span))
             self._ctx.report.exact(f"signal {name}", declared.span, f"at {time:g} s, as given")
         return events
 
@@ -131,12 +129,9 @@ class EventTable:
         return None if node.label is None else self._marks.get((node.label, moment))
 
     def of_event(self, name: str, at: ir.EventRef | ir.InnerEvent, *, is_early: bool) -> Flow:
-        """Return the tests for an occurrence of a declared event.
+        """Return the tests for an occurrence of a declared event that is waited for somewhere.
 
-        Args:
-            name: The event.
-            at: Where it is waited for.
-            is_early: The wait surely begins before the event can occur.
+        An early wait surely begins before the event can occur.
         """
         declared = self._declared[name]
         trigger = declared.trigger
@@ -175,11 +170,7 @@ class EventTable:
         """
         reactions = self._reacting.get(name, ())
         always = {id(node) for node in _always_there(self._scope.scenario.body)}
-        emissions = sum(
-            isinstance(r, ir.Emit) and r.event.name == name
-            for node in reactions
-            for r in node.reactions
-        )
+        emissions = sum(emitted_by(node).count(name) for node in reactions)
         if emissions < self._emitted[name] or any(id(n) not in always for n in reactions):
             raise Inexpressible(
                 "whether the reaction to a condition that holds is still there is only known"
@@ -246,21 +237,11 @@ def _always_there(node: ir.Behavior) -> Iterator[ir.Behavior]:
                 yield from _always_there(member)
 
 
-def _emissions(body: ir.Behavior) -> Iterator[ir.Emit]:
-    """Yield all places where an event is emitted."""
-    for node in ir.walk_behaviors(body):
-        if isinstance(node, ir.Emit):
-            yield node
-        elif isinstance(node, ir.On):
-            yield from (reaction for reaction in node.reactions if isinstance(reaction, ir.Emit))
-
-
 def _reactions(body: ir.Behavior) -> Mapping[str, Sequence[ir.On]]:
     """Return the members that react with an event, by its name."""
     found: dict[str, list[ir.On]] = defaultdict(list)
     for node in ir.walk_behaviors(body):
         if isinstance(node, ir.On):
-            names = [each.event.name for each in node.reactions if isinstance(each, ir.Emit)]
-            for name in dict.fromkeys(names):
+            for name in dict.fromkeys(emitted_by(node)):
                 found[name].append(node)
     return found

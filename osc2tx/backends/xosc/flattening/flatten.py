@@ -227,18 +227,18 @@ class Flattener:
 
     def _entrant(self, member: ir.Behavior, is_race: bool, start: Flow) -> Flow:
         """Flatten a member of a race that has an act of its own."""
-        outer, self._is_racing = self._is_racing, is_race or self._is_racing
         if is_race:
             self._entrants.add(member.span)
-        end = self._member(member, start)
-        self._is_racing = outer
-        return end
+        return self._racer(member, start, is_race, is_cut=False)
 
-    def _racer(self, member: ir.Behavior, start: Flow, is_race: bool) -> Flow:
-        """Flatten a member of a race that is no act of its own."""
+    def _racer(
+        self, member: ir.Behavior, start: Flow, is_race: bool, *, is_cut: bool = True
+    ) -> Flow:
+        """Flatten a member of a race; if it is no act of its own, its action may be cut short."""
         builder = self._builder
         outer = builder.is_race, self._is_racing
-        builder.is_race, self._is_racing = is_race or builder.is_race, is_race or self._is_racing
+        builder.is_race = builder.is_race or (is_race and is_cut)
+        self._is_racing = self._is_racing or is_race
         end = self._member(member, start)
         builder.is_race, self._is_racing = outer
         return end

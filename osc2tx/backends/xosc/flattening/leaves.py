@@ -271,16 +271,9 @@ def _merged(before: ActorState, now: ActorState, domain: str) -> ActorState:
 def end_open_actions(
     builder: StoryboardBuilder, flow: Flow, member: ir.Behavior, taken: Claims
 ) -> Flow:
-    """End what is still changing when a member has ended, unless the next one takes over.
+    """End what is still changing when a member has ended, unless the next one takes it over.
 
-    Args:
-        builder: The storyboard.
-        flow: When the member ends.
-        member: The member.
-        taken: Entities and domains that the next member takes over.
-
-    Returns:
-        When the member ends, as a flow that stays true if something had to be ended.
+    Return when the member ends, as a flow that stays true if something had to be ended.
     """
     ctx = builder.ctx
     ended = flow

@@ -18,7 +18,6 @@ from osc2tx.backends.xosc.names import Names
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlVersion
 from osc2tx.xosc import elements as xml
-from osc2tx.xosc.literals import Priority
 from osc2tx_shared.classes import dataclass
 
 ACTION = "action"
@@ -40,7 +39,6 @@ class Event:
         actions: `PrivateAction`, `GlobalAction` or `UserDefinedAction` elements.
         start: When it starts.
         place: Where the member stands that it belongs to.
-        priority: What it does to running events of its maneuver.
         repeats: How often it may start.
         is_step: It is one step of a change that is reported as a whole.
     """
@@ -49,7 +47,6 @@ class Event:
     actions: tuple[xml.ActionPart, ...]
     start: Flow
     place: Span
-    priority: Priority = "parallel"
     repeats: int | None = None
     is_step: bool = False
 
@@ -167,13 +164,10 @@ class StoryboardWriter:
 
     def _event(self, event: Event) -> xml.Event:
         names = Names()
-        priority = event.priority
-        if priority == "override" and self._version < "1.2":
-            priority = "overwrite"
         return xml.Event(
             *(xml.Action(action, name=names.new(ACTION)) for action in event.actions),
             self.trigger(xml.StartTrigger, event.start, "start"),
             name=event.name,
-            priority=priority,
+            priority="parallel",
             maximumExecutionCount=event.repeats,
         )

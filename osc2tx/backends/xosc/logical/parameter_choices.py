@@ -23,7 +23,6 @@ class Choosing:
     def __init__(
         self, parameters: Sequence[OpenParameter], kept: Sequence[OpenParameter], point: Point
     ) -> None:
-        """Take the choice."""
         self.parameters = tuple(parameters)
         self.kept = tuple(kept)
         self.point = point

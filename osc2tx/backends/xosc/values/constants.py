@@ -64,22 +64,13 @@ def as_number(value: Constant | None) -> float | None:
 
 
 class UserTypes:
-    """The actors and structs that the files of a module declare.
-
-    Args:
-        types: Those types.
-    """
+    """The actors and structs that the files of a module declare."""
 
     def __init__(self, types: Iterable[ir.UserType] = ()) -> None:
         self._types = {own.name: own for own in types}
 
     def default(self, type_name: str, path: tuple[str, ...]) -> ir.Expression | None:
-        """Return what a member of an object has if nothing else is said about it.
-
-        Args:
-            type_name: The type of the object.
-            path: The member, and members of it.
-        """
+        """Return what a member of an object, or a member of that, has if nothing else is said."""
         field = self._field(type_name, path[0])
         if field is None or len(path) == 1:
             return None if field is None else field.default

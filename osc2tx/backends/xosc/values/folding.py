@@ -19,6 +19,7 @@ from osc2tx.backends.xosc.values.constants import (
     MethodResult,
     Named,
     UserTypes,
+    as_number,
 )
 from osc2tx.xosc.expressions import Symbol
 from osc2tx.xosc.numbers import Noted
@@ -68,13 +69,7 @@ LARGEST = 1e15
 
 
 class Values:
-    """Folds expressions of one scenario.
-
-    Args:
-        scenario: The scenario.
-        given: Values of fields that an invocation hands in.
-        types: The types of the module.
-    """
+    """Folds expressions of one scenario, with values of fields that an invocation hands in."""
 
     def __init__(
         self,
@@ -181,6 +176,15 @@ class Values:
             return None if default is None else self.of(default)
         return None
 
+    def number_in(self, name: str, *path: str) -> float | None:
+        """Return the number that a constraint fixes; `None` if nothing does."""
+        return as_number(self.field(name, *path))
+
+    def member_in(self, name: str, *path: str) -> str | None:
+        """Return the name of the member of an enum, likewise."""
+        value = self.field(name, *path)
+        return value.name if isinstance(value, Member) else None
+
     def own_fields(self, name: str) -> Iterator[tuple[str, str | float]]:
         """Yield the plain values of the fields that files of the user give to an actor.
 
@@ -213,8 +217,8 @@ class Values:
             Inexpressible: It is only known during the run.
         """
         match expression:
-            case ir.Literal(value=value):
-                return value
+            case ir.Literal():
+                return expression.value
             case ir.Quantity():
                 return expression.si
             case ir.EnumValue(member=member):
@@ -226,7 +230,7 @@ class Values:
             case ir.Attribute(base=base, name=name):
                 return self._attribute(expression, base, name)
             case ir.Unary(operator=sign, operand=operand):
-                return self._unary(sign, operand)
+                return not self.of(operand) if sign == "not" else -self._operand(operand)
             case ir.Binary():
                 return self._binary(expression)
             case ir.Conditional(condition=condition, when_true=yes, when_false=no):
@@ -240,7 +244,8 @@ class Values:
             case ir.RangeValue(lower=lower, upper=upper):
                 return Bounds(self.number(lower), self.number(upper))
             case ir.Conversion(operand=operand):
-                return self._converted(expression, operand)
+                value = self.number(operand)
+                return int(value) if expression.type.kind is ir.Kind.INTEGER else value
             case ir.MethodCall(base=ir.FieldRef(name=owner), method=method) if method in MAKERS:
                 given = ((each.parameter, self.of(each.value)) for each in expression.arguments)
                 return MethodResult(method, owner, tuple(given))
@@ -327,9 +332,6 @@ class Values:
         inner._arguments, inner._depth = arguments, self._depth + 1
         return inner.of(method.expression)
 
-    def _unary(self, sign: str, operand: ir.Expression) -> Constant:
-        return not self.of(operand) if sign == "not" else -self._operand(operand)
-
     def _binary(self, expression: ir.Binary) -> Constant:
         name = expression.operator
         if name in ("and", "or", "=>"):
@@ -349,10 +351,6 @@ class Values:
         if name in "/%" and right_number == 0.0:
             raise Inexpressible(f"`{expression.span.text}` divides by zero", expression.span)
         return _ARITHMETIC[name](left_number, right_number)
-
-    def _converted(self, expression: ir.Expression, operand: ir.Expression) -> Constant:
-        value = self.number(operand)
-        return int(value) if expression.type.kind is ir.Kind.INTEGER else value
 
 
 def _plain(value: Constant) -> Constant:

@@ -153,10 +153,7 @@ def lane_change(
 def along_t(leaf: Leaf, offset: float, lane: LanePosition | None = None) -> float:
     """Return an offset (m) to the left of travel as the XML counts it: along t of the road.
 
-    Args:
-        leaf: The invocation.
-        offset: Metres.
-        lane: In which lane; `None`: in that of the actor, as far as it is known.
+    Without a lane it is in that of the actor, as far as it is known.
     """
     roads = leaf.ctx.roads
     sign = None if roads is None else roads.leftwards(lane or leaf.state.lane)
@@ -245,7 +242,9 @@ def lanes_to(leaf: Leaf, reference: CastMember, lanes: int) -> int | None:
     Raises:
         Inexpressible: The reference may change lanes meanwhile.
     """
-    if _may_change_lanes(leaf, reference.actor.name):
+    beside = ir.runs_beside(leaf.ctx.scenario.body, leaf.node)
+    nodes = (node for each in beside for node in ir.invocations(each))
+    if any(_leaves_lane(node, reference.actor.name) for node in nodes):
         raise Inexpressible(
             f"{reference.name} may be in another lane before it ends; the XML takes the lane at the"
             " start",
@@ -273,13 +272,8 @@ def lane_of(leaf: Leaf, other: CastMember) -> LanePosition | None:
     return leaf.ctx.states[other.name].lane
 
 
-def _may_change_lanes(leaf: Leaf, actor: str) -> bool:
-    """Return whether an actor may go to another lane while an invocation runs."""
-    beside = ir.runs_beside(leaf.ctx.scenario.body, leaf.node)
-    return any(_leaves_lane(node, actor) for each in beside for node in ir.invocations(each))
-
-
 def _leaves_lane(node: ir.Invoke, actor: str) -> bool:
+    """Whether an actor goes to another lane in an invocation."""
     if node.actor_name != actor:
         return False
     ends = {call.name for call in node.modifiers if call.at == "end"}

@@ -53,12 +53,7 @@ def _follow_lane(leaf: Leaf) -> Performance:
 
 
 def offset_change(leaf: Leaf, offset: float, pace: Pace) -> Change:
-    """Return the change of the place in the lane.
-
-    Args:
-        leaf: The invocation.
-        offset: Metres to the left of the centre.
-        pace: Of the change.
+    """Return the change of the place in the lane to an offset (m) to the left of the centre.
 
     Raises:
         Inexpressible: It is in a lane of oncoming traffic, or reaches over the line to one.
@@ -116,13 +111,7 @@ def offset_in_lane(
 def left_of(arguments: Arguments, own: float, theirs: float | None) -> float:
     """Return how far (m) left of the centre of a lane or an actor `lateral` puts an actor.
 
-    Args:
-        arguments: Of the modifier.
-        own: Width of the actor (m).
-        theirs: That of the lane or the other actor; `None` if it is not known.
-
-    Raises:
-        Inexpressible: As of `offset_in_lane`.
+    The own width and theirs, which may be unknown, are in metres; it refuses as `offset_in_lane`.
     """
     distance = arguments.size("distance")
     if distance is None:

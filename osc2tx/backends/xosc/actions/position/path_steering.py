@@ -39,13 +39,9 @@ def note_steering(
     corners: Sequence[Waypoint],
     speed: float | None = None,
 ) -> None:
-    """Report how far an actor that steers along a way is from the line of the XML.
+    """Report how far an actor that steers along a way is from the corners of the line of the XML.
 
-    Args:
-        leaf: The invocation.
-        line: Its way.
-        corners: Of the line.
-        speed: m/s; by default what is known of the actor.
+    The speed (m/s) is by default what is known of the actor.
     """
     start = _start(leaf, line, corners)
     here = Waypoint(0.0, start.x, start.y, start.z)
@@ -153,12 +149,7 @@ def note_slant(
 ) -> float:
     """Report what a slant at the end of a way makes; return the speed across the lane there.
 
-    Args:
-        leaf: The invocation.
-        line: Its way.
-        corners: Of the line.
-        lane: Where it ends; `None` if that is unknown.
-        speed: m/s at its end.
+    The lane is that in which the way ends, the speed (m/s) that at its end.
     """
     before, end = corners[-2], corners[-1]
     heading = math.atan2(end.y - before.y, end.x - before.x)

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from collections.abc import Sequence
 from itertools import pairwise
 
 from osc2tx.backends.xosc.actions.arguments import Call
@@ -20,14 +19,14 @@ from osc2tx.backends.xosc.actions.position.points_and_lines import (
     line_of_route,
     relative_line,
 )
-from osc2tx.backends.xosc.actions.position.xml_positions import at_place, relative_lane
+from osc2tx.backends.xosc.actions.position.xml_positions import at_place, lane_place, relative_lane
 from osc2tx.backends.xosc.actions.registry import action, modifier, to_goal
 from osc2tx.backends.xosc.actions.speed.speed_changes import may_jump
 from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment_of
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve
 from osc2tx.backends.xosc.facts.map_search import MapSegment, crossing_of, graph_of
-from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
+from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
 from osc2tx.backends.xosc.values.constants import Constant, Named
@@ -80,9 +79,10 @@ def _along_segment(leaf: Leaf, segment: MapSegment, offsets: tuple[float, float]
     """Return the changes that a route of the map makes: it goes on in the lanes, from wherever."""
     if offsets[1]:
         raise Inexpressible("a route of the map that is left before its end", leaf.node.span)
-    action, goal = assign_route(leaf, segment)
+    roads = required_roads(leaf.ctx)
+    action, goal = _assign_route(leaf, roads, segment)
     if leaf.duration is None:
-        there = lane_position(goal)
+        there = lane_place(roads, goal)
         leaf.reached = at_place(leaf.ctx, leaf.arguments, leaf.member.name, there, goal)
     after = replace(leaf.state, lane=None).finished(LATERAL)
     return (Change(LATERAL, (action,), None, after, after),)
@@ -102,7 +102,8 @@ def along_line(leaf: Leaf, line: Line) -> Changes:
     corners = sample_curve(replace(line, points=points))
     vertices = [_vertex(leaf, line, each) for each in corners]
     if not (line.is_timed or is_exact or _is_there(leaf, corners[0])) and line.frame is None:
-        vertices = [(0.0, _own_place(leaf)), *vertices]  # it goes to the path, it does not jump
+        here = xml.RelativeObjectPosition(entityRef=leaf.member.name, dx=0.0, dy=0.0)
+        vertices = [(0.0, here), *vertices]  # it goes to the path, it does not jump
     if line.is_timed and not is_exact:
         note_schedule(leaf, corners)
         if line.frame is None:
@@ -155,11 +156,6 @@ def _is_there(leaf: Leaf, point: Waypoint) -> bool:
     return pose is not None and math.hypot(point.x - pose.x, point.y - pose.y) < 1e-3
 
 
-def _own_place(leaf: Leaf) -> xml.RelativeObjectPosition:
-    """Return the place of the actor itself."""
-    return xml.RelativeObjectPosition(entityRef=leaf.member.name, dx=0.0, dy=0.0)
-
-
 def _at_end(leaf: Leaf, line: Line, corners: Sequence[Waypoint], state: ActorState) -> ActorState:
     """Return what is known at the end of a way, from what is known of the speed there."""
     end = corners[-1]
@@ -180,44 +176,23 @@ def _at_end(leaf: Leaf, line: Line, corners: Sequence[Waypoint], state: ActorSta
 
 
 def _vertex(leaf: Leaf, line: Line, point: Waypoint) -> tuple[float, xml.PositionPart]:
+    x, y, z = round(point.x, 6), round(point.y, 6), round(point.z, 6)
+    place: xml.PositionPart
     if line.frame is None:
         h = None if point.h is None else round(point.h, 9)
-        place = xml.WorldPosition(
-            x=round(point.x, 6), y=round(point.y, 6), z=round(point.z, 6), h=h
-        )
-        return point.time, place
-    assert line.reference is not None
-    return point.time, _FRAMES[line.frame](leaf, line.reference, point)
-
-
-def _relative(
-    kind: type[xml.RelativeObjectPosition | xml.RelativeWorldPosition],
-    leaf: Leaf,
-    reference: str,
-    point: Waypoint,
-) -> xml.PositionPart:
-    return kind(
-        entityRef=reference,
-        dx=round(point.x, 6),
-        dy=round(point.y, 6),
-        dz=round(point.z, 6) or None,
-    )
-
-
-def _road_relative(leaf: Leaf, reference: str, point: Waypoint) -> xml.RelativeRoadPosition:
-    return xml.RelativeRoadPosition(entityRef=reference, ds=round(point.x, 6), dt=round(point.y, 6))
-
-
-def _lane_relative(leaf: Leaf, reference: str, point: Waypoint) -> xml.RelativeLanePosition:
-    return relative_lane(leaf.ctx, reference, 0, round(point.x, 6), round(point.y, 6))
-
-
-_FRAMES: Mapping[str, Callable[[Leaf, str, Waypoint], xml.PositionPart]] = {
-    "object_relative": partial(_relative, xml.RelativeObjectPosition),
-    "world_relative": partial(_relative, xml.RelativeWorldPosition),
-    "road_relative": _road_relative,
-    "lane_relative": _lane_relative,
-}
+        return point.time, xml.WorldPosition(x=x, y=y, z=z, h=h)
+    name = line.reference
+    assert name is not None
+    match line.frame:
+        case "road_relative":
+            place = xml.RelativeRoadPosition(entityRef=name, ds=x, dt=y)
+        case "lane_relative":
+            place = relative_lane(leaf.ctx, name, 0, x, y)
+        case "world_relative":
+            place = xml.RelativeWorldPosition(entityRef=name, dx=x, dy=y, dz=z or None)
+        case _:
+            place = xml.RelativeObjectPosition(entityRef=name, dx=x, dy=y, dz=z or None)
+    return point.time, place
 
 
 def follow(
@@ -261,9 +236,11 @@ def follow(
 # --- routes ---------------------------------------------------------------------------------------
 
 
-def assign_route(leaf: Leaf, segment: MapSegment) -> tuple[xml.PrivateAction, LanePosition]:
+def _assign_route(
+    leaf: Leaf, roads: Roads, segment: MapSegment
+) -> tuple[xml.PrivateAction, LanePosition]:
     """Return the action that gives an actor a route, and the place of its end."""
-    graph = graph_of(required_roads(leaf.ctx).map)
+    graph = graph_of(roads.map)
     begin, end = graph.begin(segment), graph.end(segment)
     lane = leaf.state.lane
     if lane is not None and lane.road == end.road:  # it keeps its own lane
@@ -273,13 +250,8 @@ def assign_route(leaf: Leaf, segment: MapSegment) -> tuple[xml.PrivateAction, La
         )
     waypoints = (
         xml.Waypoint(xml.Position(place), routeStrategy="shortest")
-        for place in (lane_position(begin), lane_position(end))
+        for place in (lane_place(roads, begin), lane_place(roads, end))
     )
     route = xml.Route(*waypoints, name=leaf.ctx.names.new(f"route_{leaf.event}"), closed=False)
     assign = xml.RoutingAction(xml.AssignRouteAction(route))
     return xml.PrivateAction(assign), end
-
-
-def lane_position(place: LanePosition) -> xml.LanePosition:
-    """Return the element of the middle of a lane at a place."""
-    return xml.LanePosition(roadId=place.road, laneId=place.lane, s=round(place.s, 6), offset=0.0)

@@ -53,7 +53,7 @@ def _put(leaf: Leaf, target: XmlPosition) -> Changes:
 
 def _beside(leaf: Leaf) -> XmlPosition:
     """Return the place that modifiers give relative to another actor."""
-    lanes, along, left = 0, 0.0, 0.0
+    lanes, along = 0, 0.0
     references: list[CastMember] = []
     for node in leaf.node.modifiers:
         call = Call(leaf.ctx, node)
@@ -77,28 +77,19 @@ def _beside(leaf: Leaf) -> XmlPosition:
     if not references or len({each.name for each in references}) > 1:
         raise Inexpressible("it is put relative to none or to several actors")
     reference = references[0]
-    place = beside(leaf, reference, lanes, along, left)
     lane, roads = lane_of(leaf, reference), leaf.ctx.roads
+    if leaf.ctx.version == "1.0" and (lane is None or lane.lane > 0):
+        raise Inexpressible(
+            "OpenSCENARIO XML 1.0 counts along the road, not in the direction of travel",
+            remedy=Remedy(version="1.1"),
+        )
+    place = relative_lane(leaf.ctx, reference.name, lanes, along, 0.0)
     on = None
     if lane is not None and roads is not None:
         on = roads.beside(lane, lanes)
         if on is None:
             raise Inexpressible(f"there is no such lane beside that of {reference.name}")
     return XmlPosition(place, on, None)
-
-
-def beside(
-    leaf: Leaf, reference: CastMember, lanes: int, along: float, offset: float
-) -> xml.RelativeLanePosition:
-    """Return the place so many lanes to the left of another actor and so far ahead of it (m)."""
-    ctx = leaf.ctx
-    lane = lane_of(leaf, reference)
-    if ctx.version == "1.0" and (lane is None or lane.lane > 0):
-        raise Inexpressible(
-            "OpenSCENARIO XML 1.0 counts along the road, not in the direction of travel",
-            remedy=Remedy(version="1.1"),
-        )
-    return relative_lane(ctx, reference.name, lanes, along, offset)
 
 
 def _teleport(leaf: Leaf, place: xml.PositionPart) -> xml.PrivateAction:
@@ -115,19 +106,15 @@ def _assign_orientation(leaf: Leaf) -> Performance:
         raise Inexpressible("the orientation is only known during the run")
     if not leaf.member.walks:
         raise Inexpressible("a vehicle follows its lane, whatever its orientation")
-    angles = {}
-    for attribute, name in (("h", "yaw"), ("p", "pitch"), ("r", "roll")):
-        value = ctx.values.field(given.name, name)
-        angles[attribute] = float(value) if isinstance(value, (int, float)) else 0.0
-    h, pose = round(angles["h"], 9), leaf.state.pose
+    angles = (ctx.values.number_in(given.name, name) or 0.0 for name in ("yaw", "pitch", "roll"))
+    h, pitch, roll = (round(angle, 9) for angle in angles)
+    pose = leaf.state.pose
     place: xml.PositionPart
     if pose is not None:
-        pose = pose._replace(h=h, pitch=round(angles["p"], 9), roll=round(angles["r"], 9))
+        pose = pose._replace(h=h, pitch=pitch, roll=roll)
         place = world_position(pose)
     else:
-        turn = xml.Orientation(
-            type="absolute", h=h, p=round(angles["p"], 9) or None, r=round(angles["r"], 9) or None
-        )
+        turn = xml.Orientation(type="absolute", h=h, p=pitch or None, r=roll or None)
         place = xml.RelativeObjectPosition(turn, entityRef=leaf.member.name, dx=0.0, dy=0.0)
     after = replace(leaf.state, pose=pose)
     return Performance((Change(LATERAL, (_teleport(leaf, place),), 0.0, after, after),), "goal")

@@ -56,12 +56,8 @@ def at_place(
 ) -> tuple[xml.ByEntityCondition, ...]:
     """Return the conditions that an actor has come to a place along its lane; all have to hold.
 
-    Args:
-        ctx: The context.
-        said: What names the place, and is reported where they say it nearly only.
-        actor: The entity.
-        place: The place.
-        lane: The same on a lane of the map; `None` if that is not known.
+    What names the place is reported where they say it nearly only. `lane` is the same place on a
+    lane of the map, if that is known.
     """
     roads = ctx.roads
     before = None if lane is None or roads is None else roads.ahead(lane, -BEFORE)

@@ -81,7 +81,9 @@ def _play_cycles(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals
     spans_run = ir.is_first(body, node) and (not has_end or ir.is_last(body, node))
     is_supported = ctx.can(CONTROLLER, "1.0")
     lasting = None if node.duration is None else ctx.values.number(node.duration)
-    is_alone = not any(_switches(other) for other in ir.walk_behaviors(body) if other is not node)
+    is_alone = not any(
+        each.owner == node.owner for each in ir.invocations(body) if each is not node
+    )
     if not (spans_run and is_supported) and lasting is not None and not node.until and is_alone:
         return tuple(each for cycle in cycles for each in _written_out(ctx, cycle, lasting))
     ctx.require_support(CONTROLLER)
@@ -91,11 +93,6 @@ def _play_cycles(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals
             "phases and their lengths are exact; the lights also change before and after",
         )
     return tuple(_controller(ctx, cycle) for cycle in cycles)
-
-
-def _switches(node: ir.Behavior) -> bool:
-    """Whether a member switches traffic lights."""
-    return isinstance(node, ir.Invoke) and node.owner == "traffic_light_controller"
 
 
 # --- what a scenario says -----------------------------------------------------------------------
@@ -108,19 +105,18 @@ def _cycle(ctx: Context, cycle: Constant) -> _Cycle:
     named = [each for each in phases if isinstance(each, Named)] if type(phases) is tuple else []
     if not named:
         raise Inexpressible(f"cycle `{cycle.name}` has no phases")
-    offset = ctx.values.field(cycle.name, "start_offset")
-    late = float(offset) if isinstance(offset, (int, float)) else 0.0
+    late = ctx.values.number_in(cycle.name, "start_offset") or 0.0
     return _Cycle(cycle.name, tuple(_phase(ctx, phase.name) for phase in named), late)
 
 
 def _phase(ctx: Context, name: str) -> _Phase:
-    duration = ctx.values.field(name, "duration")
-    if not isinstance(duration, (int, float)) or duration <= 0.0:
+    duration = ctx.values.number_in(name, "duration")
+    if duration is None or duration <= 0.0:
         raise Inexpressible(f"phase `{name}` has no duration")
     shown = ctx.values.field(name, "bulbs_state")
     signals = lights_of_group(ctx, ctx.values.field(name, "group"))
     states = tuple((signal, states_of(ctx, shown, signal)) for signal in signals)
-    return _Phase(name, float(duration), states)
+    return _Phase(name, duration, states)
 
 
 # --- elements -----------------------------------------------------------------------------------

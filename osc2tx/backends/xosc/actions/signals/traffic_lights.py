@@ -183,10 +183,10 @@ def _lamps(ctx: Context, signal: str) -> tuple[tuple[str, str], ...]:
 
 def _lamp(ctx: Context, bulb: Constant) -> tuple[str, str]:
     name = bulb.name if isinstance(bulb, Named) else ""
-    color, icon = (ctx.values.field(name, part) for part in ("color", "icon"))
-    if not isinstance(color, Member) or not isinstance(icon, Member):
+    color, icon = (ctx.values.member_in(name, part) for part in ("color", "icon"))
+    if color is None or icon is None:
         raise Inexpressible("a lamp needs `color` and `icon`")
-    return color.name, icon.name
+    return color, icon
 
 
 def states_of(ctx: Context, given: Constant | None, signal: str) -> States:

@@ -7,7 +7,7 @@ speed, one that changes is a course through points.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from itertools import pairwise
 from math import inf
 
@@ -155,14 +155,9 @@ class Ramp:
         speed = self.start + self.rates.end * (t - inside)
         for index in range(steps):  # Simpson's rule, exact for profiles up to cubic ones
             left = index * step
-            values = (self.rates.value(left + part * step) for part in (0.0, 0.5, 1.0))
-            speed += step / 6.0 * _simpson(values)
+            a, b, c = (self.rates.value(left + part * step) for part in (0.0, 0.5, 1.0))
+            speed += step / 6.0 * (a + 4.0 * b + c)
         return max(speed, 0.0) if self.start >= 0.0 else speed
-
-
-def _simpson(values: Iterable[float]) -> float:
-    left, middle, right = values
-    return left + 4.0 * middle + right
 
 
 def _ramp(leaf: Leaf, course: Linear | Quintic, duration: float) -> Change:

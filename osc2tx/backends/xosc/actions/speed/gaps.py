@@ -77,15 +77,10 @@ ARRIVING = Remedy(
 
 
 def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) -> Change:
-    """Return the control that reaches a gap, or keeps one.
+    """Return the control that reaches a gap, or keeps it when it is reached.
 
-    Without limits a tool keeps it rigid: so it is said where it is there already.
-
-    Args:
-        leaf: The invocation.
-        gap: The gap.
-        keeps: It goes on when the gap is reached.
-        missing: Metres by which it is another one at the start; `None` if that is not known.
+    Without limits a tool keeps it rigid: so it is said where it is there already. What is missing
+    (m) at the start may be unknown.
     """
     if gap.is_lateral:
         return _reach_sideways(leaf, gap, keeps=keeps, missing=missing)

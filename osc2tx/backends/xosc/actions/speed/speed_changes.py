@@ -31,7 +31,7 @@ from osc2tx.backends.xosc.facts.actors import (
     course_of_speed,
 )
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
-from osc2tx.backends.xosc.state import LONGITUDINAL, ActorState, Demand, Interval, known
+from osc2tx.backends.xosc.state import LONGITUDINAL, Demand, Interval, known
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.expressions import Symbol
 from osc2tx.xosc.literals import DynamicsShape
@@ -55,12 +55,7 @@ def may_jump(leaf: Leaf) -> bool:
 
 
 def change_speed(leaf: Leaf, target: float, pace: Pace) -> Change:
-    """Return the change of the speed of an actor.
-
-    Args:
-        leaf: The invocation.
-        target: m/s.
-        pace: Of the change.
+    """Return the change of the speed of an actor to a target (m/s).
 
     Where the speed at the start is not known, the scenario leaves the length of the change open,
     and so does the rate that stands here: it is the one of the embedded world. What need not be
@@ -70,7 +65,7 @@ def change_speed(leaf: Leaf, target: float, pace: Pace) -> Change:
         return jump_to(leaf, target)
     state = leaf.state
     after = replace(state, speed=known(target)).finished(LONGITUDINAL)
-    if state.speed == known(target) and not _is_changing(state):
+    if state.speed == known(target) and not state.is_changing_speed:
         return Change(LONGITUDINAL, (), 0.0, after, after)
     passed = None if state.speed is None else state.speed.over(known(target))
     pending = _accelerations(leaf, target, pace)
@@ -110,10 +105,6 @@ def jump_to(leaf: Leaf, target: float) -> Change:
     after = replace(after, jumped=jumps)
     leaf.ctx.demand(leaf.member.name, Demand(jumps=jumps))
     return Change(LONGITUDINAL, (speed_action(target, "step", "time", 0.0),), 0.0, after, after)
-
-
-def _is_changing(state: ActorState) -> bool:
-    return any(domain == LONGITUDINAL for domain, _ in state.unfinished)
 
 
 def _from_known(leaf: Leaf, course: Profile, target: float, pace: Pace) -> xml.PrivateAction:

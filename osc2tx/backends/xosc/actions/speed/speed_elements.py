@@ -38,14 +38,8 @@ def relative_speed(
 ) -> xml.PrivateAction:
     """Return the action that gives an actor a speed relative to that of another one.
 
-    Args:
-        reference: Whose speed counts.
-        value: By which it is faster (m/s), or a factor.
-        kind: Which of both it is.
-        continuous: It has this speed at every moment from then on.
-        shape: Of the change to it.
-        dimension: Of the length of that change.
-        length: That length: seconds, or m/s^2 for a rate.
+    It is faster by the value (m/s), or by a factor; if it is continuous, at every moment from then
+    on. The change to it has a length in seconds, or in m/s^2 for a rate.
     """
     goal = xml.RelativeTargetSpeed(
         entityRef=reference, value=value, speedTargetValueType=kind, continuous=continuous

@@ -30,6 +30,10 @@ RELATIVE = {"faster_than": 1.0, "slower_than": -1.0, "same_as": 1.0}
 """Argument that names a reference -> sign of the difference to its speed."""
 
 
+UNTIL_REACHED = "until the speed is reached; the speed itself is exact"
+ABSOLUTE = Remedy(instead="`speed` with the speed itself is exact", asks=("SpeedActionDynamics",))
+
+
 @modifier("physical_movement")
 def _physical(leaf: Leaf, call: Call) -> Changes:
     call.member("option", "must_be_physical")
@@ -139,19 +143,15 @@ def _relative(leaf: Leaf, call: Call, name: str, difference: float) -> Change:
     dimension: DynamicsDimension = "rate"
     length = _rate_towards(leaf, call, reference, factor, difference)
     if any(name in call for name in SHAPED):
-        call.approximate(
+        reason = (
             "the difference to the speed of another actor has a course of its own in the world, and"
-            " a rate in the XML",
-            "until the speed is reached; the speed itself is exact",
-            Remedy(instead="`speed` with the speed itself is exact", asks=("SpeedActionDynamics",)),
+            " a rate in the XML"
         )
+        call.approximate(reason, UNTIL_REACHED, ABSOLUTE)
     if "SpeedActionDynamics/rate" in leaf.ctx.profile.unsupported:
         shape, dimension, length = "step", "time", 0.0
-        call.approximate(
-            f"{leaf.ctx.profile.name} takes up such a speed at once",
-            "until the speed is reached; the speed itself is exact",
-            GENERIC,
-        )
+        at_once = f"{leaf.ctx.profile.name} takes up such a speed at once"
+        call.approximate(at_once, UNTIL_REACHED, GENERIC)
     action = relative_speed(
         reference.name,
         difference if factor is None else factor,
@@ -177,7 +177,7 @@ def _rate_towards(
     faster, slower = COMFORT * limits.acceleration, COMFORT * limits.deceleration
     theirs = speed_then(leaf, reference)
     if mine is None or theirs is None:
-        bound = "until the speed is reached; the speed itself is exact"
+        bound = UNTIL_REACHED
     else:
         missing = (theirs * factor if factor is not None else theirs + more) - mine
         demand, share = leaf.ctx.demand_on(reference.name), 1.0 if factor is None else abs(factor)
@@ -197,7 +197,7 @@ def _rate_towards(
         f"how fast {leaf.member.name} takes up a speed relative to one that changes is one rate in"
         " the XML, and another one for braking in the world",
         bound,
-        Remedy(instead="`speed` with the speed itself is exact", asks=("SpeedActionDynamics",)),
+        ABSOLUTE,
     )
     return min(faster, slower)
 

@@ -72,10 +72,8 @@ def note_even_change(
 ) -> None:
     """Report that a change with limited jerk is an even one in the XML.
 
-    Args:
-        leaf: The invocation.
-        courses: The courses of the speed that the world may drive, with those of the XML.
-        length: Seconds after which both have the same speed; `None`: at their ends.
+    Each course that the world may drive goes with that of the XML; both have the same speed after a
+    length (s), by default at their ends.
     """
     known = tuple(courses)
     off = max(way_between(world, even, length) for world, even in known)
@@ -92,9 +90,7 @@ def note_even_change(
 def note_cut(leaf: Leaf, *, is_by_duration: bool) -> None:
     """Report that an even change has another speed than that of the world where it is cut short.
 
-    Args:
-        leaf: The invocation, which may be over before its change.
-        is_by_duration: Only its duration ends it.
+    The invocation may be over before its change, if only by its duration.
     """
     uneven = leaf.uneven
     if uneven is None or (is_by_duration and uneven.length == leaf.duration):
