@@ -270,7 +270,11 @@ class HalfRange(ExpressionBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Choices(ExpressionBase):
-    """A set of values of which one holds."""
+    """A set of values of which one holds.
+
+    Attributes:
+        elements: The values; a list stands for its elements.
+    """
 
     elements: tuple[Expression, ...]
 

@@ -49,7 +49,14 @@ class Constraint:
     @property
     def is_range(self) -> bool:
         """Whether the value is a set of values rather than the value itself."""
-        return self.operations.root.name in ("in range", "in list")
+        return self.operations.root.name in ("in range", "in list") or self._is_in_a_list
+
+    @property
+    def _is_in_a_list(self) -> bool:
+        """Whether it says `x in xs`; what `xs` has may not be known here."""
+        node = self.node
+        said = node.expression if isinstance(node, ast.KeepConstraint) else None
+        return isinstance(said, ast.Binary) and said.operator is Op.IN
 
 
 @dataclass(frozen=True, slots=True, eq=False)

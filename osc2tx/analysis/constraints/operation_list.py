@@ -203,7 +203,7 @@ class OperationListBuilder:
             case ast.ListLiteral(elements=elements):
                 return (node.left, *elements)
             case _:
-                return ()
+                return (node.left, node.right)
 
     def _add(
         self, operations: OperationList, node: ast.Expression, operands: list[int], locate: Locate
@@ -317,6 +317,8 @@ class OperationListBuilder:
         if node.operator in LOGIC:
             return operations.add(Operation(name, "bool", ANY_BOOL, tuple(operands), node=node))
         if node.operator is Op.IN:
+            if not isinstance(node.right, ast.RangeLiteral | ast.ListLiteral):
+                return self._any(operations, node)  # what it has shows in the run
             form = "in range" if isinstance(node.right, ast.RangeLiteral) else "in list"
             return self.append_comparison(operations, form, operands[0], operands[1:], node)
         if node.operator in COMPARISONS:

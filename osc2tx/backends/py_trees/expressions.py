@@ -181,10 +181,16 @@ class ExpressionWriter:
                 half = self._use_name("at_least" if is_lower else "at_most")
                 return PyExpr(f"{half}({self.write(bound)})", Level.ATOM)
             case ir.Choices(elements=elements):
-                inner = ", ".join(self.write(e).within(Level.CONDITIONAL) for e in elements)
+                inner = ", ".join(map(self._choice, elements))
                 return PyExpr(f"{self._use_name('any_of')}({inner})", Level.ATOM)
             case _:
                 assert_never(expression)
+
+    def _choice(self, element: ir.Expression) -> str:
+        """Write a value of a set; a list as its elements."""
+        written = self.write(element)
+        is_list = element.type.kind is ir.Kind.LIST
+        return f"*{written.within(Level.ATOM)}" if is_list else written.within(Level.CONDITIONAL)
 
     def _event(self, path: str, owner: str | None) -> PyExpr:
         """Write an event of the scenario, or `label.event` of one that it invokes."""

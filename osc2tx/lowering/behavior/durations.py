@@ -14,8 +14,8 @@ from osc2tx.catalogue import catalogue
 from osc2tx.lowering.behavior.composed_behaviors import Composed
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext
-from osc2tx.lowering.value_types import lower_type
-from osc2tx.semantics.builtins import DURATION, TIME
+from osc2tx.lowering.values.range_bounds import with_bounds
+from osc2tx.semantics.builtins import DURATION
 from osc2tx.syntax import ast
 from osc2tx_shared.classes import replace
 
@@ -44,42 +44,6 @@ def with_open_duration(
     if written is not None:
         ctx.given[written, DURATION] = drawn
     return replace(node, duration=drawn)
-
-
-def with_bounds(time: ir.Expression) -> ir.Expression:
-    """Return a time; a range by its bounds, whatever gives it (§7.3.5.2.2)."""
-    lower: ir.Expression
-    upper: ir.Expression
-    match time:
-        case ir.RangeValue() | ir.HalfRange() | ir.Choices():
-            return time
-        case ir.Conditional(condition=condition, when_true=one, when_false=other) if isinstance(
-            first := with_bounds(one), ir.RangeValue
-        ) and isinstance(second := with_bounds(other), ir.RangeValue):
-            ends = (first.lower, second.lower), (first.upper, second.upper)
-            lower, upper = (
-                ir.Conditional(
-                    span=time.span, type=a.type, condition=condition, when_true=a, when_false=b
-                )
-                for a, b in ends
-            )
-        case _ if time.type.kind is ir.Kind.RANGE:
-            lower, upper = (_end_of(time, which) for which in ("lower", "upper"))
-        case _:
-            return time
-    return ir.RangeValue(span=time.span, type=time.type, lower=lower, upper=upper)
-
-
-def _end_of(range_: ir.Expression, which: str) -> ir.MethodCall:
-    return ir.MethodCall(
-        span=range_.span,
-        type=lower_type(TIME),
-        base=range_,
-        owner="range",
-        method=which,
-        arguments=(),
-        is_pure=True,
-    )
 
 
 def is_open_ended(node: ir.Behavior) -> bool:
@@ -152,7 +116,7 @@ def own_duration(ctx: LoweringContext, constraints: ConstraintLowering) -> ir.Ex
         ctx.given[_OWN] = setting.value
         return setting.value
     match setting.domain:
-        case ir.RangeValue() as bounds:
+        case ir.RangeValue() | ir.HalfRange() as bounds:
             return bounds
         case ir.Choices() as listed:
             drawn = ctx.draw("duration", listed, listed.elements[0].type)

@@ -14,11 +14,7 @@ from osc2tx.lowering.behavior.composed_behaviors import (
     lineage_of,
     scenario_key,
 )
-from osc2tx.lowering.behavior.durations import (
-    leaves_duration_open,
-    with_bounds,
-    with_open_duration,
-)
+from osc2tx.lowering.behavior.durations import leaves_duration_open, with_open_duration
 from osc2tx.lowering.behavior.fixed_arguments import without_fixed
 from osc2tx.lowering.behavior.node_names import invocation_name
 from osc2tx.lowering.behavior.reactions import Attached, attached_context, label_of
@@ -36,6 +32,7 @@ from osc2tx.lowering.placement.carla_paths import start_on_path
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.lowering.values.arguments import lower_arguments
 from osc2tx.lowering.values.expressions import lower_expression
+from osc2tx.lowering.values.range_bounds import with_bounds
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
 from osc2tx.semantics.bodies.modifiers import instead_of_scenario

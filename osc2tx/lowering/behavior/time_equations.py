@@ -9,16 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import field
-from functools import reduce
+from functools import partial, reduce
+from math import inf
 
 from osc2tx import ir
-from osc2tx.diagnostics import Label
+from osc2tx.diagnostics import Label, Span
 from osc2tx.lowering.behavior.time_expressions import (
     SLACK,
     Terms,
     Times,
     about,
+    ends_of,
     greater_of,
+    is_range,
     lies_within,
     names_in,
     resolved,
@@ -29,8 +32,16 @@ from osc2tx.lowering.behavior.time_expressions import (
     time_like,
 )
 from osc2tx.lowering.context import LoweringContext
-from osc2tx.lowering.value_types import BOOL
+from osc2tx.lowering.value_types import BOOL, lower_type
+from osc2tx.semantics import types
+from osc2tx.semantics.builtins import TIME
 from osc2tx_shared.classes import dataclass, replace
+
+TIMES = lower_type(types.RangeType(TIME))
+
+
+def _binary(span: Span, operator: str, one: ir.Expression, other: ir.Expression) -> ir.Binary:
+    return ir.Binary(span=span, type=BOOL, operator=operator, left=one, right=other)
 
 
 @dataclass(slots=True, eq=False)
@@ -54,11 +65,11 @@ class TimeEquations:
         if self.is_impossible(terms, whole):
             return
         self._narrow(terms, whole)
-        if terms and not isinstance(whole, ir.RangeValue):
-            self._narrow((whole,), sum_of(terms))
-        if isinstance(whole, ir.RangeValue):
+        if is_range(whole):
             self._demand(terms, whole)
             return
+        if terms:
+            self._narrow((whole,), sum_of(terms))
         for term in reversed(terms):
             others = tuple(other for other in terms if other is not term)
             parameter = self._parameter(term)
@@ -73,7 +84,7 @@ class TimeEquations:
                 self._set(parameter, value)
                 return
         if self.is_variable((*terms, whole)) and not any(map(ir.is_live, (*terms, whole))):
-            self._check(sum_of(terms), about(whole))
+            self._check(self._within(sum_of(terms), about(whole)))
 
     def bound(self, terms: Terms, whole: ir.Expression) -> bool:
         """Let a sum be no longer than a time, or than a range of times allows.
@@ -83,22 +94,82 @@ class TimeEquations:
         """
         if self.is_impossible(terms, whole, at_most=True):
             return False
-        most = whole.upper if isinstance(whole, ir.RangeValue) else whole
-        zero = ir.Literal(span=most.span, type=most.type, value=0.0)
-        within = ir.RangeValue(span=most.span, type=most.type, lower=zero, upper=most)
-        self._narrow(terms, within)
-        self._demand(terms, within)
+        most = ends_of(whole)[1]
+        if most is not None:
+            within = ir.HalfRange(span=most.span, type=TIMES, bound=most, is_lower=False)
+            self._narrow(terms, within)
+            self._demand(terms, within)
         return True
 
-    def _demand(self, terms: Terms, whole: ir.RangeValue) -> None:
-        """Have a bound checked before the run, unless it always holds."""
-        found, wanted = self.bounds(terms), self.bounds((whole,))
-        if not lies_within(found, wanted) and self.is_variable(terms):
-            self._check(sum_of(terms), whole)
+    def relate_either(self, options: Sequence[Terms], whole: ir.Expression) -> None:
+        """Let one of several sums be a time, or in a range of times.
 
-    def _check(self, value: ir.Expression, within: ir.RangeValue) -> None:
-        expression = ir.Binary(span=within.span, type=BOOL, operator="in", left=value, right=within)
-        self.constraints.append(ir.Constraint(expression=expression, span=within.span))
+        A drawn time that is part of all of them is drawn out of the values that they leave it.
+        """
+        if is_range(whole):
+            if not all(self._is_held(terms, whole) for terms in options):
+                within = [self._within(sum_of(terms), whole) for terms in options]
+                self._check(reduce(partial(_binary, whole.span, "or"), within))
+            return
+        computed = self._computed()
+        target = resolved(whole, computed)
+        sums = [tuple(resolved(term, computed) for term in terms) for terms in options]
+        for parameter in reversed([*self._parameters(self.declared), *self._parameters()]):
+            values = [solved_for(parameter.name, terms, target) for terms in sums]
+            known = tuple(value for value in values if value is not None)
+            if len(known) == len(options) and self._is_apart(parameter, known):
+                self._set_to_one_of(parameter, known)
+                return
+        self.relate(options[0], whole)
+
+    def _demand(self, terms: Terms, whole: ir.Expression) -> None:
+        """Have a bound checked before the run, unless it always holds."""
+        ends = tuple(end for end in ends_of(whole) if end is not None)
+        if not self._is_held(terms, whole) and self.is_variable((*terms, *ends)):
+            self._check(self._within(sum_of(terms), whole))
+
+    def _is_held(self, terms: Terms, whole: ir.Expression) -> bool:
+        """Whether a sum lies in a range whatever is drawn."""
+        found = self.bounds(terms)
+        lower, upper = (None if end is None else self.bounds((end,)) for end in ends_of(whole))
+        is_open = [end is None for end in ends_of(whole)]
+        if (
+            found is None
+            or (lower is None and not is_open[0])
+            or (upper is None and not is_open[1])
+        ):
+            return False
+        least = -inf if lower is None else lower[1]
+        most = inf if upper is None else upper[0]
+        return lies_within(found, (least, most))
+
+    def _within(self, value: ir.Expression, whole: ir.Expression) -> ir.Binary:
+        """Return the test whether a time lies in a range, whose bounds may turn out reversed."""
+        lower, upper = ends_of(whole)
+        least = None if lower is None else _binary(whole.span, ">=", value, lower)
+        most = None if upper is None else _binary(whole.span, "<=", value, upper)
+        if least is None or most is None:
+            half = least or most
+            assert half is not None
+            return half
+        is_drawn_apart = names_in((lower,)) != names_in((upper,)) if lower and upper else False
+        if is_drawn_apart:
+            return _binary(whole.span, "and", least, most)
+        return _binary(whole.span, "in", value, whole)
+
+    def _check(self, expression: ir.Binary) -> None:
+        self.constraints.append(ir.Constraint(expression=expression, span=expression.span))
+
+    def _set_to_one_of(self, parameter: ir.Parameter, values: Terms) -> None:
+        """Let a drawn time be one of several values, as far as they may lie in its range."""
+        assert isinstance(parameter.domain, ir.RangeValue)
+        domain, had = parameter.domain, self.bounds((parameter.domain,))
+        fitting = tuple(each for each in values if self.fits((each,), domain)) or values
+        name = ir.FieldRef(span=parameter.span, type=parameter.type, name=parameter.name)
+        drawn = ir.Choices(span=parameter.span, type=parameter.type, elements=fitting)
+        self._replace(parameter, replace(parameter, domain=drawn))
+        if not all(lies_within(self.bounds((each,)), had) for each in fitting):
+            self._check(self._within(name, domain))
 
     def _set(self, parameter: ir.Parameter, value: ir.Expression) -> None:
         """Give a drawn time the value that an equation leaves it."""
@@ -112,7 +183,7 @@ class TimeEquations:
         else:
             self._replace(parameter, solved)
         if not lies_within(found, wanted):
-            self._check(name, parameter.domain)
+            self._check(self._within(name, parameter.domain))
 
     def is_impossible(self, terms: Terms, whole: ir.Expression, at_most: bool = False) -> bool:
         """Report a sum that is never a time, or in a range; return whether it is so."""
@@ -157,7 +228,7 @@ class TimeEquations:
         ):
             return
         fitting = [each for each in variable if self.fits(each, whole)]
-        if fitting and not isinstance(whole, ir.RangeValue):
+        if fitting and not is_range(whole):
             self.relate(fitting[0], whole)
         else:
             self.relate(longest, whole)
@@ -196,17 +267,12 @@ class TimeEquations:
         values = self._values()
         total = (0.0, 0.0)
         for term in terms:
-            ends = [term]
-            if isinstance(term, ir.RangeValue):
-                ends = [term.lower, term.upper]
-            found = [ir.bounds(resolved(end, values), values) for end in ends]
-            known = [each for each in found if each is not None]
-            if len(known) < len(found):
+            low, high = ends_of(term)
+            least = (0.0, 0.0) if low is None else ir.bounds(resolved(low, values), values)
+            most = (inf, inf) if high is None else ir.bounds(resolved(high, values), values)
+            if least is None or most is None:
                 return None
-            total = (
-                total[0] + min(low for low, _ in known),
-                total[1] + max(high for _, high in known),
-            )
+            total = total[0] + min(least[0], most[0]), total[1] + max(least[1], most[1])
         return total
 
     def _parameters(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import reduce
+from math import isinf
 from typing import TypeAlias
 
 from osc2tx import ir
@@ -21,6 +22,17 @@ Times: TypeAlias = tuple[float, float]
 def is_range(duration: ir.Expression | None) -> bool:
     """Return whether a duration is a range."""
     return duration is not None and duration.type.kind is ir.Kind.RANGE
+
+
+def ends_of(time: ir.Expression) -> tuple[ir.Expression | None, ir.Expression | None]:
+    """Return the bounds of a range, `None` for what is open; a time is both of its own."""
+    match time:
+        case ir.RangeValue(lower=lower, upper=upper):
+            return lower, upper
+        case ir.HalfRange(bound=bound, is_lower=is_lower):
+            return (bound, None) if is_lower else (None, bound)
+        case _:
+            return time, time
 
 
 def lies_within(found: Times | None, wanted: Times | None) -> bool:
@@ -169,4 +181,6 @@ def shown(times: Times | None) -> str:
     if times is None:
         return "a time"
     low, high = times
+    if isinf(high):
+        return f"at least {low:g} s"
     return f"{low:g} s" if low == high else f"{low:g} s to {high:g} s"

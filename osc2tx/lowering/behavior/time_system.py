@@ -64,6 +64,8 @@ _Length: TypeAlias = _Known | _Either | _Filling | None
 
 INSTANT = _Known(())
 OPEN, FREE = _Filling(), _Filling()
+LEAST = _Filling()
+"""Of what goes on for at least some time."""
 
 
 def _choice(options: Sequence[Terms]) -> _Length:
@@ -135,6 +137,10 @@ class TimeSystem:
                 return node, None
             case ir.InvokeScenario() if is_bounded or node.duration is not None:
                 return node, self._invocation(node)
+            case ir.Invoke(duration=ir.HalfRange(is_lower=True)) if is_open_ended(
+                replace(node, duration=None)
+            ):
+                return node, LEAST
             case ir.Invoke() if node.duration is not None:
                 return node, None if is_range(node.duration) else _Known((node.duration,))
             case _ if is_instant(node):
@@ -184,7 +190,7 @@ class TimeSystem:
         solved = [self._member(member, inner) for member in node.members]
         if any(new is not old for (new, _), old in zip(solved, node.members, strict=True)):
             node = replace(node, members=tuple(member for member, _ in solved))
-        if is_range(node.duration) and not isinstance(node.duration, ir.RangeValue):
+        if is_range(node.duration) and not isinstance(node.duration, ir.RangeValue | ir.HalfRange):
             return node, None  # which range it is shows in the run
         lengths = [length for _, length in solved]
         length: _Length = None
@@ -196,10 +202,19 @@ class TimeSystem:
             case ir.Parallel():
                 node, length = self._parallel(node, lengths)
             case ir.OneOf():
-                length = _alternatives(lengths)
+                length = self._one_of(node, lengths)
         if node.duration is not None and not is_range(node.duration):
             length = _Known((node.duration,))
         return node, length
+
+    def _one_of(self, node: ir.OneOf, lengths: list[_Length]) -> _Length:
+        """Relate the times of alternatives to the duration of their `one_of`."""
+        length = _alternatives(lengths)
+        if node.duration is None or not isinstance(length, _Known | _Either):
+            return length
+        return self._either(
+            length.options if isinstance(length, _Either) else (length.terms,), node
+        )
 
     # --- serial ---
 
@@ -220,7 +235,7 @@ class TimeSystem:
         are_free = all(lengths[index] is FREE for index in filling)
         if node.duration is None or (len(filling) > 1 and not are_free):
             return node, None
-        if are_free and isinstance(node.duration, ir.RangeValue):
+        if are_free and is_range(node.duration):
             return node, None  # their own lengths may lie in it
         return self._filled(node, filling, terms), None
 
@@ -236,11 +251,21 @@ class TimeSystem:
         sums = [tuple(term for terms in each for term in terms) for each in product(*options)]
         if node.duration is None:
             return _choice(sums)
-        fitting = [each for each in sums if self._equations.fits(each, node.duration)]
-        if len(fitting) != 1:
-            return None  # who fits shows when all times are drawn
-        self._equations.relate(fitting[0], node.duration)
-        return _Known(fitting[0])
+        return self._either(sums, node)
+
+    def _either(self, options: Sequence[Terms], node: ir.Serial | ir.OneOf) -> _Length:
+        """Relate the lengths that a member may have to its duration."""
+        assert node.duration is not None
+        fitting = [each for each in options if self._equations.fits(each, node.duration)]
+        if not fitting:
+            return None  # the run says so
+        if len(fitting) == 1:
+            self._equations.relate(fitting[0], node.duration)
+        elif self._equations.is_variable(tuple(t for each in fitting for t in each)) or (
+            self._equations.is_variable((node.duration,))
+        ):
+            self._equations.relate_either(fitting, node.duration)
+        return _choice(fitting)
 
     def _filled(self, node: ir.Serial, filling: Sequence[int], others: Terms) -> ir.Serial:
         """Return a serial, some members of which take the rest of its duration, each the same."""
@@ -249,12 +274,23 @@ class TimeSystem:
         if isinstance(whole, ir.RangeValue):
             whole = self.ctx.draw(f"{node.label or node.name} duration", whole, whole.lower.type)
             node = replace(node, duration=whole)
+        elif is_range(whole):
+            return node
         if others and not self._equations.bound(others, whole):
             return node
-        members, rest = node.members, part_of(rest_of(whole, others), len(filling))
+        rest = part_of(rest_of(whole, others), len(filling))
+        return replace(node, members=self._given(node.members, filling, rest))
+
+    def _given(
+        self, members: tuple[ir.Behavior, ...], filling: Sequence[int], time: ir.Expression
+    ) -> tuple[ir.Behavior, ...]:
+        """Return members, some of which take a time; it lies in the range that they ask for."""
         for index in filling:
-            members = with_duration(members, index, rest)
-        return replace(node, members=members)
+            asked = getattr(members[index], "duration", None)
+            if asked is not None:
+                self._equations.relate((time,), asked)
+            members = with_duration(members, index, time)
+        return members
 
     # --- parallel ---
 
@@ -308,8 +344,7 @@ class TimeSystem:
         """Relate members that start and end together."""
         lengths = self._only_fitting(lengths, lasting)
         known = [length for i in lasting if isinstance(length := lengths[i], _Known)]
-        is_range = isinstance(node.duration, ir.RangeValue)
-        if node.duration is not None and not is_range:
+        if node.duration is not None and not is_range(node.duration):
             whole: Terms = (node.duration,)
         elif known:
             whole = min(known, key=lambda each: self._equations.is_variable(each.terms)).terms
@@ -320,10 +355,8 @@ class TimeSystem:
         for length in known:
             if length.terms != whole:
                 self._equations.relate(length.terms, sum_of(whole))
-        members = node.members
-        for index in lasting:
-            if lengths[index] is FREE:
-                members = with_duration(members, index, sum_of(whole))
+        filling = [index for index in lasting if lengths[index] in (FREE, LEAST)]
+        members = self._given(node.members, filling, sum_of(whole))
         return replace(node, members=members), _Known(whole)
 
     def _only_fitting(self, lengths: list[_Length], lasting: list[int]) -> list[_Length]:
@@ -351,7 +384,7 @@ class TimeSystem:
     ) -> tuple[ir.Parallel, _Length]:
         """Relate members that start together: the longest is as long as the whole."""
         known = [length for i in lasting if isinstance(length := lengths[i], _Known)]
-        free = [index for index in lasting if lengths[index] is FREE]
+        free = [index for index in lasting if lengths[index] in (FREE, LEAST)]
         whole = node.duration
         if len(lasting) > len(known) + len(free):
             for length in known:
@@ -360,8 +393,8 @@ class TimeSystem:
             return node, None
         if whole is None:
             return node, self._longest(known) if known and not free else None
-        if len(free) == 1 and not isinstance(whole, ir.RangeValue):
-            node = replace(node, members=with_duration(node.members, free[0], whole))
+        if len(free) == 1 and not is_range(whole):
+            node = replace(node, members=self._given(node.members, free, whole))
         for length in known if len(known) > 1 or free else ():
             self._equations.bound(length.terms, whole)
         if not free and len(known) == 1:

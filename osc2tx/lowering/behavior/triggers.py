@@ -8,10 +8,10 @@ from typing import assert_never
 from osc2tx import ir
 from osc2tx.ir.source_text import condensed
 from osc2tx.lowering.behavior.composed_behaviors import is_composed, scenario_key
-from osc2tx.lowering.behavior.durations import with_bounds
 from osc2tx.lowering.context import LoweringContext, Receiver, present, statement_comments
 from osc2tx.lowering.value_types import lower_type
 from osc2tx.lowering.values.expressions import lower_expression
+from osc2tx.lowering.values.range_bounds import with_bounds
 from osc2tx.lowering.values.references import path_of
 from osc2tx.semantics import symbols as sym
 from osc2tx.syntax import ast

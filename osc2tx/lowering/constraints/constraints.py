@@ -9,11 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import field
+from math import inf
 
 from osc2tx import ir
 from osc2tx.analysis import TypeConstraints, analyse_global, single_value
 from osc2tx.analysis.constraints.constraint import Constraint
-from osc2tx.analysis.constraints.domains import TRUE, Choice, Domain, join
+from osc2tx.analysis.constraints.domains import TRUE, Choice, Domain, Interval, join
 from osc2tx.analysis.constraints.operation_list import SIZE, Key, domain_of_type
 from osc2tx.analysis.constraints.solver import values_on
 from osc2tx.lowering.behavior.composed_behaviors import Composed
@@ -41,8 +42,10 @@ from osc2tx.lowering.constraints.parameter_settings import (
 )
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.values.expressions import lower_expression
+from osc2tx.lowering.values.range_bounds import with_bounds
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
+from osc2tx.semantics.builtins import DURATION
 from osc2tx.syntax import ast
 from osc2tx_shared.classes import dataclass, replace
 
@@ -160,7 +163,9 @@ class ConstraintLowering:
             if any(c.subject == key and c.origin == "argument" for c in mentioned):
                 continue
             says_itself = not is_of_library and any(c.subject == key for c in mentioned)
-            if says_itself and all(c.place.prefix[:1] == (node,) for c in mentioned):
+            if (says_itself or (parameter is DURATION and not is_of_library)) and all(
+                c.place.prefix[:1] == (node,) for c in mentioned
+            ):
                 continue
             setting = self.setting(key, parameter.type)
             if not setting.is_empty:
@@ -223,16 +228,23 @@ class ConstraintLowering:
     ) -> ir.Domain | None:
         if within is not None:
             lowered = self._expression(within)
+            lowered = None if lowered is None else with_bounds(lowered)
             if isinstance(lowered, ir.ListValue):
                 elements = lowered.elements
                 return ir.Choices(span=lowered.span, type=lowered.type, elements=elements)
             if isinstance(lowered, ir.RangeValue) and not writer.is_constant(lowered):
                 return lowered
+            is_list = lowered is not None and lowered.type.kind is ir.Kind.LIST
+            if lowered is not None and is_list and not ir.is_live(lowered):
+                return ir.Choices(span=lowered.span, type=lowered.type, elements=(lowered,))
         elif (listed := self._listed(writer)) is not None:
             return listed
-        bound = None if within is not None else writer.relative(self._earlier(writer.key))
+        relative = () if within is not None else writer.relatives(self._earlier(writer.key))
+        bound = next(iter(relative), None)
         if bound is not None and not isinstance(hard, Choice):
             lowered, by = bound
+            if writer.key[-1] is DURATION:
+                return self._duration(writer, hard)
             if not writer.has_bounds:
                 self._used.add(by)
                 return lowered
@@ -240,6 +252,27 @@ class ConstraintLowering:
         if known is None or isinstance(known, ir.HalfRange):
             return self._range_by_cases(writer) or known
         return known
+
+    def _duration(self, writer: DomainWriter, hard: Interval) -> ir.RangeValue | ir.HalfRange:
+        """Return the bounds of a duration, which no check can read, some from other values."""
+        halves: dict[bool, ir.HalfRange] = {}
+        for half, by in writer.relatives(self._earlier(writer.key)):
+            if half.is_lower not in halves:
+                halves[half.is_lower] = half
+                self._used.add(by)
+        own = Interval(
+            -inf if True in halves else hard.lower, inf if False in halves else hard.upper
+        )
+        for each in writer.constraints:
+            if values_on(each.operations, {writer.key: own})[-1] == TRUE:
+                self._used.add(each)
+        constant = writer.domain(own)
+        if isinstance(constant, ir.HalfRange):
+            halves.setdefault(constant.is_lower, constant)
+        if len(halves) < 2:
+            return next(iter(halves.values()))
+        lower, upper = halves[True], halves[False]
+        return ir.RangeValue(span=lower.span, type=lower.type, lower=lower.bound, upper=upper.bound)
 
     def _range_by_cases(self, writer: DomainWriter) -> ir.RangeValue | None:
         """Return the domain of a number that constraints bound in some cases only."""
@@ -259,7 +292,7 @@ class ConstraintLowering:
         found = []
         for constraint in self.found.by_key.get(key, ()):
             others = [k for k in constraint.operations.keys if k != key]
-            after = isinstance(key[0], ast.Node) or is_last(key, others)
+            after = isinstance(key[0], ast.Node) or key[-1] is DURATION or is_last(key, others)
             after = after or (among_members and is_last_of_object(key, others))
             if others and after and not constraint.is_default:
                 found.append(constraint)

@@ -77,8 +77,10 @@ class DomainWriter:
         """Whether the source gives it a constant bound."""
         return any(_number(bound) is not None for bound in self._bounds())
 
-    def relative(self, constraints: Sequence[Constraint]) -> tuple[ir.HalfRange, Constraint] | None:
-        """Return the bound that one of some constraints gives, `x >= a`, and that constraint."""
+    def relatives(
+        self, constraints: Sequence[Constraint]
+    ) -> Iterator[tuple[ir.HalfRange, Constraint]]:
+        """Yield the bounds that some constraints give, `x >= a`, each with its constraint."""
         for constraint in constraints:
             part = (
                 constraint.node.expression
@@ -88,14 +90,15 @@ class DomainWriter:
             if not isinstance(part, ast.Binary) or part.operator not in NOT_STRICT:
                 continue
             for side, other in ((part.left, part.right), (part.right, part.left)):
+                if constraint.place.locate(side) != self.key:
+                    continue
                 bound = next(self._lowered(constraint, other), None)
-                if constraint.place.locate(side) != self.key or bound is None:
+                if bound is None:
                     continue
                 is_lower = (part.operator is Op.GREATER_EQUAL) == (side is part.left)
                 type_ = lower_type(types.RangeType(self.type))
                 half = ir.HalfRange(span=bound.span, type=type_, bound=bound, is_lower=is_lower)
-                return half, constraint
-        return None
+                yield half, constraint
 
     def is_constant(self, bounds: ir.RangeValue) -> bool:
         """Whether both bounds are known when compiling."""
@@ -180,6 +183,8 @@ class DomainWriter:
             sides = ((part.left, part.right), (part.right, part.left))
             others = [other for side, other in sides if constraint.place.locate(side) == self.key]
             for other in others:
+                if constraint.place.locate(other) is not None:
+                    continue  # no constant, and maybe nothing that has a value here
                 if part.operator in COMPARISONS:
                     yield from self._lowered(constraint, other)
                 elif part.operator is Op.IN and isinstance(other, ast.RangeLiteral):

@@ -223,6 +223,11 @@ def _in_order(scenario: ir.Scenario) -> list[ir.Parameter]:
     return list(ordered.values())
 
 
+def _elements(value: Constant) -> tuple[Constant, ...]:
+    """Return the values that an element of a set stands for: a list for its own elements."""
+    return value if isinstance(value, tuple) else (value,)
+
+
 def _open(declaration: ir.Parameter, scope: Scope, names: Names) -> OpenParameter | None:
     """Return a parameter if it is open."""
     if declaration.value is not None:
@@ -237,7 +242,8 @@ def _open(declaration: ir.Parameter, scope: Scope, names: Names) -> OpenParamete
             case ir.RangeValue():
                 range_ = domain
             case ir.Choices(elements=elements):
-                choices = tuple(scope.values.of(each) for each in elements)
+                values = (scope.values.of(each) for each in elements)
+                choices = tuple(v for each in values for v in _elements(each))
                 if not is_whole and all(type(each) in (int, float) for each in choices):
                     choices = tuple(float(n) for n in choices if isinstance(n, (int, float)))
                 for choice in choices:

@@ -275,7 +275,8 @@ class Values:
                     low, high = self.number(domain.lower), self.number(domain.upper)
                     return 0.5 * (low + high)
                 if isinstance(domain, ir.Choices):
-                    return self.of(domain.elements[0])
+                    first = self.of(domain.elements[0])
+                    return first[0] if isinstance(first, tuple) and first else first
             case ir.Variable(value=value, sample=None) if value is not None:
                 return self.of(value)
         raise Inexpressible(
