@@ -13,7 +13,12 @@ from osc2tx.analysis.constraints.constraint import Constraint
 from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx.analysis.constraints.parameter_lookup import Place
 from osc2tx.lowering.constraints.constraints import ConstraintLowering
-from osc2tx.lowering.constraints.parameter_domains import all_values, as_type, conjuncts
+from osc2tx.lowering.constraints.parameter_domains import (
+    COMPARISONS,
+    all_values,
+    as_type,
+    conjuncts,
+)
 from osc2tx.lowering.context import LoweringContext, statement_comments
 from osc2tx.lowering.declarations.user_fields import is_plain
 from osc2tx.lowering.value_types import lower_type
@@ -53,7 +58,9 @@ def _said(
     ctx: LoweringContext, field: sym.FieldSymbol, constraints: ConstraintLowering
 ) -> tuple[dict[int, ir.Expression], int | None]:
     """Return the constraints on single elements, and on the size."""
+    assert isinstance(field.type, types.ListType)
     said: dict[int, ir.Expression] = {}
+    bounds: dict[int, dict[bool, ir.Expression]] = {}
     size = None
     for constraint in constraints.found.in_force.constraints:
         if not isinstance(constraint.node, ast.KeepConstraint):
@@ -68,7 +75,39 @@ def _said(
                         said[subject.index.value] = lowered
                 elif _is_size(ctx, subject, field, constraint.place):
                     size = value.value if isinstance(value, ast.IntegerLiteral) else None
+            for index, is_lower, bound in _bounds(ctx, field, constraint, part):
+                bounds.setdefault(index, {}).setdefault(is_lower, bound)
+    for index, ends in bounds.items():
+        if index not in said and len(ends) == 2:
+            type_ = lower_type(types.RangeType(field.type.element))
+            said[index] = ir.RangeValue(
+                span=ends[True].span, type=type_, lower=ends[True], upper=ends[False]
+            )
     return said, size
+
+
+def _bounds(
+    ctx: LoweringContext, field: sym.FieldSymbol, constraint: Constraint, part: ast.Expression
+) -> Iterator[tuple[int, bool, ir.Expression]]:
+    """Yield the constant that a comparison bounds an element by, and whether from below."""
+    if not isinstance(part, ast.Binary) or part.operator not in COMPARISONS:
+        return
+    for side, other in ((part.left, part.right), (part.right, part.left)):
+        if not isinstance(side, ast.Index) or not isinstance(side.index, ast.IntegerLiteral):
+            continue
+        if constraint.place.locate(side.base) != (field,) or not _is_constant(other):
+            continue
+        bound = lower_expression(ctx.at(constraint.place), other)
+        if bound is not None:
+            is_greater = part.operator in (Op.GREATER, Op.GREATER_EQUAL)
+            yield side.index.value, is_greater == (side is part.left), bound
+
+
+def _is_constant(node: ast.Expression) -> bool:
+    """Whether an expression is a plain number or physical value."""
+    negated = isinstance(node, ast.Unary) and node.operator is ast.UnaryOperator.NEGATE
+    number = node.operand if isinstance(node, ast.Unary) and negated else node
+    return isinstance(number, ast.IntegerLiteral | ast.FloatLiteral | ast.PhysicalLiteral)
 
 
 def _without_list(name: str, said: dict[int, ir.Expression]) -> dict[int, ir.Expression]:

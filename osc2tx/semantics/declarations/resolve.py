@@ -162,11 +162,16 @@ def _resolve_members(r: Resolution, owner: TypeSymbol) -> None:
 
 
 def _drop_redeclared_life_cycle(owner: TypeSymbol) -> None:
-    """Take `event start` and the like for what is there already (§7.3.13.7)."""
+    """Take `event start` and the like for what is there already (§7.3.10.3).
+
+    One with parameters or a specification says something else: it is an event of the scenario's
+    own, which overrides the predefined one (§7.3.10.2).
+    """
     if isinstance(owner, ScenarioSymbol | ActionSymbol):
         for name in LIFE_CYCLE:
             member = owner.members.get(name)
-            if isinstance(member, EventSymbol) and member.node and not member.node.parameters:
+            node = member.node if isinstance(member, EventSymbol) else None
+            if node is not None and not node.parameters and node.specification is None:
                 del owner.members[name]
 
 

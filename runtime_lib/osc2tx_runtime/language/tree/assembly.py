@@ -135,7 +135,8 @@ def find_event(scenario: ScenarioParts, path: str) -> Event:
             return scenario.events[label]
         hint = near(label, scenario.events)
         raise ScenarioError(f"@{path}: {scenario.name} has no such event{hint}", scenario.source)
-    if rest in ("start", "end", "fail"):
+    invoked = scenario._invoked.get(label)
+    if rest in ("start", "end", "fail") and (invoked is None or rest not in invoked.events):
         return scenario._label_event(label, rest)
     return find_event(scenario.invoked(label), rest)
 
