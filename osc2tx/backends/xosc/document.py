@@ -96,12 +96,8 @@ def _waits(ctx: Context) -> bool:
 
 
 def _monitors(ctx: Context) -> xml.MonitorDeclarations | None:
-    if not ctx.monitors:
-        return None
-    declarations = (
-        xml.MonitorDeclaration(name=name, value=value) for name, value in ctx.monitors.items()
-    )
-    return xml.MonitorDeclarations(*declarations)
+    told = [xml.MonitorDeclaration(name=name, value=value) for name, value in ctx.monitors.items()]
+    return xml.MonitorDeclarations(*told) if told else None
 
 
 def _properties(ctx: Context) -> xml.Properties | None:
@@ -155,12 +151,11 @@ def _parameters(ctx: Context) -> xml.ParameterDeclarations | None:
 def _variables(ctx: Context) -> xml.VariableDeclarations | None:
     if ctx.version < "1.2" or not ctx.variables:
         return None
-    return xml.VariableDeclarations(
-        *(
-            xml.VariableDeclaration(name=name, variableType=type_, value=value)
-            for name, (type_, value) in ctx.variables.items()
-        )
+    declarations = (
+        xml.VariableDeclaration(name=name, variableType=type_, value=value)
+        for name, (type_, value) in ctx.variables.items()
     )
+    return xml.VariableDeclarations(*declarations)
 
 
 def entry_scenarios(module: ir.Module) -> tuple[ir.Scenario, ...]:

@@ -200,6 +200,11 @@ class Leaf:
         is_late = self.limit is not None and own > self.limit
         return pace._replace(duration=self.limit) if is_free and is_late else pace
 
+    def starts_behind(self, reference: CastMember) -> float | None:
+        """Return by how many metres an actor is behind another one if it begins with the run."""
+        apart = self.ctx.init_gaps.get((self.member.name, reference.name))
+        return apart if self.is_start else None
+
     def is_left(self, side: str) -> bool:
         """Whether the `inside` or the `outside` of its road is to its left."""
         roads, lane = self.ctx.roads, self.state.lane

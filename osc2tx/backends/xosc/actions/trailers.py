@@ -83,18 +83,13 @@ def couplings(ctx: Context, member: CastMember) -> tuple[xml.VehiclePart, ...]:
     if "trailer" in member.actor.lineage:
         return (_half(ctx, xml.TrailerCoupler, member, "coupler", member.shape.front + DRAWBAR),)
     parts: list[xml.VehiclePart] = []
-    if _tows(ctx, member):
+    if member.name in towing(ctx).values() or any(_couplings_made_by(ctx, member)):
         rear = -member.shape.rear
         parts.append(_half(ctx, xml.TrailerHitch, member, "trailer_receiver", rear))
     for trailer, tow in towing(ctx).items():
         if tow == member.name:
             parts.append(xml.Trailer(xml.TrailerRef(entityRef=trailer)))
     return tuple(parts)
-
-
-def _tows(ctx: Context, member: CastMember) -> bool:
-    """Whether a vehicle tows a trailer at some time."""
-    return member.name in towing(ctx).values() or any(_couplings_made_by(ctx, member))
 
 
 def _couplings_made_by(ctx: Context, vehicle: CastMember) -> Iterator[ir.Invoke]:

@@ -37,20 +37,14 @@ def no_model(what: str, span: Span) -> Inexpressible:
 
 def user_action(leaf: Leaf) -> Performance:
     """Return the command that a tool carries out for an action of the scenario's own."""
-    command = _command(leaf.ctx, leaf.node, leaf.arguments)
+    command = own_command(leaf.ctx, leaf.node, leaf.arguments)
     after = ActorState(offset=None, rate=None)
     change = Change(WAY, (command,), None, after, after)
     return Performance((change,), "open")
 
 
-def global_command(
-    ctx: Context, node: ir.Invoke, arguments: Arguments
-) -> tuple[xml.UserDefinedAction, ...]:
-    """Return the same for one that has no actor."""
-    return (_command(ctx, node, arguments),)
-
-
-def _command(ctx: Context, node: ir.Invoke, arguments: Arguments) -> xml.UserDefinedAction:
+def own_command(ctx: Context, node: ir.Invoke, arguments: Arguments) -> xml.UserDefinedAction:
+    """Return the command for an action of the scenario's own, with or without an actor."""
     ctx.require_support("CustomCommandAction")
     if node.duration is None and not node.until:
         raise Inexpressible(

@@ -103,13 +103,13 @@ def _near_point(ctx: Context, start: Start, point: tuple[float, float, float]) -
 
 def _numbered(ctx: Context, start: Start, place: LanePosition) -> LanePosition:
     """Return the lane that a modifier numbers, at a place."""
-    lane = start.modifiers.get("lane")
+    lane = lane_number(start)
     if lane is None:
         return place
-    number = round(lane.number("lane") or 1)
-    numbered = required_roads(ctx).with_number(place, number, lane.member("from", "right"))
+    numbered = required_roads(ctx).with_number(place, *lane)
     if numbered is None:
-        raise Inexpressible(f"there is no lane {number} at that place", lane.source.span)
+        span = start.modifiers["lane"].source.span
+        raise Inexpressible(f"there is no lane {lane.number} at that place", span)
     return numbered
 
 

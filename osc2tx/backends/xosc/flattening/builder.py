@@ -109,19 +109,15 @@ class StoryboardBuilder:
         for name, state in self._stop_states.pop().items():
             is_aside = state.offset is None and self.ctx.states[name].offset is not None
             left = ((LATERAL, self.act.name),) if is_aside else ()
-            self._note_stopped_aside(state)
+            if state.aside > 0.0:
+                self.ctx.report.approximate(
+                    "an interrupted change of the offset in the lane",
+                    self.place,
+                    "it ends where it is; in the world it goes on to its place",
+                    Metres(state.aside, "beside"),
+                )
             self.ctx.states[name] = replace(state, aside=0.0, unfinished=left)
         self.act = self._around.pop()
-
-    def _note_stopped_aside(self, state: ActorState) -> None:
-        """Report that a change of the place in a lane stops with its act, and not in the world."""
-        if state.aside > 0.0:
-            self.ctx.report.approximate(
-                "an interrupted change of the offset in the lane",
-                self.place,
-                "it ends where it is; in the world it goes on to its place",
-                Metres(state.aside, "beside"),
-            )
 
     def note(self, entity: str, state: ActorState) -> None:
         """Note a state in which an act that is open now may be stopped."""

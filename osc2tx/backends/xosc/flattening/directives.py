@@ -1,13 +1,18 @@
-"""Directives as events: `emit`, `call`, `on`, the end of the scenario."""
+"""Directives as events: `emit`, `call`, `on`, the end of the scenario; and global actions."""
 
 from __future__ import annotations
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.user_actions import command_of, no_model
+from osc2tx.backends.xosc.actions.arguments import Arguments
+from osc2tx.backends.xosc.actions.leaf import Globals, Later
+from osc2tx.backends.xosc.actions.registry import GLOBAL_ACTIONS
+from osc2tx.backends.xosc.actions.signals.vehicle_lights import followed_lights
+from osc2tx.backends.xosc.actions.user_actions import command_of, no_model, own_command
 from osc2tx.backends.xosc.conditions.event_conditions import emitted_by, set_parameters
 from osc2tx.backends.xosc.conditions.flow import NEVER, Edge, Flow, Test, single
-from osc2tx.backends.xosc.flattening.builder import StoryboardBuilder
-from osc2tx.backends.xosc.names import plain
+from osc2tx.backends.xosc.flattening.builder import RUN_START, StoryboardBuilder, construct_of
+from osc2tx.backends.xosc.flattening.tree_queries import entry_of
+from osc2tx.backends.xosc.names import event_name, plain
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible
 from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
@@ -143,3 +148,49 @@ def _each_time(occurs: Flow, start: Flow) -> Flow:
             for group in occurs.groups
         )
     )
+
+
+# --- actions that concern no entity ---------------------------------------------------------------
+
+
+def invoke_global(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
+    """Write down an action that concerns no entity; at the very start it goes to `Init`."""
+    ctx, entry = builder.ctx, entry_of(node)
+    actions: Globals = ()
+    with ctx.report_as(construct_of(node), node.span):
+        arguments = Arguments(ctx, node)
+        if entry is None:
+            actions = (own_command(ctx, node, arguments),)
+        else:
+            actions = GLOBAL_ACTIONS[node.action](ctx, node, arguments)
+        arguments.finish()
+    lasts = entry is None or entry.ends == "open"
+    if lasts:
+        start = builder.latched(start, builder.name_of(node))
+    if node.modifiers or (not lasts and (node.until or node.duration is not None)):
+        raise Inexpressible("it takes no time, so it has no duration and no modifiers")
+    name = event_name(ctx.scope.deeds, node)
+    goal = _act_globally(builder, name, actions, start)
+    for actor, lights in followed_lights(ctx).items():
+        builder.add(ctx.names.new(f"{actor}_lights_{name}"), lights, start, actor=actor)
+    if not lasts:
+        return builder.mark_end(node, goal)
+    return builder.mark_end(node, builder.limit(node, start))
+
+
+def _act_globally(builder: StoryboardBuilder, name: str, actions: Globals, start: Flow) -> Flow:
+    """Add an event for actions that concern no entity; return when they are done."""
+    ctx = builder.ctx
+    at_once = tuple(action for action in actions if not isinstance(action, Later))
+    later: dict[float, list[xml.ActionPart]] = {}
+    for action in actions:
+        if isinstance(action, Later):
+            later.setdefault(action.seconds, []).append(action.action)
+    done = start
+    if start == RUN_START and builder.is_outermost:
+        ctx.init_globals.extend(at_once)
+    elif at_once:
+        done = builder.add(ctx.names.new(name), at_once, start)
+    for seconds, switches in later.items():
+        builder.add(ctx.names.new(name), tuple(switches), start.later(seconds))
+    return done

@@ -5,22 +5,20 @@ from __future__ import annotations
 from math import inf
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.lateral.lanes import LANE_WIDTH
-from osc2tx.backends.xosc.actions.leaf import Change, Globals, Later, Leaf, Performance
+from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, WITHOUT_FORM
-from osc2tx.backends.xosc.actions.signals.vehicle_lights import followed_lights
 from osc2tx.backends.xosc.actions.speed.speed_elements import ends_evenly, hold_speed, in_steps
 from osc2tx.backends.xosc.actions.speed.speed_notes import note_cut
-from osc2tx.backends.xosc.actions.user_actions import global_command, user_action
+from osc2tx.backends.xosc.actions.user_actions import user_action
 from osc2tx.backends.xosc.conditions.flow import Flow, Test
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.actors import Pace, apart, course_of_shift
 from osc2tx.backends.xosc.flattening.builder import (
     RUN_START,
     StoryboardBuilder,
-    construct_of,
 )
+from osc2tx.backends.xosc.flattening.directives import invoke_global
 from osc2tx.backends.xosc.flattening.durations import time_left, time_limit
 from osc2tx.backends.xosc.flattening.tree_queries import entry_of
 from osc2tx.backends.xosc.names import event_name
@@ -34,7 +32,7 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     """Write down an invocation that starts with a flow; return when it ends."""
     is_known = entry_of(node) is not None
     if node.actor is None or (is_known and node.action in GLOBAL_ACTIONS):
-        return _invoke_global(builder, node, start)
+        return invoke_global(builder, node, start)
     ctx = builder.ctx
     leaf_handler = ACTIONS.get(node.action) if is_known else user_action
     if leaf_handler is None:
@@ -184,47 +182,6 @@ def _is_over(change: Change, lasting: float | None) -> bool:
     if change.time == 0.0 or lasting == inf:
         return True
     return lasting is not None and change.time is not None and change.time <= lasting
-
-
-def _invoke_global(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
-    """Write down an action that concerns no entity; at the very start it goes to `Init`."""
-    ctx, entry = builder.ctx, entry_of(node)
-    actions: Globals = ()
-    with ctx.report_as(construct_of(node), node.span):
-        arguments = Arguments(ctx, node)
-        perform = global_command if entry is None else GLOBAL_ACTIONS[node.action]
-        actions = perform(ctx, node, arguments)
-        arguments.finish()
-    lasts = entry is None or entry.ends == "open"
-    if lasts:
-        start = builder.latched(start, builder.name_of(node))
-    if node.modifiers or (not lasts and (node.until or node.duration is not None)):
-        raise Inexpressible("it takes no time, so it has no duration and no modifiers")
-    name = event_name(ctx.scope.deeds, node)
-    goal = _act_globally(builder, name, actions, start)
-    for actor, lights in followed_lights(ctx).items():
-        builder.add(ctx.names.new(f"{actor}_lights_{name}"), lights, start, actor=actor)
-    if not lasts:
-        return builder.mark_end(node, goal)
-    return builder.mark_end(node, builder.limit(node, start))
-
-
-def _act_globally(builder: StoryboardBuilder, name: str, actions: Globals, start: Flow) -> Flow:
-    """Add an event for actions that concern no entity; return when they are done."""
-    ctx = builder.ctx
-    at_once = tuple(action for action in actions if not isinstance(action, Later))
-    later: dict[float, list[xml.ActionPart]] = {}
-    for action in actions:
-        if isinstance(action, Later):
-            later.setdefault(action.seconds, []).append(action.action)
-    done = start
-    if start == RUN_START and builder.is_outermost:
-        ctx.init_globals.extend(at_once)
-    elif at_once:
-        done = builder.add(ctx.names.new(name), at_once, start)
-    for seconds, switches in later.items():
-        builder.add(ctx.names.new(name), tuple(switches), start.later(seconds))
-    return done
 
 
 BACK_TO_CENTRE = 1.5

@@ -109,7 +109,7 @@ class Arrival:
 def _in_time(leaf: Leaf, call: Call, gap: Gap) -> Change:
     """Return the change of the speed that leads to a place beside another actor in time."""
     ctx, speed, time = leaf.ctx, leaf.state.known_speed, leaf.duration
-    apart = ctx.init_gaps.get((leaf.member.name, gap.reference.name)) if leaf.is_start else None
+    apart = leaf.starts_behind(gap.reference)
     theirs = steady_speed(leaf, gap.reference)
     if speed is None or apart is None or theirs is None or time is None or gap.is_time:
         call.approximate(

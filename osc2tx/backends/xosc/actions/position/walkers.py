@@ -134,11 +134,6 @@ def _covered(course: Profile, time: float) -> float:
     return _summed(course, time) if is_open else _known_way(course, time)
 
 
-@lru_cache(maxsize=4096)  # documents of one scenario for several values share most walks
-def _known_way(course: SCurve, time: float) -> float:
-    return _summed(course, time)
-
-
 def _summed(course: Profile, time: float) -> float:
     """Return the way (m) covered after a time: Simpson's rule, then the speed at the end."""
     changing = min(time, course.duration)
@@ -152,3 +147,7 @@ def _summed(course: Profile, time: float) -> float:
         before, speed = speed, course.value(right)
         way += (before + 4.0 * course.value(0.5 * (left + right)) + speed) / 6.0 * step
     return way
+
+
+_known_way = lru_cache(maxsize=4096)(_summed)
+"""The same; documents of one scenario for several values share most walks."""

@@ -203,15 +203,11 @@ class Computed:
 
     Attributes:
         duration: Seconds.
-        speed: Speed (m/s) after some seconds.
+        value: Speed (m/s) after some seconds.
     """
 
     duration: float
-    speed: Callable[[float], float]
-
-    def value(self, t: float) -> float:
-        """Return the speed (m/s) after some seconds."""
-        return self.speed(t)
+    value: Callable[[float], float]
 
 
 def user_shape(arguments: Arguments) -> ir.UserShape | None:

@@ -123,8 +123,8 @@ def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) ->
 
 def _missing_at_start(leaf: Leaf, gap: Gap, distance: float, *, freespace: bool) -> float | None:
     """Return by how much (m) a distance is another one at the start of the run, if that is now."""
-    apart = leaf.ctx.init_gaps.get((leaf.member.name, gap.reference.name))
-    if apart is None or not leaf.is_start:
+    apart = leaf.starts_behind(gap.reference)
+    if apart is None:
         return None
     me, other = leaf.member.shape, gap.reference.shape
     if gap.side == "ahead":
@@ -206,11 +206,11 @@ def _side_at_start(leaf: Leaf, gap: Gap) -> str | None:
     before = ir.predecessor(leaf.ctx.scenario.body, leaf.node)
     if before is not None and before.action.startswith(("change_space_", "change_time_")):
         return gap.side if leaf.node.action.startswith("keep_") else None
-    if not leaf.is_start or gap.is_lateral:
-        return None
-    apart = leaf.ctx.init_gaps.get((leaf.member.name, gap.reference.name))
-    if apart is None:
-        return None
+    apart = None if gap.is_lateral else leaf.starts_behind(gap.reference)
+    return apart if apart is None else _side(apart)
+
+
+def _side(apart: float) -> str:
     return "behind" if apart > 0.0 else "ahead"
 
 
@@ -271,7 +271,7 @@ def _keep_gap(leaf: Leaf) -> Performance:
     direction = leaf.arguments.member("direction", "longitudinal")
     found = _reached_before(leaf, reference, direction)
     missing: float | None = 0.0
-    if found is None and direction == "longitudinal" and leaf.is_start:
+    if found is None and direction == "longitudinal":
         found = _at_start(leaf, reference)
         same = leaf.state.speed == leaf.ctx.at_start[reference.name].speed
         missing = 0.0 if same else None
@@ -325,11 +325,11 @@ def _reached_before(leaf: Leaf, reference: CastMember, direction: str) -> Gap | 
 def _at_start(leaf: Leaf, reference: CastMember) -> Gap | None:
     """Return the gap of the initial placement."""
     is_time, between = _counted(leaf.node)
-    apart = leaf.ctx.init_gaps.get((leaf.member.name, reference.name))
+    apart = leaf.starts_behind(reference)
     if apart is None:
         return None
     me, other = leaf.member.shape, reference.shape
-    side = "behind" if apart > 0.0 else "ahead"
+    side = _side(apart)
     behind, ahead = (me, other) if side == "behind" else (other, me)
     size = abs(apart) - behind.front + (ahead.front if between == "fronts" else -ahead.rear)
     if is_time:
