@@ -87,16 +87,14 @@ def _infixes(scenarios: Sequence[ir.Scenario], stem: str) -> list[str]:
     return ["" if each.name == stem else f".{names.new(each.name)}" for each in scenarios]
 
 
+@dataclass(frozen=True, slots=True, eq=False)
 class _Emission:
     """Writes down one scenario."""
 
-    def __init__(
-        self, scenario: ir.Scenario, module: ir.Module, options: XmlOptions, folder: Path | None
-    ) -> None:
-        self._scenario = scenario
-        self._module = module
-        self._options = options
-        self._folder = folder
+    _scenario: ir.Scenario
+    _module: ir.Module
+    _options: XmlOptions
+    _folder: Path | None
 
     def run(self, name: str, infix: str) -> XmlScenario:
         """Return the document called `name`, and what goes with it."""

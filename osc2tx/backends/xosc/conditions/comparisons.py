@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from typing import NamedTuple, TypeAlias
 
 from osc2tx import ir
@@ -169,17 +169,10 @@ READ_SPEEDS = frozenset(
 
 def speeds_read(part: Element) -> frozenset[str]:
     """Return the actors at whose speed a condition below an element looks."""
-    if part.tag != "ByEntityCondition":
-        return frozenset[str]().union(*map(speeds_read, part.children))
-    triggering, condition = part.children
-    if condition.children[0].tag not in READ_SPEEDS:
-        return frozenset()
-    return frozenset(_references(triggering)) | frozenset(_references(condition))
-
-
-def _references(part: Element) -> Iterator[str]:
-    name = part.get("entityRef")
-    if name is not None:
-        yield name
-    for child in part.children:
-        yield from _references(child)
+    names = (
+        node.get("entityRef")
+        for condition in part.below(xml.ByEntityCondition)
+        if condition.children[1].children[0].tag in READ_SPEEDS
+        for node in condition.walk()
+    )
+    return frozenset(name for name in names if name is not None)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.xosc.literals import Role, VehicleCategory
+from osc2tx.xosc.schema import literals
 
 HARMONIZED = "1.4"
 """First version whose literals are those of the DSL; it deprecates the older ones."""
@@ -74,27 +75,15 @@ TRAILERS: Mapping[str, VehicleCategory] = {
 
 NO_ROLE: Role = "none"
 
-# `traffic_participant_role` (§8.7.20) -> literal from 1.4 on, and in 1.2 and 1.3.
-_ROLES: Mapping[str, tuple[Role, Role]] = {
-    "agriculture": ("agriculture", NO_ROLE),
-    "ambulance": ("ambulance", "ambulance"),
-    "civil": ("civil", "civil"),
-    "construction": ("construction", NO_ROLE),
-    "dangerous_goods_transport": ("dangerousGoodsTransport", NO_ROLE),
-    "fire": ("fireBrigade", "fire"),
-    "fire_brigade": ("fireBrigade", "fire"),
-    "freight_transport": ("freightTransport", NO_ROLE),
-    "garbage_collection": ("garbageCollection", NO_ROLE),
-    "military": ("military", "military"),
-    "other": ("other", NO_ROLE),
-    "police": ("police", "police"),
-    "public_transport": ("publicTransport", "publicTransport"),
-    "road_assistance": ("roadsideAssistance", "roadAssistance"),
-    "road_construction": ("construction", NO_ROLE),
-    "roadside_assistance": ("roadsideAssistance", "roadAssistance"),
-    "special_transport": ("specialTransport", NO_ROLE),
-    "traffic_control": ("trafficControl", NO_ROLE),
+_RENAMED_ROLES = {
+    "fire": "fireBrigade",
+    "road_assistance": "roadsideAssistance",
+    "road_construction": "construction",
 }
+"""`traffic_participant_role` (§8.7.20) -> literal from 1.4 on, where that is another word."""
+
+_OLDER_ROLES = {"fireBrigade": "fire", "roadsideAssistance": "roadAssistance"}
+"""Literal from 1.4 on -> that of 1.2 and 1.3."""
 
 
 def vehicle_literal(ctx: Context, member: CastMember) -> VehicleCategory:
@@ -119,5 +108,9 @@ def vehicle_literal(ctx: Context, member: CastMember) -> VehicleCategory:
 
 def role_literal(ctx: Context, role: str) -> Role:
     """Return a role, in versions that have roles; `NO_ROLE` where they have no literal for it."""
-    newer, older = _ROLES[role]
-    return newer if ctx.version >= HARMONIZED else older
+    first, *others = role.split("_")
+    literal = _RENAMED_ROLES.get(role, "".join((first, *map(str.capitalize, others))))
+    if ctx.version < HARMONIZED:
+        literal = _OLDER_ROLES.get(literal, literal)
+    known = literals("Role", ctx.version) or ()
+    return cast("Role", literal) if literal in known else NO_ROLE
