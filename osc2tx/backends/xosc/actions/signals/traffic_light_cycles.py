@@ -82,7 +82,9 @@ def _play_cycles(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals
     is_supported = ctx.can(CONTROLLER, "1.0")
     lasting = None if node.duration is None else ctx.values.number(node.duration)
     is_alone = not any(
-        each.owner == node.owner for each in ir.invocations(body) if each is not node
+        each.owner == "traffic_light_controller"
+        for each in ir.invocations(body)
+        if each is not node
     )
     if not (spans_run and is_supported) and lasting is not None and not node.until and is_alone:
         return tuple(each for cycle in cycles for each in _written_out(ctx, cycle, lasting))
