@@ -156,12 +156,16 @@ class Context:
         finally:
             self.scope = outer
 
+    def actors_like(self, kind: str) -> list[ir.Actor]:
+        """Return the actors of a type, as map and environment are."""
+        actors = (each for each in self.scenario.declarations if isinstance(each, ir.Actor))
+        return [actor for actor in actors if kind in actor.lineage]
+
     def _map_file(self) -> str | None:
-        for declaration in self.scenario.declarations:
-            if isinstance(declaration, ir.Actor) and "map" in declaration.lineage:
-                value = self.values.field(declaration.name, "map_file")
-                if isinstance(value, str):
-                    return value
+        for actor in self.actors_like("map"):
+            value = self.values.field(actor.name, "map_file")
+            if isinstance(value, str):
+                return value
         for placement in self.scenario.placements:
             for call in placement.modifiers:
                 if call.name == "set_map_file":

@@ -176,7 +176,7 @@ def _precipitation(ctx: Context) -> xml.Precipitation:
 def initial_environment(ctx: Context) -> tuple[xml.GlobalAction, ...]:
     """Return the actions for the initial environment, whichever actor acts."""
     actions: list[xml.GlobalAction] = []
-    for actor in environments(ctx):
+    for actor in ctx.actors_like("environment"):  # there is one at the most
         said = {value.path[0] for value in actor.values}
         if "geodetic_position" in said:
             ctx.report.approximate(
@@ -263,22 +263,13 @@ DAY, CLOCK = ("year", "month", "day"), ("hour", "minute", "second")
 """Parts of a local date and time."""
 
 
-def environments(ctx: Context) -> list[ir.Actor]:
-    """Return the environments; there is one at the most."""
-    return [
-        declaration
-        for declaration in ctx.scenario.declarations
-        if isinstance(declaration, ir.Actor) and "environment" in declaration.lineage
-    ]
-
-
 def time_of_day(ctx: Context) -> xml.TimeOfDay | None:
     """Return date and time at the start, if the scenario says them (§8.10.2).
 
     They are those of the zone of Greenwich; neither a fraction of a second nor a zone stands in the
     text, for there are tools that cannot read them.
     """
-    for actor in environments(ctx):
+    for actor in ctx.actors_like("environment"):
         date = _date(ctx.values.field(actor.name, "datetime"))
         if date is not None:
             return xml.TimeOfDay(animation=True, dateTime=date.isoformat())

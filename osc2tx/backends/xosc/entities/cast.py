@@ -69,10 +69,9 @@ class CastMember:
 
 def cast_member(actor: ir.Actor, name: str, values: Values) -> CastMember | None:
     """Return an actor as an entity; `None` if it is no physical object."""
-    kind = next((KINDS[t] for t in actor.lineage if t in KINDS), None)
-    if kind is None:
+    library_kind = next((t for t in actor.lineage if t in KINDS), None)
+    if library_kind is None:
         return None
-    library_kind = next(t for t in actor.lineage if t in KINDS)
     category = values.member_in(actor.name, "vehicle_category")
     sized = category if category in CATEGORIES else None  # others have no counterpart anyway
     model = values.field(actor.name, "model")
@@ -80,7 +79,7 @@ def cast_member(actor: ir.Actor, name: str, values: Values) -> CastMember | None
     return CastMember(
         actor=actor,
         name=plain(name),
-        kind=kind,
+        kind=KINDS[library_kind],
         category=category or ("car" if library_kind == "vehicle" else library_kind),
         model=model_name,
         shape=_shape(actor, library_kind, sized, model_name, values),

@@ -53,12 +53,7 @@ def check_map(ctx: Context, placement: ir.Placement) -> None:
 
 def is_map(ctx: Context, name: str) -> bool:
     """Whether a declaration is the map."""
-    return any(
-        isinstance(declaration, ir.Actor)
-        and declaration.name == name
-        and "map" in declaration.lineage
-        for declaration in ctx.scenario.declarations
-    )
+    return any(actor.name == name for actor in ctx.actors_like("map"))
 
 
 def required_roads(ctx: Context) -> Roads:

@@ -215,8 +215,8 @@ def _misc(ctx: Context, member: CastMember) -> xml.MiscObject:
 def _looks(ctx: Context, member: CastMember, kind: str) -> str | None:
     """Return the model of its looks, where the version has an attribute for it."""
     model = ctx.values.field(member.actor.name, "geometry_reference")
-    is_said = isinstance(model, str) and has_attribute(kind, "model3d", ctx.version)
-    return model if is_said and isinstance(model, str) else None
+    is_known = has_attribute(kind, "model3d", ctx.version)
+    return model if is_known and isinstance(model, str) else None
 
 
 def _role(ctx: Context, member: CastMember, kind: str) -> Role | None:
