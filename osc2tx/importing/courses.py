@@ -16,6 +16,8 @@ from osc2tx.xosc.player.places import waypoints
 from osc2tx_runtime.opendrive import LanePosition
 
 MILLIMETRES = 2e-3  # m: how near a point of the map has to be to the place that it stands for
+MOST_IN_CALL = 100
+"""Points in a call; each of more has a name of its own."""
 SPARSE = 0.05  # m: a corner that is nearer to the line between others is left out
 
 
@@ -57,9 +59,28 @@ class Courses:
             found.append(odr_point(place.road, str(place.lane), *at))
         return found
 
+    def offsets(self, trajectory: Node, said: str) -> list[tuple[float, float] | None]:
+        """Return how far (m) corners are ahead and left of where their own actor begins them.
+
+        Args:
+            trajectory: The trajectory.
+            said: The entity that follows it; `None` stands for corners somewhere else.
+        """
+        found: list[tuple[float, float] | None] = []
+        for vertex in self._ground.resolved(trajectory).below(xml.Vertex):
+            inner = vertex.one(xml.Position).inner
+            is_own = inner.tag == "RelativeObjectPosition" and inner.get("entityRef") == said
+            if not is_own or inner.children:
+                found.append(None)
+                continue
+            found.append((float(inner.get("dx") or 0.0), float(inner.get("dy") or 0.0)))
+        return found
+
     def on_map(self, poses: Sequence[Pose]) -> list[str]:
         """Return the points of the map at some places; none if one of them is beside all lanes."""
         found: list[str] = []
+        if len(poses) > MOST_IN_CALL:
+            return []
         road_map = self._ground.map
         for pose in poses if road_map is not None else ():
             assert road_map is not None

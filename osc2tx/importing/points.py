@@ -99,6 +99,25 @@ class Points:
         self.lines += declaration(made, "pose_3d", [" and ".join(told)])
         return made
 
+    def relative(
+        self, kind: str, offsets: Sequence[tuple[float, float]], stamps: Sequence[str], name: str
+    ) -> str:
+        """Return the name of a path or trajectory from where an actor is.
+
+        Args:
+            kind: `path` or `trajectory`.
+            offsets: Its corners ahead and to the left (m).
+            stamps: Times of the corners of a trajectory.
+            name: The actor.
+        """
+        corners = [self.pose(*each, name) for each in offsets]
+        made = self._names.new("", kind="point", base=f"{name}_{kind}")
+        told = [f"it.points == [{', '.join(corners)}]", "it.interpolation == straight_line"]
+        if stamps:
+            told.append(f"it.time_stamps == [{', '.join(stamps)}]")
+        self.lines += declaration(made, f"relative_{kind}_pose_3d", told)
+        return made
+
     def route(self, stops: Sequence[LanePosition], name: str) -> str:
         """Return the name of a route for an actor."""
         made = self._names.new("", kind="route", base=f"{name}_way")

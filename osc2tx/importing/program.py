@@ -94,11 +94,18 @@ def ended(statement: Statement, by: Statement) -> Statement:
 
 
 def _length(kind: Kind, members: Sequence[Statement]) -> float | None:
+    """Return how long members take; what has no end of its own lasts with what is beside it."""
     lengths = [member.length for member in members]
-    known = [length for length in lengths if length is not None]
-    if len(known) < len(lengths):
-        return None
-    return sum(known) if kind == "serial" else max(known, default=0.0)
+    if kind == "serial":
+        known = [length for length in lengths if length is not None]
+        if lengths[-1:] == [math.inf]:
+            return math.inf
+        return sum(known) if len(known) == len(lengths) else None
+    bounded = [length for length in lengths if length != math.inf]
+    known = [length for length in bounded if length is not None]
+    if not bounded:
+        return math.inf if lengths else 0.0
+    return max(known) if len(known) == len(bounded) else None
 
 
 def wait(text: str) -> Statement:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from osc2tx.importing.cast import Actor
 from osc2tx.importing.courses import SPARSE, sparse
 from osc2tx.importing.cursor import Node
-from osc2tx.importing.dimensions import LENGTH, TIME, literal
+from osc2tx.importing.dimensions import LENGTH, TIME, Quantity, literal
 from osc2tx.importing.effects import BOTH, LATERAL, Effect, Reader
 from osc2tx.importing.points import Spot
 from osc2tx.importing.program import Statement
+from osc2tx.xosc.player.bodies import Pose
 from osc2tx.xosc.player.shapes import CHORD
 
 
@@ -81,12 +82,47 @@ class Routes(Reader):
             return
         if any(text.startswith("$") for each in node.element.walk() for _, text in each.attributes):
             node.approximate("the trajectory is that of its nominal values")
-        is_curve = not any(each.tag == "Polyline" for each in self._places.resolved(node).walk())
         timed = any(each.tag == "Timing" for each in node.element.walk())
-        times, poses = [time for time, _ in way], [pose for _, pose in way]
-        if is_curve:
-            poses = poses if timed else sparse(poses)
-            off = CHORD if timed else CHORD + SPARSE
+        stamps = [literal(round(time, 6), TIME) for time, _ in way] if timed else []
+        offset = self._values.quantity(node, "initialDistanceOffset", LENGTH)
+        own = self._places.courses.offsets(node, said)
+        from_here = [each for each in own if each is not None]
+        if own and len(from_here) == len(own) and not offset.is_open and offset.value == 0.0:
+            call = self._from_here(from_here, stamps, actor)
+        else:
+            # behind a corner where the actor is, the way there is its matter
+            comes_to_it = own[:1] == [(0.0, 0.0)] and len(own) == len(way) and not timed
+            poses = [pose for _, pose in way][int(comes_to_it and len(own) > 2) :]
+            call = self._absolute(node, poses, stamps, offset, actor)
+            if len(poses) < len(way):
+                call = call.replace(".replay_", ".follow_", 1)
+        node.use_all()
+        length = way[-1][0] if timed else None
+        slots = BOTH if timed else frozenset((LATERAL,))
+        yield Effect(Statement(f"{actor.name}{call}", length=length), actor.name, slots)
+        self._lanes[said] = None
+
+    def _from_here(
+        self, offsets: Sequence[tuple[float, float]], stamps: Sequence[str], actor: Actor
+    ) -> str:
+        """Return the call for a trajectory that begins where its actor is."""
+        shape = "trajectory" if stamps else "path"
+        made = self._places.points.relative(shape, offsets, stamps, actor.name)
+        told = f"relative: {made}, reference: {actor.name}, transform: object_relative"
+        return f".replay_{shape}({told})"
+
+    def _absolute(
+        self,
+        node: Node,
+        poses: Sequence[Pose],
+        stamps: Sequence[str],
+        offset: Quantity,
+        actor: Actor,
+    ) -> str:
+        """Return the call for a trajectory in the world."""
+        if not any(each.tag == "Polyline" for each in self._places.resolved(node).walk()):
+            poses = poses if stamps else sparse(poses)
+            off = CHORD if stamps else CHORD + SPARSE
             node.approximate(f"the curve is a polyline with chords {off:g} m from it at most")
         kind, on_road = "_odr_points", ", on_road_network: false"
         points = self._places.courses.corners(node)
@@ -95,19 +131,9 @@ class Routes(Reader):
         if len(points) != len(poses):
             points = [self._places.points.pose(pose.x, pose.y, actor.name) for pose in poses]
             kind = on_road = ""
-        offset = self._values.quantity(node, "initialDistanceOffset", LENGTH)
-        node.use_all()
-        listed = ", ".join(points)
-        told = f"points: [{listed}], interpolation: straight_line{on_road}"
-        length = None
-        if timed:
-            stamps = ", ".join(literal(round(each, 6), TIME) for each in times)
-            told = f"{told}, time_stamps: [{stamps}]"
-            made = f"trajectory(absolute: road.create_trajectory{kind}({told}))"
-            length = times[-1] if times else None
-        else:
-            begin = f", start_offset: {offset.text}" if offset.is_open or offset.value else ""
-            made = f"path(absolute: road.create_path{kind}({told}){begin})"
-        slots = BOTH if timed else frozenset((LATERAL,))
-        yield Effect(Statement(f"{actor.name}.replay_{made}", length=length), actor.name, slots)
-        self._lanes[said] = None
+        told = f"points: [{', '.join(points)}], interpolation: straight_line{on_road}"
+        if stamps:
+            told = f"{told}, time_stamps: [{', '.join(stamps)}]"
+            return f".replay_trajectory(absolute: road.create_trajectory{kind}({told}))"
+        begin = f", start_offset: {offset.text}" if offset.is_open or offset.value else ""
+        return f".replay_path(absolute: road.create_path{kind}({told}){begin})"

@@ -15,28 +15,19 @@ from tests.xosc.parity import Given, is_exact, scenarios
 SCENARIOS = Path(__file__).parents[2] / "scenarios"
 OWN = [path for path in sorted(SCENARIOS.rglob("*.osc")) if path.stem != "hello_world"]
 
-PROFILE = "profiles of speeds without times change at the rates of the world"
-PATH = "an actor on a path is metres off"
+PROFILE = "speeds change at other rates than on a wet road"
 DIFFERENT = {  # by names of scenarios
     "durations": "an act that is stopped goes on",
     "towing": "trailers are not coupled",
     "driving_with_a_trailer": "trailers are not coupled",
-    "speed_control": PROFILE,
-    "stationary": PROFILE,
     "braking_distances": PROFILE,
     "road_conditions": PROFILE,
-    "point_distance": PROFILE,
-    "relative_path": PATH,
-    "road_path": PATH,
-    "relative_trajectory": PATH,
-    "along_a_path": PATH,
     "signal_conditions": "traffic lights are not imported",
     "overtaking": "the lane change back finds no lane",
     "relative_coordinates": "distances to places are straight ones, so it ends later",
     "route_coordinates": "distances to places are straight ones",
     "motion_readings": "an edge that is waited for never comes",
     "overriding": "what ends it never comes",
-    "follow_leader": "how a gap is kept is up to the world",
 }
 
 
