@@ -19,20 +19,19 @@ from osc2tx.importing.dimensions import (
     literal,
     total,
 )
-from osc2tx.importing.effects import LONGITUDINAL, PROFILES, Effect, Reader, of_dynamics
+from osc2tx.importing.effects import LONGITUDINAL, PROFILES, Effect, Reader, Readings, of_dynamics
+from osc2tx.importing.profiles import Profiles
 from osc2tx.importing.program import Statement, composed
 from osc2tx.importing.starting import is_ahead
 from osc2tx.xosc.element import Unresolved
-from osc2tx.xosc.player.courses import with_jerk
-
-COMFORT = {"maxAcceleration": 2.0, "maxDeceleration": 4.0, "maxAccelerationRate": 10.0}
-"""Limits of a change of the speed without a profile, in the embedded world."""
-UTMOST = {"maxAcceleration": 4.0, "maxDeceleration": 8.0, "maxAccelerationRate": 10.0}
-"""Limits of a change of the speed as soon as possible, likewise."""
 
 
 class Speeds(Reader):
     """Reads actions on speeds, and on distances along the road."""
+
+    def __init__(self, readings: Readings) -> None:
+        super().__init__(readings)
+        self._profiles = Profiles(readings)
 
     def effects(self, node: Node, said: str, actor: Actor, at_start: bool) -> Iterator[Effect]:
         """Return what a longitudinal action does."""
@@ -41,7 +40,7 @@ class Speeds(Reader):
             case "SpeedAction":
                 statement = self._speed(node, said, actor, at_start)
             case "SpeedProfileAction":
-                statement = self._profile(node, said, actor)
+                statement = self._profiles.statement(node, said, actor)
             case "LongitudinalDistanceAction":
                 statement = self._gap(node, actor, at_start)
             case _:
@@ -161,59 +160,6 @@ class Speeds(Reader):
             if not delta.is_open and delta.value == 0.0:
                 modifier = f"speed(same_as: {reference})"
         return Statement(f"{actor.verb}()", modifiers=[modifier], length=math.inf)
-
-    def _profile(self, node: Node, said: str, actor: Actor) -> Statement | None:
-        mode = node.text("followingMode") or "position"
-        if node.has("entityRef"):
-            node.leave_out(
-                "a speed profile relative to another actor has no counterpart in the DSL"
-            )
-            return None
-        limits = node.find("DynamicConstraints")
-        changes = []
-        for entry in node.children("SpeedProfileEntry"):
-            speed = self._values.quantity(entry, "speed", SPEED)
-            time = self._values.quantity(entry, "time", TIME)
-            if not entry.has("time"):
-                changes.append(self._untimed(entry, limits, said, speed, actor))
-            elif time.value == 0.0:
-                changes.append(Statement(f"{actor.name}.assign_speed({speed.text})", length=0.0))
-            else:
-                arguments = f"target: {speed.text}, rate_profile: constant, duration: {time.text}"
-                call = f"{actor.name}.change_speed({arguments})"
-                changes.append(Statement(call, length=time.value))
-            self._speeds[said] = speed
-        if limits is not None:
-            limits.use_all()
-        del mode
-        return composed("serial", changes) if changes else None
-
-    def _untimed(
-        self, entry: Node, limits: Node | None, said: str, speed: Quantity, actor: Actor
-    ) -> Statement:
-        """Return a change of the speed that only limits of the acceleration tell."""
-        call, before = f"{actor.name}.change_speed(target: {speed.text}", self._speeds.get(said)
-        names = COMFORT if limits is not None else {}
-        told = {name: self._values.nominal(limits, name, math.inf) for name in names if limits}
-        if told == COMFORT:
-            return Statement(f"{call})")
-        if told == UTMOST:
-            return Statement(f"{call}, rate_profile: asap)")
-        body = self._places.bodies.get(said)
-        if body is None or before is None or before.value == speed.value:
-            entry.approximate("the speed changes with the usual accelerations of the world")
-            return Statement(f"{call})")
-        entry.approximate("the speed changes in the time that its limits give, smoothly")
-        peak, jerk = (
-            min(told.get(name, math.inf), body.limits[name])
-            for name in (
-                "maxAcceleration" if speed.value > before.value else "maxDeceleration",
-                "maxAccelerationRate",
-            )
-        )
-        _, time = with_jerk(before.value, speed.value, peak, jerk, 0.0)
-        duration = literal(round(time, 6), TIME)
-        return Statement(f"{call}, rate_profile: smooth, duration: {duration})", length=time)
 
     def _gap(self, node: Node, actor: Actor, at_start: bool) -> Statement | None:
         said = self._values.text(node, "entityRef")

@@ -109,7 +109,7 @@ def profile(limits: tuple[float, float, float]) -> str:
     [
         ((2.0, 4.0, 10.0), "change_speed(target: 90kph)"),
         ((4.0, 8.0, 10.0), "change_speed(target: 90kph, rate_profile: asap)"),
-        ((1.0, 2.0, 10.0), "change_speed(target: 90kph, rate_profile: smooth, duration: 10.1s)"),
+        ((1.0, 2.0, 10.0), "change_speed(target: 90kph, rate_profile: constant, duration: 10.1s)"),
     ],
 )
 def test_limits_of_a_speed_profile(limits: tuple[float, float, float], said: str) -> None:
@@ -118,7 +118,7 @@ def test_limits_of_a_speed_profile(limits: tuple[float, float, float], said: str
     found = imported(document(speeds, end=at_time("11")))
     assert said in found.text
     assert faults(found) == []
-    assert apart(found) < (0.1 if limits[0] > 1.0 else 2.0)
+    assert apart(found) < (0.1 if limits[0] > 1.0 else 0.5)
 
 
 def test_a_sparse_polyline_is_nowhere_far_from_all_corners() -> None:

@@ -1,0 +1,76 @@
+"""Profiles of speeds: in times, or within limits of the acceleration."""
+
+from __future__ import annotations
+
+import math
+
+from osc2tx.importing.cast import Actor
+from osc2tx.importing.cursor import Node
+from osc2tx.importing.dimensions import SPEED, TIME, Quantity, literal
+from osc2tx.importing.effects import Reader
+from osc2tx.importing.program import Statement, composed
+from osc2tx.xosc.player.courses import with_jerk
+
+COMFORT = {"maxAcceleration": 2.0, "maxDeceleration": 4.0, "maxAccelerationRate": 10.0}
+"""Limits of a change of the speed without a profile, in the embedded world."""
+UTMOST = {"maxAcceleration": 4.0, "maxDeceleration": 8.0, "maxAccelerationRate": 10.0}
+"""Limits of a change of the speed as soon as possible, likewise."""
+
+
+class Profiles(Reader):
+    """Reads profiles of speeds."""
+
+    def statement(self, node: Node, said: str, actor: Actor) -> Statement | None:
+        """Return what a profile does; `None`, with a finding, if nothing says it."""
+        mode = node.text("followingMode") or "position"
+        if node.has("entityRef"):
+            node.leave_out(
+                "a speed profile relative to another actor has no counterpart in the DSL"
+            )
+            return None
+        limits = node.find("DynamicConstraints")
+        changes = []
+        for entry in node.children("SpeedProfileEntry"):
+            speed = self._values.quantity(entry, "speed", SPEED)
+            time = self._values.quantity(entry, "time", TIME)
+            if not entry.has("time"):
+                changes.append(self._untimed(entry, limits, said, speed, actor))
+            elif time.value == 0.0:
+                changes.append(Statement(f"{actor.name}.assign_speed({speed.text})", length=0.0))
+            else:
+                arguments = f"target: {speed.text}, rate_profile: constant, duration: {time.text}"
+                call = f"{actor.name}.change_speed({arguments})"
+                changes.append(Statement(call, length=time.value))
+            self._speeds[said] = speed
+        if limits is not None:
+            limits.use_all()
+        del mode
+        return composed("serial", changes) if changes else None
+
+    def _untimed(
+        self, entry: Node, limits: Node | None, said: str, speed: Quantity, actor: Actor
+    ) -> Statement:
+        """Return a change of the speed that only limits of the acceleration tell."""
+        call, before = f"{actor.name}.change_speed(target: {speed.text}", self._speeds.get(said)
+        names = COMFORT if limits is not None else {}
+        told = {name: self._values.nominal(limits, name, math.inf) for name in names if limits}
+        if told == COMFORT:
+            return Statement(f"{call})")
+        if told == UTMOST:
+            return Statement(f"{call}, rate_profile: asap)")
+        body = self._places.bodies.get(said)
+        if body is None or before is None or before.value == speed.value:
+            entry.approximate("the speed changes with the usual accelerations of the world")
+            return Statement(f"{call})")
+        entry.approximate("the speed changes in the time that its limits give, but not as they say")
+        peak, jerk = (
+            min(told.get(name, math.inf), body.limits[name])
+            for name in (
+                "maxAcceleration" if speed.value > before.value else "maxDeceleration",
+                "maxAccelerationRate",
+            )
+        )
+        _, time = with_jerk(before.value, speed.value, peak, jerk, 0.0)
+        duration = literal(round(time, 6), TIME)
+        shape = "constant" if 4.0 * peak / jerk < time else "smooth"  # ramps are short or all of it
+        return Statement(f"{call}, rate_profile: {shape}, duration: {duration})", length=time)
