@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import takewhile
 from pathlib import Path
+from stat import S_ISLNK
 from urllib.parse import unquote, urlsplit
 
 from osc2tx.compilation.roots import Roots
@@ -147,6 +148,7 @@ class ImportLoader:
         self._unsaved = unsaved or {}
         self._parsed: dict[Path, ast.File] = {}
         self._read: dict[Path, Lookup] = {}
+        self._real_folders: dict[Path, Path] = {}
         self.lookups: dict[Path, Lookup] = {}
 
     def __call__(self, statement: ast.Import, source: SourceFile) -> ast.File | None:
@@ -158,7 +160,7 @@ class ImportLoader:
         """
         if source.path is None:
             return None
-        folder = real_path(source.path).parent
+        folder = self._real_path(source.path).parent
         if statement.uri is None:
             return self._module(statement, folder)
         path = _local_path(statement.uri)
@@ -200,7 +202,7 @@ class ImportLoader:
     def _open(self, statement: ast.Import, path: Path, written: str) -> ast.File | None:
         asked = path
         try:
-            path = real_path(path)
+            path = self._real_path(path)
             allowed = any(path.is_relative_to(root) for root in self._real.values())
             if allowed and path not in self._unsaved and not path.exists():
                 self.lookups[asked] = Lookup(str(path))
@@ -220,6 +222,18 @@ class ImportLoader:
             self._parsed[path] = self._parse(statement, path)
         self.lookups[asked] = self._read[path]
         return self._parsed[path]
+
+    def _real_path(self, path: Path) -> Path:
+        """Return the path without links; folders of many imports are followed once."""
+        try:
+            is_plain = path.name not in ("", "..") and not S_ISLNK(path.lstat().st_mode)
+        except OSError:  # there is none
+            is_plain = path.name not in ("", "..")
+        if not is_plain:
+            return real_path(path)
+        if path.parent not in self._real_folders:
+            self._real_folders[path.parent] = real_path(path.parent)
+        return self._real_folders[path.parent] / path.name
 
     def _parse(self, statement: ast.Import, path: Path) -> ast.File:
         name, found = self._name_of(path), DiagnosticSink()

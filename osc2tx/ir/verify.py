@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 
 from osc2tx.diagnostics import InternalCompilerError
 from osc2tx.ir.behaviors import (
@@ -248,6 +249,7 @@ def condition_expressions(condition: Condition) -> tuple[Expression, ...]:
             return (period,) if offset is None else (period, offset)
 
 
+@lru_cache(maxsize=512)  # back ends walk the same bodies for each member
 def walk_behaviors(root: Behavior) -> tuple[Behavior, ...]:
     """Return a behavior and everything below it in source order, without recursion."""
     found: list[Behavior] = []

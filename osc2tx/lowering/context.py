@@ -173,8 +173,7 @@ class LoweringContext:
 
     def quiet(self) -> LoweringContext:
         """Return a context to look ahead with: nothing is reported, and nothing is noted."""
-        return replace(
-            self,
+        return self._with(
             sink=DiagnosticSink(),
             globals=dict(self.globals),
             invoked=[],

@@ -50,7 +50,9 @@ def differences(document: Element, other: Element, shown: Shown) -> frozenset[Pl
         shown: Values of the parameters.
     """
     try:
-        return frozenset(_unlike(story_of(document), story_of(other), shown, ()))
+        found: list[Place] = []
+        _compare(story_of(document), story_of(other), shown, (), found)
+        return frozenset(found)
     except _OtherShape:
         return None
 
@@ -71,9 +73,21 @@ def _undefined(
         yield from _undefined(child, mention, ranges, (*path, index))
 
 
-def _unlike(a: Element, b: Element, shown: Shown, path: tuple[int, ...]) -> Iterator[Place]:
-    if a.tag != b.tag or len(a.children) != len(b.children) or a.text != b.text:
+def _compare(
+    a: Element, b: Element, shown: Shown, path: tuple[int, ...], found: list[Place]
+) -> None:
+    """Add the attributes in which two elements, and those below them, differ."""
+    if type(a) is not type(b) or len(a.children) != len(b.children) or a.text != b.text:
         raise _OtherShape
+    if a.attributes != b.attributes:
+        found.extend(_unlike_attributes(a, b, shown, path))
+    for index, (x, y) in enumerate(zip(a.children, b.children, strict=True)):
+        _compare(x, y, shown, (*path, index), found)
+
+
+def _unlike_attributes(
+    a: Element, b: Element, shown: Shown, path: tuple[int, ...]
+) -> Iterator[Place]:
     left, right = dict(a.attributes), dict(b.attributes)
     if left.keys() != right.keys():
         raise _OtherShape
@@ -82,8 +96,6 @@ def _unlike(a: Element, b: Element, shown: Shown, path: tuple[int, ...]) -> Iter
             if is_name(key):
                 raise _OtherShape
             yield Place(path, key)
-    for index, (x, y) in enumerate(zip(a.children, b.children, strict=True)):
-        yield from _unlike(x, y, shown, (*path, index))
 
 
 def is_name(attribute: str) -> bool:

@@ -8,7 +8,7 @@ its value: a number, a truth value or a name, the default of the standard where 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from math import isfinite
 from typing import Any, NamedTuple, Self, TypeAlias, TypeVar
 
@@ -86,16 +86,15 @@ class Element:
         Raises:
             Unwritable: A text cannot stand in a document.
         """
-        texts = tuple(
-            [
-                (key.removesuffix("_"), text_of(value))
-                for key, value in attributes.items()
-                if value is not None
-            ]
-        )
-        given = [value.note for value in attributes.values() if isinstance(value, Noted)]
+        texts = []
+        notes: dict[str, None] = {}
+        for key, value in attributes.items():
+            if value is not None:
+                texts.append((key.removesuffix("_"), text_of(value)))
+                if isinstance(value, Noted):
+                    notes[value.note] = None
         parts = tuple([each for each in children if each is not None])
-        self._fill(texts, parts, text, None, tuple(dict.fromkeys(given)))
+        self._fill(tuple(texts), parts, text, None, tuple(notes))
 
     def _fill(
         self,
@@ -105,12 +104,12 @@ class Element:
         place: Place | None,
         notes: tuple[str, ...],
     ) -> None:
-        fill = object.__setattr__
-        fill(self, "attributes", attributes)
-        fill(self, "children", children)
-        fill(self, "text", text)
-        fill(self, "place", place)
-        fill(self, "notes", notes)
+        set_attributes, set_children, set_text, set_place, set_notes = _SETTERS
+        set_attributes(self, attributes)
+        set_children(self, children)
+        set_text(self, text)
+        set_place(self, place)
+        set_notes(self, notes)
 
     @classmethod
     def of(
@@ -231,6 +230,12 @@ class Element:
         raise AttributeError(f"{self!r} cannot be changed")
 
 
+_SETTERS: tuple[Callable[[Element, object], None], ...] = tuple(
+    vars(Element)[name].__set__ for name in ("attributes", "children", "text", "place", "notes")
+)
+"""They write the slots past `__setattr__`."""
+
+
 class Unknown(Element):
     """An element that no version has; each tag has a class of its own."""
 
@@ -288,6 +293,9 @@ def text_of(value: Value) -> str:
         Unwritable: It is a text that XML cannot hold, or that readers take for a parameter, or a
             number beyond any world.
     """
+    if isinstance(value, str):
+        _require_plain_text(value)
+        return str(value)
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, float) and not isfinite(value):
@@ -296,8 +304,6 @@ def text_of(value: Value) -> str:
         return value.attribute
     if isinstance(value, float):
         return number_text(value)
-    if isinstance(value, str):
-        _require_plain_text(value)
     return str(value)
 
 
@@ -307,5 +313,6 @@ _NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 def _require_plain_text(text: str) -> None:
     if text.startswith("$"):
         raise Unwritable(f"{text!r} begins with `$`, so it would be taken for a parameter")
-    if _NOT_XML.search(text):
+    is_usual = text.isascii() and text.isprintable()
+    if not is_usual and _NOT_XML.search(text):
         raise Unwritable(f"{text!r} has characters that XML cannot hold")

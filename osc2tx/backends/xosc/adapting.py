@@ -36,6 +36,16 @@ def adapted(ctx: Context, acts: Sequence[Act], end: Flow) -> tuple[tuple[Act, ..
         name, span = ctx.names.new("end_of_the_run"), ctx.scenario.span
         acts[-1].add(None, Event(name, (ctx.mark(name),), end, span))
         end = single(state_of("event", name))
+    if ctx.profile.unsupported or ctx.profile.deviates:
+        _check_all(ctx, acts)
+    if not ctx.profile.has_delays:
+        acts = _Watch(ctx).through(acts)
+    if ctx.profile.begins_with_texts:
+        acts = (*_beginning(ctx, acts), *acts)
+    return tuple(acts), end
+
+
+def _check_all(ctx: Context, acts: Sequence[Act]) -> None:
     kinds = {member.name: member.kind for member in ctx.entities}
     for act in acts:
         for actor, events in act.events.items():
@@ -43,11 +53,6 @@ def adapted(ctx: Context, acts: Sequence[Act], end: Flow) -> tuple[tuple[Act, ..
                 for part in (*event.actions, *_conditions(event)):
                     for node in part.walk():
                         _check(ctx, event, node, kinds.get(actor or "", ""))
-    if not ctx.profile.has_delays:
-        acts = _Watch(ctx).through(acts)
-    if ctx.profile.begins_with_texts:
-        acts = (*_beginning(ctx, acts), *acts)
-    return tuple(acts), end
 
 
 def _beginning(ctx: Context, acts: Sequence[Act]) -> Iterator[Act]:

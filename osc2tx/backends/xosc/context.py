@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from math import inf
-from pathlib import Path
 
 from osc2tx import ir
 from osc2tx.backends.xosc.entities.cast import CastMember
+from osc2tx.backends.xosc.facts.map_folders import MapFolders
 from osc2tx.backends.xosc.facts.map_search import MapSegment
-from osc2tx.backends.xosc.facts.maps import Pose, Roads, roads_of
+from osc2tx.backends.xosc.facts.maps import Pose, Roads
 from osc2tx.backends.xosc.logical.parameter_choices import NOTHING_OPEN, Choosing
 from osc2tx.backends.xosc.names import Names
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, LossReport, Remedy
@@ -24,7 +24,6 @@ from osc2tx.xosc.element import Unwritable
 from osc2tx.xosc.literals import ParameterType, Rule
 from osc2tx.xosc.profiles import PROFILES, ToolProfile
 from osc2tx_shared.classes import dataclass
-from osc2tx_shared.map_files import places_in_project
 
 _NUMBERS = {"false": "0", "true": "1"}
 
@@ -88,11 +87,11 @@ class Context:
         scenario: ir.Scenario,
         module: ir.Module,
         options: XmlOptions,
-        folder: Path | None,
+        maps: MapFolders,
         choosing: Choosing = NOTHING_OPEN,
         outlook: Outlook | None = None,
     ) -> None:
-        """Take the scenario, the folder of its source, and what is known from writing it before."""
+        """Take the scenario, where its map may be, and what is known from writing it before."""
         self.scenario = scenario
         self.module = module
         self.options = options
@@ -105,13 +104,12 @@ class Context:
         self.scope = self.root
         self.entities: list[CastMember] = self.scope.members()
         self.map_file = self._map_file()
-        folders = [*([folder] if folder else []), *map(Path, options.map_path)]
         self.roads: Roads | None = None
         try:
-            self.roads = roads_of(self.map_file, folders)
+            self.roads = maps.roads(self.map_file)
         except Inexpressible as error:
             self.report.cannot("map", scenario.span, error.reason)
-        self.map_places = places_in_project(self.map_file, folders)
+        self.map_places = maps.places(self.map_file)
         self.states: dict[str, ActorState] = {}
         self.at_start: dict[str, ActorState] = {}
         self.present: set[str] = set()

@@ -68,9 +68,13 @@ def make_document(ctx: Context) -> xml.OpenSCENARIO:
 
 def _declare_what_is_never_set(ctx: Context, storyboard: xml.Storyboard) -> None:
     """Declare the marks of ends that never come: a condition may look at them all the same."""
-    looked_at = [each.variableRef for each in storyboard.below(xml.VariableCondition)]
-    looked_at += [each.parameterRef for each in storyboard.below(xml.ParameterCondition)]
+    looked_at: list[str] = []
     parameters = {each.name for each in ctx.choosing.kept}
+    for node in storyboard.walk():
+        if isinstance(node, xml.VariableCondition):
+            looked_at.append(node.variableRef)
+        elif isinstance(node, xml.ParameterCondition):
+            looked_at.append(node.parameterRef)
     for name in looked_at:
         if name not in parameters:
             ctx.declare(name, "boolean", "false")

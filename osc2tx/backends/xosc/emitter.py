@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from importlib import import_module
 from pathlib import Path, PurePosixPath
 from pkgutil import walk_packages
@@ -13,6 +14,7 @@ from osc2tx.backends.xosc import actions
 from osc2tx.backends.xosc.conditions.comparisons import speeds_read
 from osc2tx.backends.xosc.context import Context, Outlook
 from osc2tx.backends.xosc.document import entry_scenarios, make_document
+from osc2tx.backends.xosc.facts.map_folders import MapFolders
 from osc2tx.backends.xosc.facts.start_places import read_signal, read_spawn
 from osc2tx.backends.xosc.logical.distributions import document as values_document
 from osc2tx.backends.xosc.logical.documents import LogicalWriter
@@ -105,7 +107,9 @@ class _Emission:
             report.refuse("scenario invocation", self._scenario.span, error)
             return self._made(infix, report)
         version = self._options.version
-        writer = LogicalWriter(self._scenario, self._module, version, self._write)
+        places = [*([self._folder] if self._folder else []), *map(Path, self._options.map_path)]
+        write = partial(self._write, MapFolders(places))
+        writer = LogicalWriter(self._scenario, self._module, version, write)
         found = writer.run()
         ctx, document = found.ctx, found.document
         if document is not None:
@@ -132,19 +136,19 @@ class _Emission:
         name = self._scenario.name
         return XmlScenario(name, infix, None, None, report, told, origins, map_places)
 
-    def _write(self, choosing: Choosing) -> tuple[Context, Element | None]:
+    def _write(self, maps: MapFolders, choosing: Choosing) -> tuple[Context, Element | None]:
         """Return the document for a choice of open parameters; `None` if there cannot be one."""
-        ctx, document = self._write_with(choosing, None)
+        ctx, document = self._write_with(maps, choosing, None)
         if document is None or not ctx.asks_outlook:
             return ctx, document
-        return self._write_with(choosing, Outlook(ctx.demands, speeds_read(document)))
+        return self._write_with(maps, choosing, Outlook(ctx.demands, speeds_read(document)))
 
     def _write_with(
-        self, choosing: Choosing, outlook: Outlook | None
+        self, maps: MapFolders, choosing: Choosing, outlook: Outlook | None
     ) -> tuple[Context, Element | None]:
         """Return the same, given what the whole scenario asks for, as far as that is known."""
         options = self._options
-        ctx = Context(self._scenario, self._module, options, self._folder, choosing, outlook)
+        ctx = Context(self._scenario, self._module, options, maps, choosing, outlook)
         if options.version not in ctx.profile.versions:
             known = ", ".join(ctx.profile.versions)
             reason = f"{ctx.profile.name} reads OpenSCENARIO XML {known} only"

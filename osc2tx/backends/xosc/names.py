@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Mapping
+from functools import lru_cache
 
 from osc2tx import ir
 
@@ -54,6 +55,7 @@ def member_name(scenario: ir.Scenario, node: ir.Behavior) -> str:
     return type(node).__name__.lower() if node is scenario.body else node.name
 
 
+@lru_cache(maxsize=64)  # documents for many values are made of one scenario
 def deeds(scenario: ir.Scenario) -> Mapping[Deed, int]:
     """Return how often the members of a scenario without a label do the same."""
     return Counter(_deed(n) for n in ir.invocations(scenario.body) if n.label is None)

@@ -15,7 +15,7 @@ from osc2tx import ir
 from osc2tx.backends.xosc.entities.cast import CastMember, cast_member
 from osc2tx.backends.xosc.names import Deed, Names, deeds
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
-from osc2tx.backends.xosc.values.constants import Constant, Named, UserTypes
+from osc2tx.backends.xosc.values.constants import Constant, Named, types_of
 from osc2tx.backends.xosc.values.folding import Values
 from osc2tx_shared.classes import dataclass, replace
 
@@ -168,12 +168,11 @@ class _Place(NamedTuple):
 class _Opener:
     def __init__(self, module: ir.Module, chosen: Mapping[str, Constant]) -> None:
         self._by_key = {scenario.key: scenario for scenario in module.scenarios}
-        self._types = UserTypes(module.types)
+        self._types = types_of(module)
         self._names = Names()  # `|my car|` and `my_car` are two actors
         self._paths = Names()
         self._chosen = chosen
         self._shared: dict[str, CastMember] = {}  # global actors
-        self._deeds: dict[str, Mapping[Deed, int]] = {}  # by key of the scenario
 
     def open(
         self,
@@ -192,11 +191,8 @@ class _Opener:
         values = Values(scenario, {**chosen, **given}, self._types)
         for name, error in (unknown or {}).items():
             values.hide(name, error)
-        if scenario.key not in self._deeds:
-            self._deeds[scenario.key] = deeds(scenario)
-        scope = Scope(
-            scenario, values, dict(handed_in), place.prefix, place.path, self._deeds[scenario.key]
-        )
+        done = deeds(scenario)
+        scope = Scope(scenario, values, dict(handed_in), place.prefix, place.path, done)
         for declaration in scenario.declarations:
             if isinstance(declaration, ir.Actor) and declaration.name not in handed_in:
                 self._join(declaration, scope)

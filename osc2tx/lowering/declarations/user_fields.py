@@ -162,7 +162,7 @@ def class_default(ctx: LoweringContext, field: sym.FieldSymbol) -> ir.Expression
 
     Lists and ranges belong to each object too: Python would share one list among all of them.
     """
-    if not is_plain(field.type):
+    if stated_default(ctx, field) is None or not is_plain(field.type):
         return None
     lowered = object_default(
         ctx.quiet(), field, ir.ParameterRef(span=field.span, type=_OWNER, name="")

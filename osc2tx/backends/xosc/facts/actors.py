@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from math import sqrt
+from math import floor, sqrt
 from typing import NamedTuple, Protocol
 
 from osc2tx.backends.xosc.report import Inexpressible
@@ -183,6 +183,11 @@ def _steepest_steps(course: Profile) -> Sequence[int]:
             return (0, STEPS)
         case Cosine():
             return (0, STEPS // 2, STEPS)
+        case SCurve():
+            duration = float(course.duration)
+            near = [floor(float(kink) / duration * STEPS) for kink in course.kinks]
+            beside = {each + offset for each in near for offset in (-1, 0, 1, 2)}
+            return sorted({0, STEPS} | {each for each in beside if 0 < each < STEPS})
     return range(STEPS + 1)
 
 

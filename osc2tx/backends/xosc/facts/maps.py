@@ -6,19 +6,18 @@ A lane of oncoming traffic is a place beside the innermost lane of the own direc
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property, lru_cache
+from functools import cached_property
 from pathlib import Path
 from typing import Literal, cast
 
 from osc2tx.backends.xosc.facts import refusing
 from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.domain.routes.lane_coordinates import place_along_road
 from osc2tx_runtime.domain.routes.road_paths import way_through
 from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
-from osc2tx_runtime.errors import InputError, ScenarioError
-from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, read_map
+from osc2tx_runtime.errors import ScenarioError
+from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
 from osc2tx_runtime.opendrive.geodesy import GeoReferenceError
 from osc2tx_runtime.opendrive.model import LaneKey
 from osc2tx_runtime.world.geometry.lane_neighbours import (
@@ -34,10 +33,6 @@ from osc2tx_runtime.world.geometry.lane_neighbours import (
 from osc2tx_runtime.world.longitudinal.bends_ahead import BendsAhead
 from osc2tx_runtime.world.surroundings.traffic_light_lamps import Lamp, lamps_that_mean, meaning_of
 from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
-from osc2tx_shared.map_files import DEFAULT_MAP
-
-MOST_MAPS = 32
-"""Maps that are kept once read."""
 
 
 class Roads:
@@ -197,29 +192,6 @@ class Roads:
         """
         found = way_through(self.map, places)
         return tuple(Waypoint(0.0, pose.x, pose.y, pose.z, pose.yaw) for pose in found)
-
-
-def roads_of(map_file: str | None, folders: Sequence[Path]) -> Roads | None:
-    """Return a map, looked for as `osc2tx run` does; `None` if it is not found.
-
-    Raises:
-        Inexpressible: It is found and is no map.
-    """
-    wanted = Path(map_file or DEFAULT_MAP)
-    if wanted.is_absolute() or ".." in wanted.parts:
-        return None  # nothing outside of the folders is read
-    try:
-        path = find_map(map_file, [f for f in folders if f.exists()])
-    except InputError:
-        return None
-    now = path.stat()  # between two builds of one process the file may change
-    return _read(path, now.st_mtime_ns, now.st_size)
-
-
-@lru_cache(maxsize=MOST_MAPS)
-def _read(path: Path, modified: int, size: int) -> Roads:
-    with refusing(about=f"map {path.name} cannot be read: "):
-        return Roads(read_map(path), path)
 
 
 # --- lanes of oncoming traffic --------------------------------------------------------------------

@@ -35,6 +35,7 @@ from osc2tx.backends.xosc.logical.parameters import (
 from osc2tx.backends.xosc.logical.sampling import Domain, Row, inward
 from osc2tx.options import XmlVersion
 from osc2tx.xosc import elements as xml
+from osc2tx.xosc.arithmetic import Range
 from osc2tx.xosc.comparison import (
     Limits,
     Place,
@@ -160,6 +161,8 @@ class LogicalWriter:
             return None if unlike else found
         if not unlike and not trial.has_special and not needs_table(found.domain):
             return found
+        if len(unlike) > MOST_COLUMNS:
+            return None
         rows, documents = list(found.domain.rows), [document]
         for index, row in enumerate(rows):
             rows[index], document, places = trial.at_row(row)
@@ -223,18 +226,25 @@ class _Trial:
         for parameter in self._domain.parameters:
             if parameter.node is not None:  # all its members are in the document
                 continue
-            places: Unlike | None = undefined(self.document, parameter.name, ranges)
-            for share in parameter.probes():
-                differing = self._unlike(self._with(parameter, share))
-                if differing is None and not parameter.choices:  # it may be a special value
-                    self.has_special = True
-                    differing = self._unlike(self._with(parameter, inward(share)))
-                places = None if differing is None or places is None else places | differing
+            places = self._probed(parameter, ranges)
             if places is None or (places and not has_columns):
                 found.append(parameter)
             elif places:
                 self.causes[parameter.key] = places
         return found
+
+    def _probed(self, parameter: OpenParameter, ranges: Mapping[str, Range]) -> Unlike | None:
+        """Return the attributes that differ for values of a parameter, `None` if elements do."""
+        places = undefined(self.document, parameter.name, ranges)
+        for share in parameter.probes():
+            differing = self._unlike(self._with(parameter, share))
+            if differing is None and not parameter.choices:  # it may be a special value
+                self.has_special = True
+                differing = self._unlike(self._with(parameter, inward(share)))
+            if differing is None:
+                return None
+            places |= differing
+        return places
 
     def _with(self, parameter: OpenParameter, share: float) -> Point:
         """Return the nominal values, but of one parameter another one."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Sequence
+from functools import lru_cache
 from typing import TypeAlias
 
 from osc2tx import ir
@@ -68,6 +69,7 @@ class UserTypes:
 
     def __init__(self, types: Iterable[ir.UserType] = ()) -> None:
         self._types = {own.name: own for own in types}
+        self._fields: dict[str, tuple[ir.UserField, ...]] = {}
 
     def default(self, type_name: str, path: tuple[str, ...]) -> ir.Expression | None:
         """Return what a member of an object, or a member of that, has if nothing else is said."""
@@ -76,11 +78,19 @@ class UserTypes:
             return None if field is None else field.default
         return self.default(field.type.name, path[1:])
 
-    def fields(self, type_name: str) -> Iterator[ir.UserField]:
-        """Yield the fields that a type has by files of the module, those of bases first."""
-        for name in reversed(ir.lineage(type_name, self._types)):
-            if name in self._types:
-                yield from self._types[name].fields
+    def fields(self, type_name: str) -> Sequence[ir.UserField]:
+        """Return the fields that a type has by files of the module, those of bases first."""
+        if type_name not in self._fields:
+            lineage = reversed(ir.lineage(type_name, self._types))
+            known = (self._types[name] for name in lineage if name in self._types)
+            self._fields[type_name] = tuple(field for each in known for field in each.fields)
+        return self._fields[type_name]
 
     def _field(self, type_name: str, name: str) -> ir.UserField | None:
         return next((field for field in self.fields(type_name) if field.name == name), None)
+
+
+@lru_cache(maxsize=4)
+def types_of(module: ir.Module) -> UserTypes:
+    """Return the types of a module, for all the documents that are made of it."""
+    return UserTypes(module.types)

@@ -202,6 +202,11 @@ class SCurve:
         """Length of the change (s)."""
         return self._parts[2]
 
+    @property
+    def kinks(self) -> tuple[float, float, float]:
+        """Times (s) at which the derivative of the rate changes; between them it is constant."""
+        return self._parts
+
     def value(self, t: float) -> float:
         """Quantity at time t (s)."""
         to_peak, leaves, duration = self._parts

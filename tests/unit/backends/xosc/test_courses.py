@@ -1,14 +1,14 @@
 """Courses of the speed that the XML draws, against their closed forms."""
 
 from itertools import pairwise
-from math import pi
+from math import pi, sqrt
 
 import pytest
 
 from osc2tx.backends.xosc.actions.position.position_modifiers import Arrival
 from osc2tx.backends.xosc.actions.speed.acceleration import Ramp
 from osc2tx.backends.xosc.actions.speed.speed_changes import through_points
-from osc2tx.backends.xosc.facts.actors import Cosine, Linear, Quintic, steepest
+from osc2tx.backends.xosc.facts.actors import Cosine, Linear, Quintic, SCurve, steepest
 from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.xosc import elements as xml
@@ -102,3 +102,19 @@ def test_the_steepest_of_a_course_to_an_open_speed_is_an_expression() -> None:
     assert isinstance(faster, Symbol)
     assert evaluated(faster.attribute, {"v": 40.0}) == pytest.approx(0.5 * pi * 30.0 / 5.0)
     assert slower == 0.0
+
+
+@pytest.mark.parametrize(
+    ("course", "expected"),
+    [
+        (SCurve(10.0, 25.0, 4.0, 10.0), (4.0, 0.0)),
+        (SCurve(25.0, 10.0, 4.0, 10.0), (0.0, 4.0)),
+        (SCurve(10.0, 11.0, 4.0, 10.0), (sqrt(10.0), 0.0)),  # too short for the limit
+        (SCurve(10.0, 25.0, 4.0, 10.0, 6.0), (6.0, 0.0)),
+        (SCurve(10.0, 25.0, 4.0, 10.0, -3.0), (4.0, 3.0)),
+    ],
+)
+def test_the_steepest_of_a_limited_course_is_its_limit_or_its_start(
+    course: SCurve, expected: tuple[float, float]
+) -> None:
+    assert steepest(course) == pytest.approx(expected, abs=1e-6)
