@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -17,15 +16,15 @@ from osc2tx.diagnostics import Severity
 from osc2tx.grading.imports import import_deviation
 from osc2tx.grading.runs import NoEvidence
 from osc2tx.importing.cast import Libraries
-from osc2tx.importing.distributions import Distribution, read_distribution
+from osc2tx.importing.distributions import Distribution
 from osc2tx.importing.document import Folders, Refused
-from osc2tx.importing.importer import Imported, import_document
+from osc2tx.importing.importer import Imported
 from osc2tx.importing.names import snake
 from osc2tx.importing.parameters import Parameter
+from osc2tx.importing.reading import import_file
 from osc2tx.importing.report import ImportReport, Measured
 from osc2tx.module_loading import scenarios_of_module
 from osc2tx.options import CompileOptions
-from osc2tx.xosc import Element, Unreadable, read
 from osc2tx_runtime import ScenarioError
 from osc2tx_shared.classes import dataclass
 from osc2tx_shared.text import complain, put_document, say
@@ -149,14 +148,14 @@ def import_all(
             said += "_2"
         names.add(snake(said))
         try:
-            found = _import(source, said, libraries, folders)
+            found = import_file(source, said, libraries, folders)
         except Refused as error:
             where = f"{source or 'standard input'}:{error.place or ''}".rstrip(":")
             complain(f"{where}: {error.reason}")
             refused += 1
             continue
         if found is not None:
-            results.append(found)
+            results.append(Result(found[0], found[0].text, (), found[1]))
     out.mkdir(parents=True, exist_ok=True)
     written = {out / f"{library.name}.osc": library.text for library in libraries.values()}
     kept = {} if force else _texts_of_others(written)
@@ -192,65 +191,6 @@ def _sources(paths: Sequence[str]) -> Iterator[Path | None]:
             yield from sorted(Path(path).rglob(f"*{SUFFIX}"))
         else:
             yield Path(path)
-
-
-def _import(
-    source: Path | None, name: str, libraries: Libraries, folders: Folders
-) -> Result | None:
-    """Return the result of a document; none of a catalog, which others use.
-
-    Raises:
-        Refused: It is none, or cannot be read.
-    """
-    data = _read(source)
-    root = _root(data)
-    tags = {child.tag for child in root.children}
-    if "Catalog" in tags:
-        return None
-    if "ParameterValueDistribution" not in tags:
-        said = "-" if source is None else source.name
-        imported = import_document(data, said, libraries, path=source, name=name, folders=folders)
-        return Result(imported, imported.text, ())
-    report = ImportReport("")
-    distribution = read_distribution(root, report)
-    scenario = (Path() if source is None else source.parent) / distribution.scenario.replace(
-        "\\", "/"
-    )
-    template = _read(scenario)
-    distribution.choose(_root(template))
-    imported = import_document(
-        template,
-        scenario.name,
-        libraries,
-        path=scenario,
-        name=name,
-        folders=folders,
-        distribution=distribution,
-    )
-    for finding in report.findings:
-        imported.report.findings.append(finding)
-    return Result(imported, imported.text, (), distribution)
-
-
-def _root(data: bytes) -> Element:
-    """Return the root of a document.
-
-    Raises:
-        Refused: It cannot be read.
-    """
-    try:
-        return read(data)
-    except Unreadable as error:
-        raise Refused(error.reason, error.place) from None
-
-
-def _read(source: Path | None) -> bytes:
-    if source is None:
-        return sys.stdin.buffer.read()
-    try:
-        return source.read_bytes()
-    except OSError as error:
-        raise Refused(f"it cannot be read: {error.strerror}") from None
 
 
 def _checked(result: Result, out: Path) -> Result:
@@ -329,7 +269,8 @@ def _sum_up(results: Sequence[Result], form: str) -> None:
         name = f"{each.imported.name}.osc"
         for finding in report.ordered[:MOST_SHOWN]:
             what = f"{finding.grade}: {finding.construct}: {finding.reason}"
-            say(f"{report.source}:{finding.where}: {what}")
+            at = (finding.file or report.source, str(finding.place or ""))
+            say(f"{':'.join(filter(None, at))}: {what}")
         if (more := len(report.findings) - MOST_SHOWN) > 0:
             say(f"{report.source}: {more} more in {each.imported.name}.import.json")
         for fault in each.faults:

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from osc2tx.building.write import replace_file
-from osc2tx.importing.distributions import MOST_ROWS, Distribution
+from osc2tx.importing.distributions import MOST_COMBINATIONS, MOST_ROWS, Distribution
 from osc2tx.importing.importer import Imported
 from osc2tx_shared.text import complain
 
@@ -57,10 +57,14 @@ def _campaign(imported: Imported, found: Distribution, out: Path) -> Iterator[st
     if found.is_drawn or not parameters:
         yield 'sampler = "random"'
         yield f"samples = {found.runs or 1}"
+        if found.is_drawn and found.seed:
+            yield ""
+            yield f"[scenarios.{name}.run]"
+            yield f"seed = {found.seed}"
         return
     rows = (
         list(dict.fromkeys(tuple(row.get(said, "") for said in parameters) for row in found.rows()))
-        if found.size <= MOST_ROWS * 20
+        if found.size <= MOST_COMBINATIONS
         else []
     )
     if not rows or len(rows) > MOST_ROWS:

@@ -128,7 +128,11 @@ class _Reader:
 
     def _campaign(self, table: object, where: tuple[str, ...]) -> dict[str, tuple[str, ...]]:
         checked = self._table(table, where, [setting.key for setting in CAMPAIGN_SETTINGS])
-        return self._texts(checked, CAMPAIGN_SETTINGS, where)
+        texts = self._texts(checked, CAMPAIGN_SETTINGS, where)
+        kind, colon, file = texts.get("sampler", ("",))[0].partition(":")
+        if kind == "table" and colon:  # relative to the file, as other paths
+            texts["sampler"] = (f"{kind}:{self.path.parent / file}",)
+        return texts
 
     @staticmethod
     def _own(key: str, value: object) -> Setting:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from osc2tx.importing.cast import Actor
+from osc2tx.importing.controllers import gives_control, note_controllers
 from osc2tx.importing.cursor import Node
+from osc2tx.importing.document import Document
 from osc2tx.importing.effects import Effect, Readings
 from osc2tx.importing.offsets import Offsets
 from osc2tx.importing.places import Places
@@ -27,6 +29,7 @@ class Actions:
 
     def __init__(
         self,
+        document: Document,
         values: Values,
         places: Places,
         actors: Mapping[str, Actor],
@@ -34,7 +37,7 @@ class Actions:
         emitted: set[str],
     ) -> None:
         self.readings = readings = Readings(values, places, actors)
-        self._actors = actors
+        self._document, self._actors = document, actors
         self._speeds, self._offsets = Speeds(readings), Offsets(readings)
         self._routes, self._synchrony = Routes(readings), Synchrony(readings)
         self._surroundings = Surroundings(values, name_of_mark, emitted)
@@ -85,20 +88,9 @@ class Actions:
             case "RoutingAction":
                 yield from self._routes.effects(node.inner, said, actor)
             case "ControllerAction" | "ActivateControllerAction":
-                actor.is_under_test = actor.is_under_test or _gives_control(node)
-                node.use_all()
+                actor.is_under_test = actor.is_under_test or gives_control(node)
+                note_controllers(node, self._document)
             case "SynchronizeAction":
                 yield from self._synchrony.effects(node, said, actor)
             case _:
                 node.leave_out("the language has no such action")
-
-
-def _gives_control(node: Node) -> bool:
-    """Whether a controller drives the actor from then on: not one that is only switched off."""
-    parts = list(node.element.walk())
-    switches = [each for each in parts if each.tag == "ActivateControllerAction"]
-    on = [
-        each.get(name) for each in switches for name in ("longitudinal", "lateral", "controllerRef")
-    ]
-    assigned = any(each.tag == "AssignControllerAction" for each in parts)
-    return assigned or any(said not in (None, "false", "0") for said in on)

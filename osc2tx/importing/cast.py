@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import field
 from pathlib import Path
 
+from osc2tx.importing.controllers import note_controllers
 from osc2tx.importing.cursor import Ledger, Node
 from osc2tx.importing.dimensions import LENGTH, literal
 from osc2tx.importing.document import Document
@@ -178,7 +179,7 @@ class Cast:
         name = self._names.new(said, kind="actor")
         controllers = list(node.children("ObjectController"))
         for each in controllers:
-            each.use_all()
+            note_controllers(each, self._document)
         for child in node.children(*KINDS):
             kind, constraints = facts(child, self._document)
             self.lines += declaration(name, kind, [f"it.{each}" for each in constraints])

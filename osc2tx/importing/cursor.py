@@ -79,6 +79,11 @@ class Ledger:
             self._files.update((id(element), file) for element in root.walk())
         return Node(root, self)
 
+    @property
+    def entries(self) -> list[tuple[Element, str]]:
+        """The entries of catalogs that are tracked, with the names of their files."""
+        return [(root, file) for root, file in self._roots if file]
+
     def use(self, element: Element, name: str = "") -> None:
         """Note that an element is used, or one of its attributes."""
         self._used.add((id(element), name))
@@ -218,6 +223,10 @@ class Node:
             Unresolved: There is none.
         """
         return Node(self.element.inner, self._ledger)
+
+    def entry(self, element: Element, file: str) -> Node:
+        """Return an entry of a catalog, of which all parts have to be used."""
+        return self._ledger.track(element, file)
 
     def idle(self, reason: str, *names: str) -> None:
         """Note that attributes change nothing here; all that are there without names."""

@@ -59,6 +59,9 @@ class Declarations:
             return []
         for each in network.children():
             if each.tag == "LogicFile":
+                if not each.has("filepath"):
+                    each.leave_out("it has no filepath")
+                    continue
                 said = self._values.text(each, "filepath")
                 found = self._document.map_file
                 name = Path(said.replace("\\", "/")).name if found is None else found.name

@@ -7,19 +7,23 @@ say which rows there are: a table of them is what a campaign runs. Stochastic on
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import field
 from itertools import islice, product
 
+from osc2tx.importing.cursor import Ledger, Node
 from osc2tx.importing.document import Refused
 from osc2tx.importing.report import ImportReport
-from osc2tx.xosc import Element
+from osc2tx.xosc import Element, Place
 from osc2tx.xosc.arithmetic import evaluated
 from osc2tx.xosc.player.courses import RULES
 from osc2tx_shared.classes import dataclass
 
 MOST_ROWS = 5000
 MOST_VALUES = 10_000
+MOST_COMBINATIONS = 100_000
+_READ = re.compile(r"\$([A-Za-z_]\w*)").findall
 
 
 @dataclass
@@ -30,11 +34,13 @@ class Open:
         values: Its values; empty: a range.
         low: Lower limit.
         high: Upper limit.
+        place: Where that stands.
     """
 
     values: tuple[str, ...] = ()
     low: float = -math.inf
     high: float = math.inf
+    place: Place | None = None
 
 
 @dataclass
@@ -43,21 +49,27 @@ class Distribution:
 
     Attributes:
         scenario: Path of its document.
+        place: Where that is named.
         open: What each parameter may be, by its name in the document.
         axes: Rows of values that are combined with each other, of parameters that vary together.
         is_drawn: Whether values are drawn.
         runs: How many rows are drawn.
         seed: Seed of what is drawn.
         chosen: The first row that meets the constraints of the scenario; empty: none is known.
+        declared: Texts of the parameters of the scenario.
+        constraints: The constraints of its parameters.
     """
 
     scenario: str
+    place: Place | None = None
     open: dict[str, Open] = field(default_factory=dict)
     axes: list[list[Mapping[str, str]]] = field(default_factory=list)
     is_drawn: bool = False
     runs: int = 0
     seed: int = 0
     chosen: Mapping[str, str] = field(default_factory=dict)
+    declared: Mapping[str, str] = field(default_factory=dict)
+    constraints: list[_Constraint] = field(default_factory=list)
 
     @property
     def size(self) -> int:
@@ -75,41 +87,58 @@ class Distribution:
             if each.values or math.isfinite(each.low)
         }
 
+    def unvaried(self, used: Collection[str]) -> Iterator[tuple[str, Open]]:
+        """Yield what varies, but not in a scenario in which some parameters are open."""
+        for name, each in self.open.items():
+            if name not in used and len(set(each.values)) != 1:
+                yield name, each
+
+    def constrain(self, scenario: Element) -> None:
+        """Leave out the rows that the parameters of a scenario do not allow; choose the first."""
+        declarations = [node for node in scenario.walk() if node.tag == "ParameterDeclaration"]
+        self.declared = {node.get("name") or "": node.get("value") or "" for node in declarations}
+        self.constraints = [_Constraint(node) for node in declarations if node.children]
+        if self.axes:
+            self.chosen = next(islice(self.rows(), 1), {})
+
     def rows(self) -> Iterator[Mapping[str, str]]:
-        """Yield the rows of deterministic distributions, all combinations."""
-        for parts in product(*self.axes):
-            yield {name: value for part in parts for name, value in part.items()}
-
-    def choose(self, scenario: Element) -> None:
-        """Choose the first row that meets the constraints of the parameters of a scenario."""
-        if not self.axes:
-            return
-        declarations = [
-            node for node in scenario.walk() if node.tag == "ParameterDeclaration" and node.children
-        ]
-        declared = {
-            node.get("name") or "": node.get("value") or ""
-            for node in scenario.walk()
-            if node.tag == "ParameterDeclaration"
-        }
-        for row in islice(self.rows(), MOST_VALUES):
-            texts = {**declared, **row}
-            if all(_is_allowed(node, texts) for node in declarations):
-                self.chosen = row
-                return
+        """Yield the rows of deterministic distributions: all combinations that are allowed."""
+        for parts in islice(product(*self.axes), MOST_COMBINATIONS):
+            row = {name: value for part in parts for name, value in part.items()}
+            texts = {**self.declared, **row}
+            if all(each.allows(texts) for each in self.constraints):
+                yield row
 
 
-def _is_allowed(declaration: Element, texts: Mapping[str, str]) -> bool:
-    """Whether the value of a parameter meets one of its groups of constraints, or has none."""
-    values = {}
-    for name, text in texts.items():
-        try:
-            values[name] = float(text)
-        except ValueError:
-            continue  # a text has no order
-    own = values.get(declaration.get("name") or "")
-    groups = [each for each in declaration.children if each.tag == "ConstraintGroup"]
-    return own is None or not groups or any(_meets(own, each, values) for each in groups)
+class _Constraint:
+    """The constraints of a parameter; what they say of the same values is found once."""
+
+    def __init__(self, declaration: Element) -> None:
+        self._name = declaration.get("name") or ""
+        groups = [each for each in declaration.children if each.tag == "ConstraintGroup"]
+        self._groups = groups
+        limits = (each.get("value") or "" for group in groups for each in group.children)
+        self._names = sorted({self._name, *(name for text in limits for name in _READ(text))})
+        self._known: dict[tuple[str | None, ...], bool] = {}
+
+    def allows(self, texts: Mapping[str, str]) -> bool:
+        """Whether the value meets one of the groups of constraints, or there are none."""
+        key = tuple(texts.get(name) for name in self._names)
+        if key not in self._known:
+            self._known[key] = self._meets(
+                {name: texts[name] for name in self._names if name in texts}
+            )
+        return self._known[key]
+
+    def _meets(self, texts: Mapping[str, str]) -> bool:
+        values = {}
+        for name, text in texts.items():
+            try:
+                values[name] = float(text)
+            except ValueError:
+                continue  # a text has no order
+        own = values.get(self._name)
+        return own is None or not self._groups or any(_meets(own, g, values) for g in self._groups)
 
 
 def _meets(own: float, group: Element, values: Mapping[str, float]) -> bool:
@@ -136,87 +165,111 @@ def meets(declaration: Element, text: str) -> bool:
 
 
 def read_distribution(root: Element, report: ImportReport) -> Distribution:
-    """Return the values of a document with distributions.
+    """Return the values of a document with distributions; what is not used of it is reported.
 
     Raises:
         Refused: It names no scenario.
     """
-    holder = next(
-        (each for each in root.children if each.tag == "ParameterValueDistribution"), None
-    )
+    ledger = Ledger(report)
+    node = ledger.track(root, report.source)
+    holder = node.find("ParameterValueDistribution")
     if holder is None:
         raise Refused("it has neither a storyboard nor distributions", root.place)
-    files = [each.get("filepath") or "" for each in holder.children if each.tag == "ScenarioFile"]
-    if not files or not files[0]:
+    file = holder.find("ScenarioFile")
+    path = None if file is None else file.text("filepath")
+    if file is None or not path:
         raise Refused("it names no scenario", holder.place)
-    found = Distribution(files[0])
-    for kind in holder.children:
-        if kind.tag == "Deterministic":
-            for each in kind.children:
-                _deterministic(each, found, report)
-        elif kind.tag == "Stochastic":
-            found.is_drawn = True
-            found.runs = int(float(kind.get("numberOfTestRuns") or 0))
-            found.seed = int(float(kind.get("randomSeed") or 0))
-            for each in kind.children:
-                _stochastic(each, found, report)
+    found = Distribution(path, file.place)
+    for kind in holder.children("Deterministic"):
+        for each in kind.children():
+            _deterministic(each, found)
+    for kind in holder.children("Stochastic"):
+        found.is_drawn = True
+        found.runs = _whole(kind, "numberOfTestRuns")
+        found.seed = _whole(kind, "randomSeed")
+        for each in kind.children():
+            _stochastic(each, found)
+    ledger.close()
     return found
 
 
-def _deterministic(node: Element, found: Distribution, report: ImportReport) -> None:
-    name = node.get("parameterName") or ""
-    for each in node.children:
+def _whole(node: Node, name: str) -> int:
+    try:
+        return int(float(node.text(name) or 0))
+    except (ValueError, OverflowError):
+        raise Refused(f"{name} of <{node.tag}> is no number", node.place) from None
+
+
+def _deterministic(node: Node, found: Distribution) -> None:
+    name = node.text("parameterName") or ""
+    for each in node.children():
         if each.tag == "DistributionSet":
-            values = tuple(element.get("value") or "" for element in each.children)
-            found.open[name] = Open(values)
+            values = tuple(element.text("value") or "" for element in each.children("Element"))
+            found.open[name] = Open(values, place=node.place)
             found.axes.append([{name: value} for value in values])
         elif each.tag == "DistributionRange":
-            values = tuple(_steps(each))
+            steps = tuple(_steps(each))
             low, high = _limits(each)
-            found.open[name] = Open((), low, high)
-            found.axes.append([{name: value} for value in values])
+            found.open[name] = Open((), low, high, node.place)
+            found.axes.append([{name: value} for value in steps])
         elif each.tag == "ValueSetDistribution":
-            rows = [
-                {cell.get("parameterRef") or "": cell.get("value") or "" for cell in row.children}
-                for row in each.children
-            ]
-            found.axes.append(list(rows))
-            for key in dict.fromkeys(key for row in rows for key in row):
-                found.open[key] = Open(tuple(dict.fromkeys(row[key] for row in rows if key in row)))
+            _value_sets(each, found)
         else:
-            report.add("left out", f"<{each.tag}>", "only sets and ranges are imported", each.place)
+            each.leave_out("only sets and ranges are imported")
 
 
-def _stochastic(node: Element, found: Distribution, report: ImportReport) -> None:
-    name = node.get("parameterName") or ""
-    for each in node.children:
+def _value_sets(node: Node, found: Distribution) -> None:
+    rows = [
+        {
+            cell.text("parameterRef") or "": cell.text("value") or ""
+            for cell in row.children("ParameterAssignment")
+        }
+        for row in node.children("ParameterValueSet")
+    ]
+    found.axes.append(list(rows))
+    for key in dict.fromkeys(key for row in rows for key in row):
+        texts = tuple(dict.fromkeys(row[key] for row in rows if key in row))
+        found.open[key] = Open(texts, place=node.place)
+
+
+def _stochastic(node: Node, found: Distribution) -> None:
+    name = node.text("parameterName") or ""
+    for each in node.children():
         if each.tag in ("UniformDistribution", "NormalDistribution", "LogNormalDistribution"):
             low, high = _limits(each)
-            found.open[name] = Open((), low, high)
+            found.open[name] = Open((), low, high, node.place)
             if each.tag != "UniformDistribution":
-                reason = "values are drawn evenly from the range"
-                report.add("approximated", f"<{each.tag}>", reason, each.place)
+                each.approximate("values are drawn evenly from the range")
         elif each.tag == "ProbabilityDistributionSet":
-            found.open[name] = Open(tuple(element.get("value") or "" for element in each.children))
-            report.add("approximated", f"<{each.tag}>", "values are drawn evenly", each.place)
+            texts = tuple(element.text("value") or "" for element in each.children("Element"))
+            found.open[name] = Open(texts, place=node.place)
+            each.approximate("values are drawn evenly")
         else:
-            report.add("left out", f"<{each.tag}>", "only ranges and sets are imported", each.place)
+            each.leave_out("only ranges and sets are imported")
 
 
-def _limits(node: Element) -> tuple[float, float]:
-    range_ = next((each for each in node.children if each.tag == "Range"), None)
+def _limits(node: Node) -> tuple[float, float]:
+    range_ = node.find("Range")
     if range_ is None:
         return -math.inf, math.inf
-    return float(range_.get("lowerLimit") or "-inf"), float(range_.get("upperLimit") or "inf")
+    return _limit(range_, "lowerLimit", -math.inf), _limit(range_, "upperLimit", math.inf)
 
 
-def _steps(node: Element) -> Iterator[str]:
+def _limit(node: Node, name: str, default: float) -> float:
+    text = node.text(name)
+    try:
+        return float(text) if text else default
+    except ValueError:
+        raise Refused(f"{name}={text!r} of <{node.tag}> is no number", node.place) from None
+
+
+def _steps(node: Node) -> Iterator[str]:
     low, high = _limits(node)
-    step = float(node.get("stepWidth") or 0.0)
-    if not math.isfinite(low) or not math.isfinite(high) or step <= 0.0:
+    step = _limit(node, "stepWidth", 0.0)
+    if not math.isfinite(low) or not math.isfinite(high) or not step > 0.0:
         raise Refused("a range without limits or steps", node.place)
-    count = math.floor((high - low) / step + 1e-9) + 1
-    if count > MOST_VALUES:
-        raise Refused(f"a range of {count} values", node.place)
-    for index in range(count):
+    count = (high - low) / step
+    if not count < MOST_VALUES:
+        raise Refused(f"a range of {count:.0f} values", node.place)
+    for index in range(math.floor(count + 1e-9) + 1):
         yield repr(round(low + index * step, 12))

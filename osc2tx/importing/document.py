@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 
+from osc2tx.importing.reach import Reach
 from osc2tx.xosc import Element, Place, Unreadable, read
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.arithmetic import evaluated
@@ -16,6 +17,7 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_shared.classes import dataclass
 
 CATALOG_SIZE = 20_000_000
+LONGEST_PATH = 200
 _PARAMETER = re.compile(r"\$([A-Za-z_]\w*)")
 
 
@@ -57,6 +59,7 @@ class Document:
         root: Its root element.
         path: Its file; `None` for standard input.
         comments: Its comments.
+        scoped: Parameters of its parts and of entries of catalogs, with the names of the catalogs.
     """
 
     def __init__(
@@ -72,6 +75,12 @@ class Document:
         self._folders = folders
         self._entries: dict[tuple[str, str], tuple[Element, Path]] | None = None
         self._instances: dict[int, tuple[Element, Path] | None] = {}
+        self.scoped = [
+            (node, "")
+            for part in root.children
+            if part.tag != "ParameterDeclarations"
+            for node in part.below(xml.ParameterDeclaration)
+        ]
 
     def resolved_with(self, values: Mapping[str, str]) -> Element:
         """Return the document as `resolved`, with other values of some parameters."""
@@ -111,6 +120,28 @@ class Document:
         value = evaluated(text, numbers)
         return text if value is None else repr(value)
 
+    @cached_property
+    def reach(self) -> Reach:
+        """The folders from which the document may name files."""
+        return Reach(self.folder, (*self._folders.maps, *self._folders.catalogs))
+
+    @cached_property
+    def refused(self) -> list[tuple[Element, str]]:
+        """The elements that name files which the document may not name, with reasons."""
+        found: list[tuple[Element, str]] = []
+        network = self.root.find(xml.RoadNetwork)
+        logic = None if network is None else network.find(xml.LogicFile)
+        if logic is not None and self.map_file is None:
+            found.append((logic, self._problem(logic, "filepath", self._folders.maps)))
+        for node in self.root.below(xml.Directory):
+            found.append((node, self._problem(node, "path", self._folders.catalogs)))
+        return [(node, problem) for node, problem in found if problem]
+
+    def _problem(self, node: Element, name: str, folders: Sequence[Path]) -> str:
+        named = self.text_at(node.get(name) or "").replace("\\", "/")
+        problem = self.reach.problem(named, (self.folder, *folders))
+        return f"{name}={named!r} is not read: {problem}" if problem else ""
+
     # --- catalogs ---------------------------------------------------------------------------------
 
     def entry(self, reference: Element) -> tuple[Element, Path] | None:
@@ -136,6 +167,7 @@ class Document:
             node.get("name") or "": node.get("value") or ""
             for node in entry.below(xml.ParameterDeclaration)
         }
+        self.scoped += [(node, path.name) for node in entry.below(xml.ParameterDeclaration)]
         values = declared | given
         children = [child for child in entry.children if child.tag != "ParameterDeclarations"]
         bare = entry.with_children(*children)
@@ -158,14 +190,17 @@ class Document:
         folders = list(self._folders.catalogs)
         for node in self.root.below(xml.Directory):
             named = self.text_at(node.get("path") or "").replace("\\", "/")
-            folders += [base / named for base in (self.folder, *self._folders.catalogs) if named]
+            if named and not _is_odd(named):
+                folders += [base / named for base in (self.folder, *self._folders.catalogs)]
         files: dict[Path, None] = {}
         for folder in folders:
+            if not self.reach.holds(folder):
+                continue
             if folder.is_file():
                 files[folder] = None
             elif folder.is_dir():
                 files |= dict.fromkeys(sorted(folder.glob("*.xosc")))
-        return list(files)
+        return [path for path in files if self.reach.holds(path)]
 
     @cached_property
     def resolved(self) -> Element:
@@ -189,19 +224,24 @@ class Document:
         network = self.root.find(xml.RoadNetwork)
         logic = None if network is None else network.find(xml.LogicFile)
         named = "" if logic is None else self.text_at(logic.get("filepath") or "")
-        if not named:
+        if not named or _is_odd(named):
             return None
         relative = Path(named.replace("\\", "/"))
         for folder in (self.folder, *self._folders.maps):
             for place in (relative, Path(relative.name)):
                 for suffix in ("", ".xodr"):
                     candidate = folder / f"{place}{suffix}"
-                    if candidate.is_file():
+                    if candidate.is_file() and self.reach.holds(candidate):
                         return candidate
         try:
             return find_map(relative.name, self._folders.maps)
         except ScenarioError:
             return None
+
+
+def _is_odd(named: str) -> bool:
+    """Whether no file has such a path."""
+    return "\0" in named or len(named) > LONGEST_PATH
 
 
 def with_values(root: Element, values: Mapping[str, str]) -> Element:

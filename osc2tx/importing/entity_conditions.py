@@ -133,8 +133,9 @@ class EntityConditions:
         measure = f"{from_}.{method}({to}, {kind}{mode})"
         compared = f"{measure} {COMPARISONS[rule]} {value}"
         if rule.startswith("less"):
-            if kind == "longitudinal" and sign is not None:
-                return compared
+            is_ahead = kind == "longitudinal" and sign is not None
+            if is_ahead and self._values.nominal(node, "value") > 0.0:
+                return compared  # it is met before the sign of the distance changes
             word, other = "and", COMPARISONS[rule].replace("<", ">")
         else:
             word, other = "or", COMPARISONS[rule].replace(">", "<")

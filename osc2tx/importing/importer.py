@@ -27,7 +27,7 @@ from osc2tx.importing.values import Values
 from osc2tx.importing.whole import Whole, is_endless
 from osc2tx.xosc import Element, Unreadable, read
 from osc2tx.xosc import elements as xml
-from osc2tx.xosc.checking import problems, version_of
+from osc2tx.xosc.checking import problems, problems_of_entry, version_of
 from osc2tx.xosc.element import Unresolved
 from osc2tx.xosc.reader import Comment
 from osc2tx_shared.classes import dataclass
@@ -97,6 +97,10 @@ def import_document(
     said = name or (path.stem if path else "scenario")
     try:
         return _Import(document, source, libraries, said, distribution).run()
+    except Unresolved as error:
+        raise Refused(error.reason, error.place or root.place) from None
+    except OverflowError:
+        raise Refused("a number in it is too large", root.place) from None
     except RecursionError:
         raise Refused("its events are nested too deep", root.place) from None
 
@@ -151,7 +155,7 @@ class _Import:
         for said, actor in actors.items():
             body = places.bodies.get(said)
             actor.is_free = is_straight_ahead(places.map, body, beside=leaves)
-        actions = Actions(self._values, places, actors, self._mark, self._emitted)
+        actions = Actions(self._document, self._values, places, actors, self._mark, self._emitted)
         conditions = Conditions(
             self._values,
             places,
@@ -270,9 +274,20 @@ class _Import:
 
     def _close(self) -> None:
         root = self._document.root
-        self._report.problems = [
-            (each.reason, str(each.place or "")) for each in problems(root, version_of(root))
-        ]
+        for each, file in self._document.scoped:
+            said = f"{each.get('parameterType')} {each.get('value')}"
+            at = ":".join(str(part) for part in (file, each.place) if part)
+            note = (f"parameter {each.get('name')}", said, "its value is used here", at)
+            if note not in self._report.idle:
+                self._report.idle.append(note)
+        for node, reason in self._document.refused:
+            self._report.add("left out", f"<{node.tag}>", reason, node.place)
+        version = version_of(root)
+        found = [(each.reason, str(each.place or "")) for each in problems(root, version)]
+        for entry, file in self._ledger.entries:
+            wrong = problems_of_entry(entry, version)
+            found += [(each.reason, f"{file}:{each.place or ''}") for each in wrong]
+        self._report.problems = list(dict.fromkeys(found))
         rest = [text for place, texts in self._comments.items() for text in texts]
         for text in rest:
             self._report.idle.append(("comment", text, "it stands beside nothing that is here", ""))

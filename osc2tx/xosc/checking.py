@@ -66,6 +66,15 @@ def problems(root: Element, version: XmlVersion) -> Iterator[Problem]:
     yield from _of_element(root, part.type, version)
 
 
+def problems_of_entry(entry: Element, version: XmlVersion) -> Iterator[Problem]:
+    """Yield what is wrong with an entry of a catalog."""
+    part = element_type("Catalog").children.get(entry.tag)
+    if part is None:
+        yield Problem(f"<{entry.tag}> in a catalog", entry.place)
+    else:
+        yield from _of_element(entry, part.type, version)
+
+
 def _of_element(node: Element, type_name: str, version: XmlVersion) -> Iterator[Problem]:
     yield from _of_attributes(node, type_name, version)
     yield from _of_children(node, type_name, version)

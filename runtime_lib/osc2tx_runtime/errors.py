@@ -37,6 +37,11 @@ class SourcePlace(str):
         place.column = column
         return place
 
+    def __reduce__(self) -> tuple[type[SourcePlace], tuple[str, int, int]]:
+        """Return what makes a copy, also in another process."""
+        file, _, line = self.rpartition(":")
+        return SourcePlace, (file, int(line), self.column)
+
 
 class ScenarioError(Exception):
     """The scenario cannot run, or cannot continue.

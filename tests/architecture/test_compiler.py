@@ -64,7 +64,6 @@ MAY_IMPORT: dict[str, set[str]] = {
         "resources",
         "support",
         "version",
-        "xosc",
     },
     "start": {"building", "cli"},
     "__main__": {"start"},

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 from pathlib import Path
 
 import pytest
@@ -102,3 +103,8 @@ def test_a_failure(tmp_path: Path) -> None:
     assert f" (cruise.osc:{ACTION}) failed at 4.000 s: ego drive: `speed` " in result.reason
     head = next(iter(verdict("cruise", result, "cruise.osc")))
     assert head.startswith(f"{place}:13: error[OSC810]: cruise: failure after ")
+
+
+def test_a_place_in_another_process() -> None:
+    place = pickle.loads(pickle.dumps(SourcePlace("a:b.osc", 12, 5)))
+    assert (place, place.column) == ("a:b.osc:12", 5)

@@ -1,12 +1,18 @@
 """Nothing of a document is lost unseen: what changes in it changes the scenario or the report."""
 
+from collections.abc import Callable
+from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
 
-from osc2tx.importing.document import Refused
+from osc2tx.cli.import_settings import write_settings
+from osc2tx.importing.cast import Libraries
+from osc2tx.importing.document import Folders, Refused
 from osc2tx.importing.importer import import_document
+from osc2tx.importing.reading import import_file
 from tests.importing.documents import (
+    CAR,
     after,
     at_time,
     document,
@@ -32,34 +38,148 @@ def _product(text: str) -> object:
     return found.text, report
 
 
-def test_each_attribute_counts() -> None:
-    text = document(EVENTS, parameters=WITH_PARAMETER, ego_speed="$v")
-    root = ET.fromstring(text)
-    before = _product(ET.tostring(root, encoding="unicode"))
-    silent = []
+def silent(root: ET.Element, product: Callable[[], object]) -> list[str]:
+    """Return the attributes and elements of which a change, or a lack, changes no product."""
+    before = product()
+    found = []
     for element in root.iter():
         for name, value in list(element.attrib.items()):
             element.attrib[name] = OTHER.get(value, f"{value}9")
-            if _product(ET.tostring(root, encoding="unicode")) == before:
-                silent.append(f"{element.tag}/@{name}={value}")
+            if product() == before:
+                found.append(f"{element.tag}/@{name}={value}")
+            del element.attrib[name]
+            if product() == before and (name, value) != ("offset", "0"):  # which is its default
+                found.append(f"{element.tag}/@{name} left out")
             element.attrib[name] = value
-    assert not silent
-
-
-def test_each_element_counts() -> None:
-    text = document(EVENTS, parameters=WITH_PARAMETER, ego_speed="$v")
-    root = ET.fromstring(text)
-    before = _product(ET.tostring(root, encoding="unicode"))
-    silent = []
     for parent in list(root.iter()):
         for index, child in enumerate(list(parent)):
             if not child.attrib and not list(child):
                 continue  # an empty element says nothing
             parent.remove(child)
-            if _product(ET.tostring(root, encoding="unicode")) == before:
-                silent.append(f"{parent.tag}/{child.tag}")
+            if product() == before:
+                found.append(f"{parent.tag}/{child.tag}")
             parent.insert(index, child)
-    assert not silent
+    return found
+
+
+def test_all_of_a_document_counts() -> None:
+    root = ET.fromstring(document(EVENTS, parameters=WITH_PARAMETER, ego_speed="$v"))
+    assert not silent(root, lambda: _product(ET.tostring(root, encoding="unicode")))
+
+
+CATALOGS = {
+    "vehicles": f"<Catalog name='vehicles'>{CAR}</Catalog>",
+    "maneuvers": f"""<Catalog name="maneuvers"><Maneuver name="speed_up">
+      <ParameterDeclarations><ParameterDeclaration name="goal" parameterType="double" value="18"/>
+      </ParameterDeclarations>
+      {event("Faster", speed_change("$goal"), at_time("1"))}</Maneuver></Catalog>""",
+    "controllers": """<Catalog name="controllers"><Controller name="pilot"><Properties>
+      <Property name="gain" value="3"/></Properties></Controller></Catalog>""",
+}
+HEADER = (
+    '<FileHeader revMajor="1" revMinor="3" date="2024-01-01T00:00:00" description="" author=""/>'
+)
+
+
+def _reference(catalog: str, entry: str, given: str = "") -> str:
+    return (
+        f'<CatalogReference catalogName="{catalog}" entryName="{entry}">{given}</CatalogReference>'
+    )
+
+
+def _with_catalogs() -> str:
+    """Return a document of which the parts are in catalogs."""
+    goal = '<ParameterAssignment parameterRef="goal" value="19"/>'
+    maneuver = _reference(
+        "maneuvers", "speed_up", f"<ParameterAssignments>{goal}</ParameterAssignments>"
+    )
+    text = document(event("One", speed_change("20"), at_time("1")))
+    start, end = text.index('<Maneuver name="Maneuver">'), text.index("</Maneuver>") + 11
+    text = text[:start] + maneuver + text[end:]
+    controller = f"<ObjectController>{_reference('controllers', 'pilot')}</ObjectController>"
+    text = text.replace(CAR, _reference("vehicles", "car") + controller, 1)
+    kinds = {"Vehicle": "vehicles", "Maneuver": "maneuvers", "Controller": "controllers"}
+    places = "".join(
+        f'<{kind}Catalog><Directory path="{folder}"/></{kind}Catalog>'
+        for kind, folder in kinds.items()
+    )
+    return text.replace("<CatalogLocations/>", f"<CatalogLocations>{places}</CatalogLocations>")
+
+
+def _files(folder: Path) -> dict[str, ET.Element]:
+    """Write the document with its catalogs; return the roots of all of them by their paths."""
+    texts = {"main.xosc": _with_catalogs()}
+    for name, text in CATALOGS.items():
+        (folder / name).mkdir()
+        texts[f"{name}/all.xosc"] = f"<OpenSCENARIO>{HEADER}{text}</OpenSCENARIO>"
+    for name, text in texts.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    return {name: ET.fromstring(text) for name, text in texts.items()}
+
+
+@pytest.mark.parametrize("name", ["main.xosc", *(f"{each}/all.xosc" for each in CATALOGS)])
+def test_all_of_a_document_with_catalogs_counts(name: str, tmp_path: Path) -> None:
+    root = _files(tmp_path)[name]
+    main = tmp_path / "main.xosc"
+
+    def product() -> object:
+        (tmp_path / name).write_bytes(ET.tostring(root))
+        libraries: Libraries = {}
+        try:
+            found = import_document(main.read_bytes(), "main.xosc", libraries, path=main)
+        except Refused as error:
+            return error.reason
+        return found.text, found.report.to_json(), [each.text for each in libraries.values()]
+
+    catalog = root.find("Catalog")
+    assert not silent(root if catalog is None else catalog, product)
+
+
+DISTRIBUTIONS = """<OpenSCENARIO><FileHeader revMajor="1" revMinor="3" date="2024-01-01T00:00:00"
+  description="" author=""/><ParameterValueDistribution><ScenarioFile filepath="two_cars.xosc"/>
+  {}</ParameterValueDistribution></OpenSCENARIO>"""
+DETERMINISTIC = """<Deterministic>
+  <DeterministicSingleParameterDistribution parameterName="v"><DistributionRange stepWidth="2">
+  <Range lowerLimit="10" upperLimit="20"/></DistributionRange>
+  </DeterministicSingleParameterDistribution>
+  <DeterministicMultiParameterDistribution><ValueSetDistribution>
+  <ParameterValueSet><ParameterAssignment parameterRef="w" value="3"/></ParameterValueSet>
+  <ParameterValueSet><ParameterAssignment parameterRef="w" value="4"/></ParameterValueSet>
+  </ValueSetDistribution></DeterministicMultiParameterDistribution></Deterministic>"""
+STOCHASTIC = """<Stochastic numberOfTestRuns="8" randomSeed="5">
+  <StochasticDistribution parameterName="v"><NormalDistribution expectedValue="15" variance="2">
+  <Range lowerLimit="10" upperLimit="20"/></NormalDistribution></StochasticDistribution>
+  <StochasticDistribution parameterName="w"><ProbabilityDistributionSet>
+  <Element value="3" weight="1"/><Element value="4" weight="2"/></ProbabilityDistributionSet>
+  </StochasticDistribution></Stochastic>"""
+
+
+@pytest.mark.parametrize("values", [DETERMINISTIC, STOCHASTIC], ids=["rows", "drawn"])
+def test_all_of_a_document_with_distributions_counts(values: str, tmp_path: Path) -> None:
+    parameter = WITH_PARAMETER + WITH_PARAMETER.replace('"v"', '"w"')
+    text = document(EVENTS.replace('value="4"', 'value="$w"', 1), "", parameter, "$v")
+    (tmp_path / "two_cars.xosc").write_text(text, encoding="utf-8")
+    source = tmp_path / "values.xosc"
+    root = ET.fromstring(DISTRIBUTIONS.format(values))
+
+    def product() -> object:
+        source.write_bytes(ET.tostring(root))
+        try:
+            found = import_file(source, "values", {}, Folders())
+        except Refused as error:
+            return error.reason
+        assert found is not None
+        imported, distribution = found
+        assert distribution is not None
+        out = tmp_path / "out"
+        out.mkdir(exist_ok=True)
+        write_settings([found], out)
+        written = {each.name: each.read_bytes() for each in sorted(out.iterdir())}
+        for each in out.iterdir():
+            each.unlink()
+        return imported.text, imported.report.to_json(), written
+
+    assert not silent(root, product)
 
 
 @pytest.mark.parametrize(

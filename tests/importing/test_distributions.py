@@ -24,7 +24,7 @@ SCENARIO = """<OpenSCENARIO><ParameterDeclarations>
 
 def first(limit: str) -> dict[str, str]:
     found = read_distribution(read(VALUES.encode()), ImportReport("a.xosc"))
-    found.choose(read(SCENARIO.format(limit).encode()))
+    found.constrain(read(SCENARIO.format(limit).encode()))
     return found.first
 
 

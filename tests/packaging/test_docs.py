@@ -16,7 +16,9 @@ import pytest
 REPOSITORY = Path(__file__).parents[2]
 TUTORIAL = REPOSITORY / "docs" / "tutorial.md"
 CAMPAIGNS = REPOSITORY / "docs" / "how-to" / "campaigns.md"
+ALKS = REPOSITORY / "docs" / "how-to" / "import-alks.md"
 _BLOCK = re.compile(r"^```console\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_FILE = re.compile(r"^```python\n# (\w+\.py)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _SECONDS = re.compile(r"in \d+\.\d+s\b")
 
 
@@ -28,6 +30,23 @@ def test_commands_of_pages(page: Path, tmp_path: Path, request: pytest.FixtureRe
     shell = Shell(tmp_path)
     if page is CAMPAIGNS:  # its reader has a project already
         shutil.copytree(REPOSITORY / "scenarios", tmp_path / "scenarios")
+    check_page(page, text, shell, request)
+
+
+@pytest.mark.slow
+def test_commands_of_the_tutorial_with_public_documents(
+    tmp_path: Path, test_data: Path, request: pytest.FixtureRequest
+) -> None:
+    """Likewise; its reader has cloned the documents, and written the files of the page."""
+    text = ALKS.read_text(encoding="utf-8")
+    shutil.copytree(test_data / "xosc" / "alks", tmp_path / "sl-3-1-osc-alks-scenarios")
+    for name, content in _FILE.findall(text):
+        (tmp_path / name).write_text(content, encoding="utf-8")
+    check_page(ALKS, text, Shell(tmp_path), request)
+
+
+def check_page(page: Path, text: str, shell: Shell, request: pytest.FixtureRequest) -> None:
+    """Compare what a page shows with what its commands print."""
     shown = _BLOCK.sub(lambda block: f"```console\n{shell.repeat(block[1])}```", text)
     if request.config.getoption("--update-golden"):
         page.write_text(shown, encoding="utf-8")

@@ -262,3 +262,9 @@ def test_a_baseline_is_in_the_project(tmp_path: Path, place: str) -> None:
     write(tmp_path / "osc2tx.toml", f'baseline = "{place}"\n')
     with pytest.raises(ConfigError, match="out of the project"):
         ConfigFiles().for_folder(tmp_path)
+
+
+def test_a_table_of_rows_is_beside_the_settings(tmp_path: Path) -> None:
+    place = write(tmp_path / "osc2tx.toml", '[scenarios.a.campaign]\nsampler = "table:rows.csv"\n')
+    config = ConfigFiles().for_source(tmp_path / "a.osc")
+    assert config.scenarios["a"].campaign["sampler"] == (f"table:{place.parent / 'rows.csv'}",)

@@ -1,0 +1,103 @@
+"""Files with documents: scenarios, and values for runs of scenarios."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from osc2tx.importing.cast import Libraries
+from osc2tx.importing.distributions import Distribution, read_distribution
+from osc2tx.importing.document import Folders, Refused
+from osc2tx.importing.importer import Imported, import_document
+from osc2tx.importing.reach import Reach
+from osc2tx.importing.report import ImportReport
+from osc2tx.xosc import Element, Place, Unreadable, read
+
+
+def import_file(
+    source: Path | None, name: str, libraries: Libraries, folders: Folders
+) -> tuple[Imported, Distribution | None] | None:
+    """Return the scenario of a file, with values for its runs; none of a catalog, which others use.
+
+    Args:
+        source: The file; `None` for standard input.
+        name: The name of the scenario.
+        libraries: The library files so far; gains those that it needs.
+        folders: Where maps and catalogs are.
+
+    Raises:
+        Refused: It is none, or cannot be read.
+    """
+    data = _bytes_of(source)
+    root = _root(data)
+    tags = {child.tag for child in root.children}
+    if "Catalog" in tags:
+        return None
+    said = "-" if source is None else source.name
+    if "ParameterValueDistribution" in tags:
+        return _with_values(root, source, said, name, libraries, folders)
+    found = import_document(data, said, libraries, path=source, name=name, folders=folders)
+    return found, None
+
+
+def _with_values(
+    root: Element,
+    source: Path | None,
+    said: str,
+    name: str,
+    libraries: Libraries,
+    folders: Folders,
+) -> tuple[Imported, Distribution]:
+    report = ImportReport(said)
+    values = read_distribution(root, report)
+    folder = Path() if source is None else source.parent
+    named = values.scenario.replace("\\", "/")
+    problem = Reach(folder, (*folders.maps, *folders.catalogs)).problem(named, (folder,))
+    if problem:
+        raise Refused(f"its scenario {named!r} is not read: {problem}", values.place)
+    path = folder / named
+    template = _bytes_of(path, values.place, f"its scenario {named!r}")
+    try:
+        values.constrain(_root(template))
+        found = import_document(
+            template,
+            path.name,
+            libraries,
+            path=path,
+            name=name,
+            folders=folders,
+            distribution=values,
+        )
+    except Refused as error:
+        where = f"{path.name}:{error.place}" if error.place else path.name
+        raise Refused(f"its scenario, {where}: {error.reason}", values.place) from None
+    used = {each for each, parameter in found.parameters.items() if parameter.is_used}
+    first = values.first
+    for each, open_ in values.unvaried(used):
+        reason = f"{each} does not vary here: it keeps its value {first.get(each)}"
+        report.add("approximated", "<Distribution>", reason, open_.place, file=said)
+    found.report.findings += report.findings
+    found.report.idle += report.idle
+    return found, values
+
+
+def _root(data: bytes) -> Element:
+    """Return the root of a document.
+
+    Raises:
+        Refused: It cannot be read.
+    """
+    try:
+        return read(data)
+    except Unreadable as error:
+        raise Refused(error.reason, error.place) from None
+
+
+def _bytes_of(source: Path | None, place: Place | None = None, what: str = "it") -> bytes:
+    if source is None:
+        return sys.stdin.buffer.read()
+    try:
+        return source.read_bytes()
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise Refused(f"{what} cannot be read: {reason}", place) from None
