@@ -17,6 +17,7 @@ SMALLEST = {
     "diffs": ["comment cut_in:"],
     "frontend": ["--no-start", "60"],
     "growth": ["choices"],
+    "importing": ["--size", "0.02", "times"],
     "language_server": ["40"],
     "opendrive": [str(MAP)],
     "runtime": ["--largest", "10"],

@@ -71,6 +71,7 @@ class Ledger:
         self._idle_here: dict[tuple[int, str], str] = {}
         self._roots: list[tuple[Element, str]] = []
         self._files: dict[int, str] = {}
+        self._noted: set[tuple[str, str, str, str]] = set()
 
     def track(self, root: Element, file: str = "") -> Node:
         """Return a root whose parts all have to be used; `file` if it is in a catalog."""
@@ -139,7 +140,8 @@ class Ledger:
     ) -> None:
         at = ":".join(str(part) for part in (file, place) if part)
         said = (f"{path}/@{name}" if name else path, text, reason, at)
-        if said not in self.report.idle:
+        if said not in self._noted:
+            self._noted.add(said)
             self.report.idle.append(said)
 
 

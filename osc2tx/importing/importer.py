@@ -256,10 +256,10 @@ class _Import:
         lines = declared.map()
         if actions.needs_environment:
             lines.append("environment_: environment")
-        for name in self._cast.actors:
-            for node in self._document.root.below(Element):
-                if node.tag == "ScenarioObject" and node.get("name") == name:
-                    lines += comment_lines(self._comments_of(node))
+        entities = self._document.root.below(Element) if self._comments else ()
+        for node in entities:
+            if node.tag == "ScenarioObject" and node.get("name") in self._cast.actors:
+                lines += comment_lines(self._comments_of(node))
         lines += self._cast.lines
         lines += declared.parameters()
         words = set(re.findall(r"\w+", written))

@@ -113,7 +113,7 @@ class Parameters:
     def _find_aliases(self) -> None:
         """Find the parameters that only say others once more, in the unit of the document."""
         declared = {
-            each.get("name"): each
+            each.get("name") or "": each
             for node in self._document.root.children
             for each in (node.children if node.tag == "ParameterDeclarations" else ())
         }

@@ -57,6 +57,11 @@ class Step:
         return {(each.actor, slot) for each in self.effects for slot in each.slots}
 
     @property
+    def moved(self) -> set[str]:
+        """The actors that it moves, and those whose motions it controls."""
+        return self.actors | {actor for actor, _ in self.slots}
+
+    @property
     def actors(self) -> set[str]:
         """The actors that it moves."""
         return {each.actor for each in self.effects if each.actor}

@@ -88,12 +88,13 @@ class Structure:
     def _order(self, step: Step) -> None:
         """Put a step behind the one whose end starts it."""
         found = [each for each in self._ends_in(step.trigger) if each is not step]
-        chains = [each for each in found if not self._leads_to(step, each)]
-        if len(found) == 1 and chains:
+        if len(found) == 1 and not self._leads_to(step, found[0]):
             self._predecessor[step] = found[0]
             found[0].successors.append(step)
 
     def _leads_to(self, first: Step, last: Step) -> bool:
+        if not first.successors:
+            return False
         at: Step | None = last
         while at is not None:
             if at is first:
@@ -135,15 +136,18 @@ class Structure:
 
     def _groups(self, roots: Sequence[Step]) -> list[list[Step]]:
         """Return the roots in groups of those that move the same."""
-        groups: list[list[Step]] = []
-        for root in roots:
-            touching = [group for group in groups if any(_conflict(root, other) for other in group)]
-            merged = [step for group in touching for step in group] + [root]
-            groups = [group for group in groups if group not in touching] + [merged]
         order = {step: index for index, step in enumerate(self._board.steps)}
-        for group in groups:
-            group.sort(key=order.__getitem__)
-        return sorted(groups, key=lambda group: order[group[0]])
+        found: list[tuple[list[Step], set[str]]] = []  # with all that a group moves
+        for root in roots:
+            moved = {actor for step in _below(root) for actor in step.moved}
+            group, others = [root], []
+            for each, its in found:
+                if moved.isdisjoint(its) or not any(_conflict(root, other) for other in each):
+                    others.append((each, its))
+                else:
+                    group, moved = [*each, *group], moved | its
+            found = [*others, (sorted(group, key=order.__getitem__), moved)]
+        return sorted((group for group, _ in found), key=lambda group: order[group[0]])
 
     def _chain(self, step: Step, *, waits: bool = True) -> list[Statement]:
         """Return a step with what follows it, and with what waits for it unless told otherwise."""

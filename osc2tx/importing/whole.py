@@ -116,10 +116,10 @@ class _Members:
     def __init__(self, cast: Cast, inits: Starts, branches: Sequence[Branch]) -> None:
         self._inits, self.branches = inits, branches
         self._actors = cast.actors
-        self._of = {
-            each.name: [b for b in branches if each.name in b.actors]
-            for each in cast.actors.values()
-        }
+        self._of: dict[str, list[Branch]] = {each.name: [] for each in cast.actors.values()}
+        for branch in branches:
+            for name in sorted(branch.actors & self._of.keys()):
+                self._of[name].append(branch)
         self._order = inits.order(list(cast.actors))
         self._placed: set[str] = set()
         self.leading: list[Statement] = list(inits.world)
@@ -162,10 +162,11 @@ class _Members:
 
     def content(self, branch: Branch) -> list[Statement]:
         """Return a branch with the starts of its actors, up to its last event."""
+        names = branch.actors
         own = [
             said
             for said, actor in self._actors.items()
-            if actor.name in branch.actors and said not in self._placed
+            if actor.name in names and said not in self._placed
         ]
         alone = self._only_in(branch)
         before = [each for said in own for each in self._inits.statements(said, branch.members)]
