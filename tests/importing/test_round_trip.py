@@ -3,12 +3,17 @@
 These are the scenarios with an exact document. `DIFFERENT` says which do not, and what is seen.
 """
 
+import math
 from pathlib import Path
 
 import pytest
 
 from osc2tx.cli.import_ import import_all
+from osc2tx.grading.comparison import Recording
+from osc2tx.grading.runs import cached_map, run_in_player
 from osc2tx.importing.document import Folders
+from osc2tx.xosc import read
+from osc2tx.xosc.player import BY_THE_STANDARD, map_of
 from osc2tx_shared.map_files import SHIPPED
 from tests.xosc.parity import Given, is_exact, scenarios
 
@@ -46,6 +51,59 @@ def test_a_scenario_comes_back(path: Path, tmp_path: Path) -> None:
         is_same = report.measured is not None and report.measured.is_exact
         said = report.measured or report.unmeasured
         assert is_same == (document.name not in DIFFERENT), f"{document.name}: {said}"
+
+
+WITHOUT_SECOND = {  # what is imported has no document again
+    "actor_parts",
+    "assign_orientation",
+    "cut_in",
+    "falling_edge",
+    "follow_leader",
+    "lateral_modifiers",
+    "move_drive_walk",
+    "orientation_modifiers",
+    "overlaps",
+    "parallel_execution",
+    "relative_modifiers",
+    "semantic_validation",
+    "speed_modifier",
+    "trigger_measures",
+}
+STEP, LATE = 0.05, 6  # s; steps: events follow each other one step later, here up to six
+NEAR = 0.1  # m
+
+
+def played(xml: str) -> Recording:
+    road_map = cached_map(map_of(xml, (SHIPPED,)))
+    return run_in_player(read(xml), road_map, STEP, reading=BY_THE_STANDARD, given={}, most=400.0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", OWN, ids=lambda path: path.stem)
+def test_a_second_document_plays_the_same(path: Path, tmp_path: Path) -> None:
+    """Exported, imported, exported: places within 0.1 m and the way of a step."""
+    for document in scenarios(Given(path)):
+        if document.xml is None or not is_exact(document) or document.name in DIFFERENT:
+            continue
+        source = tmp_path / f"{document.name}.xosc"
+        source.write_text(document.xml, encoding="utf-8")
+        (result,), _ = import_all([source], tmp_path / "out", Folders((SHIPPED,)), force=True)
+        name = result.imported.name
+        again = scenarios(Given(tmp_path / "out" / f"{name}.osc"))
+        second = next(each.xml for each in again if each.name == name)
+        assert (second is None) == (document.name in WITHOUT_SECOND), document.name
+        if second is None:
+            continue
+        before, after = played(document.xml), played(second)
+        assert abs(before.end - after.end) <= LATE * STEP + 1e-9, document.name
+        for said, rows in before.track.items():
+            there = {round(row[0] / STEP): row for row in after.track[result.imported.actors[said]]}
+            for row in rows:
+                step = round(row[0] / STEP)
+                steps = range(step - LATE, step + LATE + 1)
+                places = [there[each][1:3] for each in steps if each in there]
+                way = abs(row[3]) * STEP
+                assert min(math.dist(row[1:3], each) for each in places) <= NEAR + way, said
 
 
 def test_the_table_has_no_other_scenarios() -> None:
