@@ -111,7 +111,7 @@ class Distribution:
 
 
 class _Constraint:
-    """The constraints of a parameter; what they say of the same values is found once."""
+    """The constraints of a parameter; the result for the same values is kept."""
 
     def __init__(self, declaration: Element) -> None:
         self._name = declaration.get("name") or ""
