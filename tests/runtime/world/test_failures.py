@@ -248,10 +248,10 @@ CASES: list[tuple[Callable[[Any], Behaviour], str, float, str]] = [
         "a follows its lane and can turn 28.6 degrees from it, not 68.8",
     ),
     (
-        lambda s: s.a.change_speed(target=14.0, duration=(0.1, 0.5)),
+        lambda s: s.a.change_speed(target=14.0, duration=(0.1, 0.3)),
         "a.change_speed",
         AT_ONCE,
-        "10.0 to 14.0 m/s in 0.5 s takes more than 12 m/s^2",
+        "10.0 to 14.0 m/s in 0.3 s takes more than 12 m/s^2",
     ),
 ]
 

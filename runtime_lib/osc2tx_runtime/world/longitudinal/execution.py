@@ -33,6 +33,7 @@ from osc2tx_runtime.world.geometry.profiles import (
 from osc2tx_runtime.world.protocol import PENDING, REACHED, Progress
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.step_inputs import StepInputs
+from osc2tx_shared.classes import replace
 
 from .acceleration import AccelerationRun, ConstantAcceleration
 from .arrival_schedule import Schedule, towards
@@ -207,6 +208,18 @@ def excessive_rate(command: SpeedChange, speed: float, limits: Limits = TYRES) -
                 f" than {most}"
             )
     return None
+
+
+def within_limits(command: SpeedChange, speed: float, limits: Limits) -> SpeedChange:
+    """Return a speed change that can be driven, if there is one; else the change itself.
+
+    Where nothing is said of the profile (§8.8.2.12), it is smooth, and has a constant acceleration
+    where only that reaches the speed in the time.
+    """
+    if command.profile != "none" or excessive_rate(command, speed, limits) is None:
+        return command
+    even = replace(command, profile="constant")
+    return command if excessive_rate(even, speed, limits) else even
 
 
 def excessive_acceleration(value: float, speed: float, limits: Limits = TYRES) -> str | None:

@@ -15,7 +15,11 @@ from osc2tx_runtime.language.actions.action import ActionOptions
 from osc2tx_runtime.language.actions.registry import LATERAL, LONGITUDINAL, action
 from osc2tx_runtime.language.tree.base import Status
 from osc2tx_runtime.world.commands import SpeedChange
-from osc2tx_runtime.world.longitudinal.execution import excessive_rate, speed_profile
+from osc2tx_runtime.world.longitudinal.execution import (
+    excessive_rate,
+    speed_profile,
+    within_limits,
+)
 from osc2tx_shared.classes import replace
 
 from .modifiable import ModifiableAction
@@ -43,8 +47,9 @@ class ChangeSpeed(RatedChange):
 
     def on_start(self) -> None:
         """Commands the change, or nothing if the speed is there already."""
-        change = self._change(value_of(self.target))
-        reason = excessive_rate(change, self.here.v, self.limits if self.strict else self.tyres)
+        limits = self.limits if self.strict else self.tyres
+        change = within_limits(self._change(value_of(self.target)), self.here.v, limits)
+        reason = excessive_rate(change, self.here.v, limits)
         reason = None if self.may_jump else reason or self._contradiction(change)
         if reason is not None:
             raise Refused(reason)

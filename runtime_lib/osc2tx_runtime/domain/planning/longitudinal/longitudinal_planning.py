@@ -36,6 +36,7 @@ from osc2tx_runtime.world.longitudinal.execution import (
     excessive_acceleration,
     excessive_rate,
     speed_profile,
+    within_limits,
 )
 from osc2tx_shared.classes import replace
 
@@ -284,7 +285,9 @@ def _checked(action: ModifiedMotion, command: SpeedChange) -> SpeedChange:
     if command.duration == 0.0:
         return command  # it may jump
     start = action.here.v if command.start is None else command.start
-    reason = excessive_rate(command, start, action.limits if action.strict else action.tyres)
+    limits = action.limits if action.strict else action.tyres
+    command = within_limits(command, start, limits)
+    reason = excessive_rate(command, start, limits)
     if reason is not None:
         raise Refused(reason)
     return command
