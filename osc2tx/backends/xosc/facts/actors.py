@@ -18,6 +18,7 @@ from osc2tx_runtime.world.actor_dimensions import (
     COMFORT,
     GENTLE,
     TOP_SPEED,
+    TYRES,
     Limits,
     Shape,
     limits_of,
@@ -36,7 +37,7 @@ from osc2tx_runtime.world.grip.friction import ADHESION, held_by, road_condition
 from osc2tx_runtime.world.lateral.execution import shift_profile
 from osc2tx_runtime.world.lateral.feedback import SIDEWAYS
 from osc2tx_runtime.world.longitudinal.acceleration import acceleration_profile
-from osc2tx_runtime.world.longitudinal.execution import speed_profile
+from osc2tx_runtime.world.longitudinal.execution import speed_profile, within_limits
 from osc2tx_runtime.world.motion.moving_body import ALIGNED
 from osc2tx_runtime.world.motion.moving_body import CRUISE as SPEEDS_AT_START
 from osc2tx_runtime.world.motion.towing import DRAWBAR
@@ -98,7 +99,8 @@ def automatic_light(weather: Mapping[str, float]) -> str:
 
 def course_of_speed(start: float, target: float, pace: Pace, limits: Limits) -> Profile:
     """Return the course of a change of the speed (m/s) as the embedded world drives it."""
-    return speed_profile(SpeedChange(target, *pace.told), start, limits)
+    change = within_limits(SpeedChange(target, *pace.told), start, TYRES)
+    return speed_profile(change, start, limits)
 
 
 def way_by_acceleration(
