@@ -192,6 +192,10 @@ def _report_dimension(
 
 
 def _check_sign(r: Resolution, expression: ast.Expression, target: Type, what: str) -> None:
+    if isinstance(target, ListType) and isinstance(expression, ast.ListLiteral):
+        for element in expression.elements:
+            _check_sign(r, element, target.element, f"an element of {what}")
+        return
     if target != UINT:
         return
     match expression:

@@ -210,11 +210,16 @@ class ScenarioSymbol(BehaviorSymbol):
 
 @dataclass(slots=True, kw_only=True, eq=False, repr=False)
 class ActionSymbol(BehaviorSymbol):
-    """An action."""
+    """An action.
+
+    Attributes:
+        derived: The actions that are declared to inherit from it; only of a user's own.
+    """
 
     node: ast.ActionDeclaration
     base: ActionSymbol | None = None
     condition: ast.InheritanceCondition | None = None
+    derived: list[ActionSymbol] = field(default_factory=list)
 
 
 @dataclass(slots=True, kw_only=True, eq=False, repr=False)

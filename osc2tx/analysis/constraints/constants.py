@@ -244,12 +244,10 @@ class ConstantEvaluator:
                         node, f"no member of `{enum.name}` has the value {value}"
                     )
                 return value
-            case types.INT | types.UINT if isinstance(value, float):
-                if not math.isfinite(value):
+            case types.INT | types.UINT if isinstance(value, float | int):
+                if not math.isfinite(value) or (target == types.UINT and value <= -1):
                     raise ImpossibleConversionError(node, f"{value} is no `{target}`")
                 return int(value)
-            case types.INT | types.UINT if isinstance(value, int):
-                return value
             case types.FLOAT if not isinstance(value, str):
                 return float(value)
             case _:

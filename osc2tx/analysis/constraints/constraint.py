@@ -87,7 +87,7 @@ class ConstraintWriter:
             upper = self._operations.append(operations, value.upper, place.locate)
             self._operations.append_comparison(operations, "in range", left, [lower, upper], value)
         else:
-            right = self._operations.append(operations, value, place.locate)
+            right = self._operations.append_given(operations, type_, value, place.locate)
             self._operations.append_comparison(operations, "==", left, [right], value)
         return Constraint(
             node=value,

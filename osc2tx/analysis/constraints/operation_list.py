@@ -36,6 +36,7 @@ LOGIC = (Op.AND, Op.OR, Op.IMPLIES)
 Key: TypeAlias = tuple[sym.Symbol | ast.Node, ...]
 """A parameter: the fields that lead to it; an invocation's begin with the invocation."""
 
+INTEGERS = ("int", "uint")
 SIZE = builtin_field("size", types.UINT)
 """Key of the size of a list: the list, and then this."""
 
@@ -157,6 +158,16 @@ class OperationListBuilder:
                 continue
             done[node] = self._add(operations, node, [done[child] for child in children], locate)
         return done[expression]
+
+    def append_given(
+        self, operations: OperationList, type_: types.Type, value: ast.Expression, locate: Locate
+    ) -> int:
+        """Append the value given to a parameter: an integer becomes one of the parameter's type."""
+        position = self.append(operations, value, locate)
+        kind = kind_of(type_)
+        if kind in INTEGERS and operations.items[position].kind in INTEGERS:
+            return self._convert(operations, position, kind, value)
+        return position
 
     def append_variable(
         self, operations: OperationList, key: Key, type_: types.Type, node: ast.Node

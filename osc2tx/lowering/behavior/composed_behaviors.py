@@ -12,9 +12,15 @@ Composed: TypeAlias = sym.ScenarioSymbol | sym.ActionSymbol
 
 
 def is_composed(symbol: sym.Symbol | None) -> TypeGuard[Composed]:
-    """Whether a module has a class for a behavior, instead of leaving it to the runtime."""
+    """Whether a module has a class for a behavior, instead of leaving it to the runtime.
+
+    An action without a `do` has one too if another with a `do` inherits its members.
+    """
     if isinstance(symbol, sym.ActionSymbol):
-        return symbol.origin == "user" and has_behavior(symbol)
+        return symbol.origin == "user" and (
+            has_behavior(symbol)
+            or any(each.base is symbol and is_composed(each) for each in symbol.derived)
+        )
     return isinstance(symbol, sym.ScenarioSymbol)
 
 

@@ -183,7 +183,8 @@ class InvocationLowering:
             self._ctx.unsupported(
                 "OSC504",
                 node.span,
-                f"scenario `{idle.qualified_name}` has no `do`",
+                f"{'action' if isinstance(idle, sym.ActionSymbol) else 'scenario'} "
+                f"`{idle.qualified_name}` has no `do`",
                 help="say what happens in it: `do …`",
             )
             return None

@@ -20,6 +20,8 @@ def lower_arguments(
     lowered = []
     for parameter, value in binding.arguments:
         expression = ctx.lower(value)
+        if expression is not None and binding.callee.origin != "user":
+            _refuse_added_member(ctx, expression, parameter.type)
         argument = nodes.get(id(value))
         if expression is not None:
             lowered.append(
@@ -31,6 +33,21 @@ def lower_arguments(
                 )
             )
     return tuple(lowered)
+
+
+def _refuse_added_member(ctx: LoweringContext, value: ir.Expression, type_: types.Type) -> None:
+    """Refuse what the library cannot know: a member that the user adds to one of its enums."""
+    if not isinstance(value, ir.EnumValue) or not isinstance(type_, types.EnumType):
+        return
+    enum = type_.symbol
+    if enum.origin != "user" and enum.members[value.member].origin == "user":
+        known = ", ".join(f"`{m.name}`" for m in enum.members.values() if m.origin != "user")
+        ctx.unsupported(
+            "OSC503",
+            value.span,
+            f"the library does not know `{value.member}`, which is added to `{enum.name}`",
+            help=f"say one of {known}",
+        )
 
 
 def _as_range(value: ir.Expression, type_: types.Type) -> ir.Expression:

@@ -111,6 +111,8 @@ def _resolve_behavior_base(r: Resolution, symbol: Symbol, context: Context) -> N
             action = resolve_behavior_name(r, base, context)
             if isinstance(action, ActionSymbol):
                 symbol.base = action
+                if action.origin == "user":
+                    action.derived.append(symbol)
             elif action is not None:
                 _report_kind(r, base, "action")
         case ModifierSymbol(node=ast.ModifierDeclaration(behavior=ast.BehaviorName() as name)):

@@ -120,7 +120,8 @@ def couple(starts: Sequence[ActorStart]) -> None:
         if tow is None:
             continue
         trailer = by_id[tow.trailer.id]
-        if trailer.modifiers or trailer.towed_by is not None:
+        places = [m for m in trailer.modifiers if not isinstance(m, TowTrailer)]
+        if places or trailer.towed_by is not None:
             raise PlacementError(
                 f"{trailer.actor.id} is towed by {start.actor.id}, so it has no place of its own",
                 start.source,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
 from osc2tx_runtime.errors import NO_RESULT, ScenarioError, why_no_result
@@ -33,6 +34,8 @@ class Sampled:
     Attributes:
         name: Name in the scenario; the scenario fills it in.
         value: The value that others read in this pass.
+        due: Whether its condition samples it at this instant, for those who read it before that
+            has happened; None for a variable that an event samples.
     """
 
     def __init__(
@@ -48,13 +51,19 @@ class Sampled:
         self.trigger = trigger
         self.condition = condition
         self.value = default
+        self.due: Watch | None = None
 
     def read(self) -> Any:
-        """Return the value.
+        """Return the value: before the first sample the one that is due at this instant, if any.
+
+        `every` without an offset samples at the very start of the scenario (§7.3.10.4), and all
+        members that start with it may read that.
 
         Raises:
             ScenarioError: If there is none yet.
         """
+        if self.value is MISSING and self.due is not None and self.due():
+            return present_value(self)
         if self.value is MISSING:
             raise ScenarioError(f"{self.name} is read before it is sampled; give it a default")
         return self.value
@@ -80,6 +89,19 @@ class Sampling(Leaf):
         self._watches: list[Watch] = []
         self._sampled: dict[Sampled, int] = {}  # step of the last sample at a condition
 
+    def setup(self, **kwargs: Any) -> None:
+        """Let the members that start before this node read what is sampled at once."""
+        super().setup(**kwargs)
+        for variable in self._conditional():
+            variable.due = partial(self._is_due_at_start, variable)
+
+    def _conditional(self) -> list[Sampled]:
+        return [v for v in self._variables if not isinstance(v.trigger, Event)]
+
+    def _is_due_at_start(self, variable: Sampled) -> bool:
+        assert not isinstance(variable.trigger, str), variable.name
+        return watch(variable.trigger, variable.condition, self.context)()
+
     def initialise(self) -> None:
         """Start watching."""
         self.context.samplers.append(self._sample_at_events)
@@ -89,6 +111,9 @@ class Sampling(Leaf):
             for trigger, condition in watched
             if not isinstance(trigger, str)
         ]
+        for variable, happened in zip(self._variables, self._watches, strict=True):
+            if not isinstance(variable.trigger, Event):
+                variable.due = happened
         self._sampled = {}
         self._is_over = False
 
@@ -154,13 +179,17 @@ def sampling_of(variables: Sequence[Sampled]) -> str:
 
 
 def sample(variable: Sampled, context: ExecutionContext) -> None:
-    """Give a variable the value that its expression has now.
+    """Give a variable the value that its expression has now."""
+    context.assign(variable, present_value(variable))
+
+
+def present_value(variable: Sampled) -> Any:
+    """Return the value that the expression of a variable has now.
 
     Raises:
         ScenarioError: It has none.
     """
     try:
-        value = variable.expression()
+        return variable.expression()
     except NO_RESULT as error:
         raise ScenarioError(f"{variable.name} has no value: {why_no_result(error)}") from error
-    context.assign(variable, value)
