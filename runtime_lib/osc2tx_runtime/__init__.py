@@ -112,7 +112,7 @@ from osc2tx_runtime.language.actions.registry import (
     methods,
     user_action,
 )
-from osc2tx_runtime.language.declared import as_type, not_given, undefined
+from osc2tx_runtime.language.declared import as_type, member_at, not_given, undefined
 from osc2tx_runtime.language.settings import RunSettings
 from osc2tx_runtime.language.tree import (
     Behaviour,
@@ -188,6 +188,7 @@ __all__ = [  # noqa: RUF022 (grouped by origin)
     "bounded",
     "fixed",
     "inf",
+    "member_at",
     "not_given",
     "undefined",
     "within",

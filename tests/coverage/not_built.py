@@ -63,13 +63,26 @@ NOT_BUILT = (
         SCENARIO + "    var k: bool = false\n    do serial:\n        base(quick: k)\n",
     ),
     NotBuilt(
-        "two fields of one name that extensions add to one type in different namespaces",
+        "two fields of one name that a type has in different namespaces, by extensions or from its"
+        " base",
         "OSC501",
         "types are Python classes, whose attributes have one name; types of one name in several"
         " namespaces are built",
         "namespace one use std, stdtypes\nextend vehicle:\n    n: int = 1\n"
         "namespace two use std, stdtypes\nextend vehicle:\n    n: int = 2\n"
         + (SCENARIO + DRIVE + "speed(5mps)\n"),
+    ),
+    NotBuilt(
+        "an actor that is a field of a struct or of another actor, and that nothing names",
+        "OSC501",
+        "the cast of a scenario are its own fields and lists, so that each actor has a name of its"
+        " own in traces and settings. A field inside of an object is one of them:"
+        " `keep(p.lead == ego)`",
+        "struct pair_of_cars:\n    lead: vehicle\n"
+        + SCENARIO.replace("\nnamespace null use std, stdtypes\n", "")
+        + "    p: pair_of_cars"
+        + DRIVE
+        + "speed(p.lead.speed)\n",
     ),
     NotBuilt(
         "`lateral` of persons and other actors that follow no lane",

@@ -152,8 +152,12 @@ class ExpressionWriter:
                 return name_expression(element_name(depth))
             case ir.ListOperation():
                 return list_operation(expression, self.write)
-            case ir.Index(base=base, index=index):
+            case ir.Index(base=base, index=ir.Literal() as index):
                 return PyExpr(f"{self._atom(base)}[{self.write(index)}]", Level.ATOM)
+            case ir.Index(base=base, index=index):
+                # Python counts negative indices from the end.
+                inner = f"{self.write(base)}, {self.write(index)}"
+                return PyExpr(f"{self._use_name('member_at')}({inner})", Level.ATOM)
             case ir.Conversion(operand=operand):
                 function = "int" if expression.type.kind is ir.Kind.INTEGER else "float"
                 return PyExpr(f"{function}({self.write(operand)})", Level.ATOM)

@@ -69,6 +69,7 @@ RUNTIME_FUNCTIONS = frozenset(
         "global_action",
         "inf",
         "main",
+        "member_at",
         "not_given",
         "require_api",
         "rise",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, ClassVar, NoReturn, TypeVar
 
 from osc2tx_runtime.errors import ScenarioError
@@ -63,6 +64,21 @@ def as_type(value: object, kind: type[ObjectT]) -> ObjectT:
     if isinstance(value, BaseActor) and issubclass(kind, BaseActor):
         raise ScenarioError(f"{value.id} is no {kind.kinds[0]}", value.source)
     raise ScenarioError(f"a {type(value).__name__} is no {kind.__name__}")
+
+
+MemberT = TypeVar("MemberT")
+
+
+def member_at(values: Sequence[MemberT], index: int) -> MemberT:
+    """Return a member of a list by its index, which counts from 0 (§7.4.2.7.2).
+
+    Raises:
+        LookupError: There is none: the list is shorter, or the index is negative, as that of
+            `first_index` where it finds nothing.
+    """
+    if not 0 <= index < len(values):
+        raise LookupError(f"a list of {len(values)} has no member with the index {index}")
+    return values[index]
 
 
 def undefined(method: str) -> NoReturn:
