@@ -218,10 +218,12 @@ class ConstraintLowering:
             return False
         if constraint in self._used:
             return True
-        if len(member) == 1:
-            return False
         about = self.found.by_key.get(subject, ())
-        return [c for c in about if c.subject == subject and c.value is not None] == [constraint]
+        own = [c for c in about if c.subject == subject and c.value is not None]
+        if len(member) == 1:  # the other one is declared later, and takes its last definition
+            definitions = [c for c in own if not c.is_range]
+            return len(subject) == 1 and definitions[-1:] == [constraint]
+        return own == [constraint]
 
     def _domain(
         self, writer: DomainWriter, within: Constraint | None, hard: Domain
