@@ -1,20 +1,28 @@
-"""Arguments for parameters whose one value an invoked scenario states itself."""
+"""Arguments for parameters whose value an invoked scenario states itself."""
 
 from __future__ import annotations
 
 from osc2tx import ir
 from osc2tx.analysis import single_value
 from osc2tx.lowering.behavior.composed_behaviors import Composed
+from osc2tx.lowering.constraints.constraints import ConstraintLowering
 from osc2tx.lowering.context import LoweringContext
+from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.names.member_lookup import parameters_of
+from osc2tx.syntax import ast
 
 
 def without_fixed(
-    ctx: LoweringContext, callee: Composed, arguments: tuple[ir.Argument, ...]
+    ctx: LoweringContext,
+    constraints: ConstraintLowering,
+    node: ast.Invocation,
+    callee: Composed,
+    arguments: tuple[ir.Argument, ...],
 ) -> tuple[ir.Argument, ...]:
     """Return the arguments for parameters that a scenario leaves open.
 
-    A constant that contradicts the scenario is an error already; an open value may do so.
+    A constant that contradicts the scenario is an error already; an open value may do so. Where
+    the scenario computes a parameter from others, these get the values that make it the argument.
     """
     domains = ctx.analysis.types[callee].domains_to_set()
     fixed = set()
@@ -22,13 +30,14 @@ def without_fixed(
         domain = domains.get((parameter,))
         if domain is not None and single_value(domain) is not None:
             fixed.add(parameter.name)
+    computed = _computed(ctx, callee, arguments)
+    given = {argument.parameter for argument in arguments}
+    supplied: dict[str, ir.Argument] = {}
     for argument in arguments:
         is_open = any(isinstance(part, ir.FieldRef) for part in ir.walk(argument.value))
-        if (
-            argument.parameter in fixed
-            and argument.value.type.kind is not ir.Kind.ACTOR
-            and is_open
-        ):
+        if argument.value.type.kind is ir.Kind.ACTOR:
+            continue
+        if argument.parameter in fixed and is_open:
             ctx.unsupported(
                 "OSC501",
                 argument.span,
@@ -36,4 +45,62 @@ def without_fixed(
                 " one is open, and may be another",
                 help="leave the argument out, or the constraint there",
             )
-    return tuple(each for each in arguments if each.parameter not in fixed)
+        elif argument.parameter in computed:
+            others = computed[argument.parameter]
+            missing = [each for each in others if each.name not in given | computed.keys()]
+            found = {each.name: _value(constraints, node, each) for each in missing}
+            known = {name: value for name, value in found.items() if value is not None}
+            if is_open or len(known) < len(found):
+                names = " and ".join(f"`{each.name}`" for each in others)
+                ctx.unsupported(
+                    "OSC501",
+                    argument.span,
+                    f"`{callee.qualified_name}` computes `{argument.parameter}` from {names}",
+                    help=f"give {names} instead",
+                )
+            supplied |= {
+                name: ir.Argument(
+                    parameter=name, value=value, is_positional=False, span=argument.span
+                )
+                for name, value in known.items()
+            }
+    left_out = fixed | computed.keys()
+    kept = tuple(each for each in arguments if each.parameter not in left_out)
+    return (*kept, *(each for name, each in supplied.items() if name not in left_out | given))
+
+
+def _computed(
+    ctx: LoweringContext, callee: Composed, arguments: tuple[ir.Argument, ...]
+) -> dict[str, list[sym.FieldSymbol]]:
+    """Return the parameters that the scenario computes from others, with those."""
+    parameters = list(parameters_of(callee))
+    related = {each.name: _related(ctx, callee, each) for each in parameters}
+    if not any(related.get(each.parameter) for each in arguments):
+        return {}
+    found = {}
+    inside = ConstraintLowering.of_scenario(ctx.quiet(), callee)
+    for parameter in parameters:
+        setting = inside.setting((parameter,), parameter.type)
+        if setting.is_fixed and related[parameter.name]:
+            found[parameter.name] = related[parameter.name]
+    return found
+
+
+def _related(
+    ctx: LoweringContext, callee: Composed, parameter: sym.FieldSymbol
+) -> list[sym.FieldSymbol]:
+    """Return the parameters that hard constraints relate to one."""
+    found: dict[sym.FieldSymbol, None] = {}
+    for constraint in ctx.analysis.types[callee].by_key.get((parameter,), ()):
+        for key in () if constraint.is_default else constraint.operations.keys_in_order:
+            if len(key) == 1 and isinstance(key[0], sym.FieldSymbol) and key[0] is not parameter:
+                found[key[0]] = None
+    return list(found)
+
+
+def _value(
+    constraints: ConstraintLowering, node: ast.Invocation, parameter: sym.FieldSymbol
+) -> ir.Expression | None:
+    """Return the only value that the constraints of an invocation leave a parameter."""
+    setting = constraints.setting((node, parameter), parameter.type)
+    return setting.value if setting.is_fixed else None

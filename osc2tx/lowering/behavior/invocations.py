@@ -222,7 +222,7 @@ class InvocationLowering:
             key=scenario_key(callee),
             actor=actor,
             specials=self._specials.lowered(special, arguments),
-            arguments=without_fixed(self._ctx, callee, handed_in),
+            arguments=without_fixed(self._ctx, self._constraints, node, callee, handed_in),
             duration=duration if duration is None else with_bounds(duration),
             until=lower_until(self._ctx, node.with_members),
         )
