@@ -31,10 +31,11 @@ def without_fixed(
         if domain is not None and single_value(domain) is not None:
             fixed.add(parameter.name)
     computed = _computed(ctx, callee, arguments)
+    stated = {a.parameter for a in arguments if not _is_open(a)}  # constants, which are checked
     given = {argument.parameter for argument in arguments}
     supplied: dict[str, ir.Argument] = {}
     for argument in arguments:
-        is_open = any(isinstance(part, ir.FieldRef) for part in ir.walk(argument.value))
+        is_open = _is_open(argument)
         if argument.value.type.kind is ir.Kind.ACTOR:
             continue
         if argument.parameter in fixed and is_open:
@@ -47,7 +48,7 @@ def without_fixed(
             )
         elif argument.parameter in computed:
             others = computed[argument.parameter]
-            missing = [each for each in others if each.name not in given | computed.keys()]
+            missing = [each for each in others if each.name not in stated | computed.keys()]
             found = {each.name: _value(constraints, node, each) for each in missing}
             known = {name: value for name, value in found.items() if value is not None}
             if is_open or len(known) < len(found):
@@ -67,6 +68,10 @@ def without_fixed(
     left_out = fixed | computed.keys()
     kept = tuple(each for each in arguments if each.parameter not in left_out)
     return (*kept, *(each for name, each in supplied.items() if name not in left_out | given))
+
+
+def _is_open(argument: ir.Argument) -> bool:
+    return any(isinstance(part, ir.FieldRef) for part in ir.walk(argument.value))
 
 
 def _computed(
