@@ -61,6 +61,7 @@ def test_outcome(
     case: Case, load: Callable[[GeneratedModule], type[Scenario]], tmp_path: Path
 ) -> None:
     for name, text in case.files.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text(text, encoding="utf-8")
     options = CompileOptions(standard=case.standard, target="py")
     compilation = Compilation(tmp_path / "case.osc", "case.osc", options)
