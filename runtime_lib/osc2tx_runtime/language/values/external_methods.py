@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib import import_module
-from typing import Any
+from typing import Any, Literal, get_args, get_origin
 
 from osc2tx_runtime.errors import OwnCode, ScenarioError, SettingsError
 
@@ -44,12 +44,29 @@ def external_function(
     return call
 
 
-def as_kind(result: Any, kind: type, path: str, source: str) -> Any:
-    """Return a result converted to the declared type.
+def as_kind(result: Any, kind: Any, path: str, source: str) -> Any:
+    """Return a result converted to the declared type, a list member by member.
+
+    Args:
+        result: What the function returned.
+        kind: A class, the `Literal` of an enumeration, or `list[…]` of one of these.
+        path: `module.function`.
+        source: Place of the method in the scenario.
 
     Raises:
         ScenarioError: If it is something else.
     """
+    arguments = get_args(kind)
+    if get_origin(kind) is Literal:
+        if not isinstance(result, str) or result not in arguments:
+            raise ScenarioError(
+                f"{path} returns {result!r}, which is none of {', '.join(arguments)}", source
+            )
+        return result
+    if get_origin(kind) is list:
+        members = as_kind(result, list, path, source)
+        return [as_kind(each, arguments[0], path, source) for each in members]
+    kind = get_origin(kind) or kind
     if kind is float and isinstance(result, int) and not isinstance(result, bool):
         return float(result)
     if not isinstance(result, kind) or (kind is int and isinstance(result, bool)):
