@@ -175,6 +175,14 @@ class ObjectLowering:
                 value = setting.domain
             elif value is None and setting.domain is not None:
                 value = self._ctx.draw(name_of(key), setting.domain, lower_type(member.type))
+            if value is not None and _is_own_method(value):
+                self._ctx.unsupported(
+                    "OSC501",
+                    value.span,
+                    f"a method of the object that it belongs to computes `{member.name}`",
+                    help="write the expression of the method instead",
+                )
+                continue
             if value is not None and reads_map(value):
                 self._ctx.unsupported("OSC502", value.span, NOT_SEARCHED_BY, help=SEARCHED_BY)
                 continue
@@ -254,6 +262,12 @@ class ObjectLowering:
             help=f"`keep({name_of(key)} == value)`, or give it a default",
         )
         return None
+
+
+def _is_own_method(value: ir.Expression) -> bool:
+    """Whether a value comes from a method of the object itself, which is not made yet."""
+    calls = (part for part in ir.walk(value) if isinstance(part, ir.MethodCall))
+    return any(isinstance(a.value, ir.ScenarioSelf) for call in calls for a in call.arguments)
 
 
 def _outside(key: Key) -> Key:
