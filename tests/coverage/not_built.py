@@ -55,14 +55,6 @@ NOT_BUILT = (
         SCENARIO + "    r: road with:\n        keep(it.length > 100m)" + DRIVE + "along(r)\n",
     ),
     NotBuilt(
-        "a scenario derived by a condition that only the run decides",
-        "OSC501",
-        "the value of the condition is fixed while the scenario runs (§7.3.8.2), and it decides"
-        " which members the behavior tree has. So it must be known when the tree is built: a"
-        " constant, or what constraints leave no choice in",
-        SCENARIO + "    var k: bool = false\n    do serial:\n        base(quick: k)\n",
-    ),
-    NotBuilt(
         "two fields of one name that a type has in different namespaces, by extensions or from its"
         " base",
         "OSC501",
