@@ -14,6 +14,9 @@ from osc2tx_shared.rules.arguments import Given, Rule, none_of, violations
 
 LATERAL_SPEED = "lateral speed"
 
+RATES = ("speed", "keep_speed", "acceleration")
+"""Modifiers that may rule the motion while a place is only met at its end."""
+
 CONTRADICTIONS = ((("movement_mode", "monotonous"), ("option", "prefer_non_physical")),)
 """Arguments that contradict each other in the modifiers of one action."""
 
@@ -191,7 +194,7 @@ class _Action(Generic[CallT]):
         sorts = sorts_of(call, self.known)
         for sort in sorted(sorts):
             for other in self._about(sorts[sort]):
-                arrives = sort in ("speed", "acceleration") and other.name == "position"
+                arrives = sort in RATES and other.name == "position"
                 if other is call or (arrives and self._has_room_for_place()):
                     continue
                 if not is_across(other, self.known):

@@ -89,6 +89,10 @@ class Roads:
         """Return the place on a lane at a position (m) along its road."""
         return place_along_road(self.map, place, position)
 
+    def way(self, place: LanePosition, goal: LanePosition) -> float | None:
+        """Return the way (m) along lanes from one place to another one; `None` without one."""
+        return self.map.route_distance(place, goal)
+
     def place(self, road: str, lane: int, s: float, t: float) -> LanePosition:
         """Return a place from its coordinates on a road given by its name.
 

@@ -10,6 +10,7 @@ from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed.gaps import Gap, reach
 from osc2tx.backends.xosc.actions.speed.speed_changes import through_points
 from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
+from osc2tx.backends.xosc.actions.speed.speed_modifiers import cover_in_time
 from osc2tx.backends.xosc.actions.speed.speed_notes import (
     NEAR,
     PROFILE_ACTION,
@@ -67,15 +68,20 @@ def _at_point(leaf: Leaf, call: Call) -> Changes:
 
 
 def _along_road(leaf: Leaf, call: Call, distance: float) -> Changes:
-    """End an invocation so far (m) along the road; it keeps its lane until then."""
+    """Be so far (m) along the road at the end of an invocation; it keeps its lane until then."""
     lane, roads = leaf.state.lane, leaf.ctx.roads
-    if call.at != "end" or leaf.duration is not None:
+    if call.at != "end":
         raise Inexpressible("a distance from the start of the road that is not the end of the way")
     if lane is None or roads is None:
         raise Inexpressible("which road it is on is only known during the run")
     place = roads.along_road(lane, distance)
     if place is None:
         raise Inexpressible(f"the road ends before {distance:g} m")
+    if leaf.duration is not None:
+        way = roads.way(lane, place) if leaf.is_start else None
+        if way is None:
+            raise Inexpressible("how far it is from its place is only known during the run")
+        return (cover_in_time(leaf, call, way, leaf.duration),)
     goal = lane_place(roads, place)
     leaf.reached = at_place(leaf.ctx, call, leaf.member.name, goal, place)
     return ()

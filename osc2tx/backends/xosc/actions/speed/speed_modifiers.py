@@ -228,13 +228,21 @@ def _change_speed(leaf: Leaf, call: Call) -> Changes:
 @modifier("distance", takes=())
 def _distance(leaf: Leaf, call: Call) -> Changes:
     distance = call.required("distance")
-    if any(_has_to_fit(leaf, other) for other in leaf.node.modifiers):
-        reason = "what has to hold at the end of its distance decides how it gets there"
-        raise Inexpressible(reason)
-    if leaf.duration is None:
-        leaf.distance = distance
-        return ()
-    start, time = leaf.state.known_speed, leaf.duration
+    if leaf.duration is not None:
+        return (cover_in_time(leaf, call, distance, leaf.duration),)
+    _check_end_is_free(leaf, call)
+    leaf.distance = distance
+    return ()
+
+
+def cover_in_time(leaf: Leaf, call: Call, distance: float, time: float) -> Change:
+    """Return the even change of the speed that covers a distance (m) in a time (s).
+
+    Raises:
+        Inexpressible: Something else decides how it gets there.
+    """
+    _check_end_is_free(leaf, call)
+    start = leaf.state.known_speed
     if start is None:
         raise Inexpressible(UNKNOWN_SPEED)
     end = 2.0 * distance / time - start
@@ -246,7 +254,14 @@ def _distance(leaf: Leaf, call: Call) -> Changes:
     after = replace(leaf.state.finished(LONGITUDINAL), speed=known(end), rate=left)
     during = replace(after, speed=known(start).over(known(end)))
     action = speed_action(end, "linear", "time", time)
-    return (Change(LONGITUDINAL, (action,), time, during, after),)
+    return Change(LONGITUDINAL, (action,), time, during, after)
+
+
+def _check_end_is_free(leaf: Leaf, call: Call) -> None:
+    others = [other for other in leaf.node.modifiers if other is not call.node]
+    if any(_has_to_fit(leaf, other) for other in others):
+        reason = f"what has to hold at the end of its {call.name} decides how it gets there"
+        raise Inexpressible(reason)
 
 
 def _has_to_fit(leaf: Leaf, call: ir.ModifierCall) -> bool:

@@ -52,7 +52,7 @@ class PhysicalMovement(Modifier):
         Sort(
             "course along a route",
             given=("shape",),
-            excludes=(COURSE, "speed", "acceleration", "distance"),
+            excludes=(COURSE, "speed", "keep_speed", "acceleration", "distance"),
         ),
     ),
     placement=True,

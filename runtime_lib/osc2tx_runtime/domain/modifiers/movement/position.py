@@ -32,7 +32,7 @@ __all__ = ["Distance", "KeepPosition", "Location", "Position"]
         Sort(
             "course of the place",
             given=("shape",),
-            excludes=(COURSE, "speed", "acceleration", "distance"),
+            excludes=(COURSE, "speed", "keep_speed", "acceleration", "distance"),
         ),
     ),
     lanes_only=True,
@@ -158,7 +158,7 @@ class KeepPosition(Modifier):
         Sort(
             "course of the way",
             given=("shape",),
-            excludes=(COURSE, "speed", "acceleration", "distance"),
+            excludes=(COURSE, "speed", "keep_speed", "acceleration", "distance"),
         ),
     ),
     no_start="is covered during the action, not at its start",

@@ -156,7 +156,12 @@ class ChangeSpeed(MovementModifier):
         return wanted(self.speed, self.speed_range, self.shape)
 
 
-@modifier("keep_speed", slots=(LONGITUDINAL,), topics=(COURSE,), paces=True)
+@modifier(
+    "keep_speed",
+    slots=(LONGITUDINAL,),
+    excludes=(COURSE, "speed", "acceleration"),
+    paces=True,
+)
 @dataclass(frozen=True, slots=True)
 class KeepSpeed(Modifier):
     """The speed at the start of the action."""

@@ -10,6 +10,7 @@ from osc2tx_runtime.domain.modifiers import (
     Along,
     ChangeSpeed,
     Distance,
+    KeepSpeed,
     Position,
     Speed,
 )
@@ -48,6 +49,7 @@ def watched_place(action: ModifiedMotion) -> Position | None:
         return None
     rates = [m for m in action.lasting if isinstance(m, Acceleration)]
     rules = any(m.at == "all" for m in (*speeds_of(action), *rates))
+    rules = rules or one_of_kind(action.lasting, KeepSpeed) is not None
     return position if rules or one_of_kind(action.lasting, Distance) is not None else None
 
 
