@@ -26,6 +26,7 @@ from osc2tx_runtime.world.plant.anchoring import arrive
 from osc2tx_runtime.world.plant.plant import CheckedPlant, Identity, Plant
 from osc2tx_runtime.world.plant.scene import Scene
 from osc2tx_runtime.world.plant.weather_effects import Lights, Surroundings
+from osc2tx_runtime.world.step_inputs import Outlook
 from osc2tx_runtime.world.surroundings.stop_lines_ahead import StopLine, StopLines
 from osc2tx_runtime.world.surroundings.sun_and_moon import Sky
 from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
@@ -73,6 +74,7 @@ class EmbeddedWorld:
         self._ids: tuple[str, ...] = ()
         self._members: tuple[CommandedActor, ...] = ()
         self._changes: dict[str, StateChange] = {}
+        self._commanding: Sequence[ActorState] = ()  # at the next step, as far as computed
         self._changed: Sequence[str] = ()
         self._unsteady: Sequence[str] = ()
         self._outside: tuple[CommandedActor, ...] = ()  # external drivers and autopilots
@@ -163,6 +165,11 @@ class EmbeddedWorld:
     def projected(self, state: ActorState, seconds: float) -> ActorState:
         """The position of an actor after a time if it continued in its lane at its speed."""
         return projected(self.map, state, seconds)
+
+    def outlook(self, actor: str, steps: int) -> Outlook | None:
+        """What an actor will have done after so many steps; None if its command does not tell."""
+        moved = self._ids.index(actor) < len(self._commanding)
+        return self._member(actor).outlook(steps, self.dt, moved=moved)
 
     def along(self, a: ActorState, b: ActorState) -> float | None:
         """Route distance (m) from a to b; None if not connected."""
@@ -336,7 +343,9 @@ class EmbeddedWorld:
         before = [member.state for member in members]
         coupled = self._couplings.pairs()
         towed = self._couplings.towed() if coupled else NOBODY
-        commanded, others = [], []
+        commanded: list[ActorState] = []
+        others: list[CommandedActor] = []
+        self._commanding = commanded
         for member in members:
             state = member.reference if member.still else member.cruised()
             if state is None:

@@ -2,13 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from osc2tx_runtime.opendrive import Route
 from osc2tx_runtime.world.surroundings.stop_lines_ahead import StopLine
 
 from .actor_dimensions import Limits
 from .state import ActorState
+
+
+class Outlook(NamedTuple):
+    """What an actor will have done after a time.
+
+    Attributes:
+        way: Metres along its way.
+        speed: m/s then.
+    """
+
+    way: float
+    speed: float
 
 
 class StepInputs(Protocol):
@@ -25,6 +37,9 @@ class StepInputs(Protocol):
 
     def projected(self, state: ActorState, seconds: float) -> ActorState:
         """The position of an actor after a time if it continued in its lane at its speed."""
+
+    def outlook(self, actor: str, steps: int) -> Outlook | None:
+        """What an actor will have done after so many steps; None if its command does not tell."""
 
     def along(self, a: ActorState, b: ActorState) -> float | None:
         """Route distance (m) from a to b; None if not connected."""

@@ -23,7 +23,11 @@ class ConstantAcceleration:
     def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
         """Start speed plus acceleration times time."""
         self._steps += 1
-        speed = self._start + self._acceleration * self._steps * inputs.dt
+        return self.foreseen(0.0, inputs.dt)
+
+    def foreseen(self, steps: float, dt: float) -> float:
+        """Speed (m/s) so many steps after the last one that was asked for."""
+        speed = self._start + self._acceleration * (self._steps + steps) * dt
         return 0.0 if self._start >= 0.0 > speed or self._start < 0.0 < speed else speed
 
     def progress(self) -> Progress:
@@ -80,6 +84,16 @@ class AccelerationRun:
         stops = self._start_speed > 0.0 > speed or self._start_speed < 0.0 < speed
         self._standing = self._standing or stops
         return 0.0 if self._standing else speed
+
+    def foreseen(self, steps: float, dt: float) -> float:
+        """Speed (m/s) so many steps after the last one that was asked for."""
+        time = (self._steps + steps) * dt
+        if isinstance(self._profile, Linear | Quintic):
+            speed = self._start_speed + _integral(self._profile, time)
+        else:
+            speed = self._start_speed + self._gained + _simpson(self._profile, self._time, time)
+        stops = self._start_speed > 0.0 > speed or self._start_speed < 0.0 < speed
+        return 0.0 if self._standing or stops else speed
 
     def progress(self) -> Progress:
         """Done when the acceleration is reached; failed if the actor stands before."""

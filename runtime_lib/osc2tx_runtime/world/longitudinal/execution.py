@@ -70,6 +70,10 @@ class ProfileRun:
         self._time = self._steps * inputs.dt
         return self._profile.value(self._time)
 
+    def foreseen(self, steps: float, dt: float) -> float:
+        """Speed (m/s) so many steps after the last one that was asked for."""
+        return self._profile.value((self._steps + steps) * dt)
+
     def progress(self) -> Progress:
         """Done when the profile has ended."""
         return REACHED if self._time >= self._profile.duration - 1e-9 else PENDING

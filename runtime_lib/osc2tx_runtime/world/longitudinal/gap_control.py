@@ -133,7 +133,8 @@ class GapRun:
 class ArrivalRun:
     """Is at a target when its time is over.
 
-    In each step it takes the acceleration of `guidance` for a goal that continues at its speed.
+    In each step it takes the acceleration of `guidance` for a goal that goes on as its command
+    tells, or else at its speed.
     That corrects an error the harder the less time is left, so a deviation of a driven actor in the
     last second is not corrected but judged at the end.
     """
@@ -186,23 +187,32 @@ class ArrivalRun:
     def _end_speed(self, inputs: StepInputs) -> float | None:
         wanted = self._command.speed
         if isinstance(wanted, FollowSpeed):
-            return inputs.state(wanted.reference).v * wanted.factor + wanted.difference
+            return self._speed_then(wanted.reference, inputs) * wanted.factor + wanted.difference
         return wanted
 
     def _rest(
         self, me: ActorState, inputs: StepInputs, time: float, end: float | None
     ) -> tuple[float, float] | None:
-        """Metres from here to the goal, and the speed of the goal (m/s)."""
+        """Metres from here to the goal, and the mean speed of the goal (m/s) until then."""
         gap = self._command.gap
         if gap is None or self._other is None:
             return (self._command.way or 0.0) - self._covered, 0.0
         other = self._other.state(inputs)
+        outlook = None if gap.projected else inputs.outlook(gap.reference, self._steps or 1)
+        mean = other.v if outlook is None else outlook.way / time
+        if outlook is not None:
+            other = other._replace(v=outlook.speed)
         found = allowed_gap(gap, me, other, me.v if end is None else end, inputs)
         if found is None:
             return None
         here, low, high = found
-        steady = here + (me.v - other.v) * time
-        return min(max(steady, low), high) - here, other.v
+        steady = here + (me.v - mean) * time
+        return min(max(steady, low), high) - here, mean
+
+    def _speed_then(self, actor: str, inputs: StepInputs) -> float:
+        """Speed (m/s) of an actor at the end, as far as its command tells; else its present one."""
+        outlook = inputs.outlook(actor, self._steps or 1)
+        return inputs.state(actor).v if outlook is None else outlook.speed
 
     def _rate(self, v: float, rest: float, moving: float, end: float | None, dt: float) -> float:
         n = self._steps or 1

@@ -24,11 +24,12 @@ from osc2tx_runtime.world.longitudinal.acceleration import AssignedSpeed, Consta
 from osc2tx_runtime.world.longitudinal.collision_avoidance import Cautious
 from osc2tx_runtime.world.longitudinal.execution import ProfileRun, acceleration_of, longitudinal_of
 from osc2tx_runtime.world.longitudinal.gap_control import ArrivalRun
+from osc2tx_runtime.world.longitudinal.outlook import outlook_of
 from osc2tx_runtime.world.longitudinal.position_control import CoverRun
 from osc2tx_runtime.world.measuring.measurement import MeasuredMotion
 from osc2tx_runtime.world.protocol import LATERAL, LONGITUDINAL, PENDING, REACHED, Progress
 from osc2tx_runtime.world.state import ActorState
-from osc2tx_runtime.world.step_inputs import StepInputs
+from osc2tx_runtime.world.step_inputs import Outlook, StepInputs
 from osc2tx_runtime.world.tracking.expectations import Expectation, expected
 from osc2tx_runtime.world.tracking.tracking import Tracking
 from osc2tx_shared.classes import dataclass
@@ -199,6 +200,11 @@ class CommandedActor(MovingActor):
         """As for all actors that move; its progress is tested."""
         super().upset()
         self._last = None
+
+    def outlook(self, steps: int, dt: float, *, moved: bool) -> Outlook | None:
+        """What it will have done after so many steps, where its command tells; see `outlook_of`."""
+        is_told = self.follows and self._stopping is None
+        return outlook_of(self._speed, steps, dt, moved=moved) if is_told else None
 
     def speed_progress(self) -> Progress:
         """Progress of the longitudinal command, by the reference."""
