@@ -163,27 +163,29 @@ class Linear(Relation):
 
     def __init__(self, weights: Mapping[Key, float], rest: float, *, is_strict: bool) -> None:
         self.keys = tuple(weights)
-        self._weights, self._rest, self._is_strict = weights, rest, is_strict
+        self._weights = [(weight, abs(weight)) for weight in weights.values()]
+        self._rest, self._is_strict = rest, is_strict
         self._slack = CREEP * max(1.0, abs(rest))
 
-    def _least(self, store: Store) -> float:
-        return self._rest + sum(
-            weight * store.bounds(key)[weight < 0.0] for key, weight in self._weights.items()
-        )
+    def _least(self, bounds: Sequence[tuple[float, float]]) -> float:
+        total = 0.0
+        for (weight, _), (low, high) in zip(self._weights, bounds, strict=True):
+            total += weight * (high if weight < 0.0 else low)
+        return self._rest + total
 
     def can_hold(self, store: Store) -> bool:
         """Return whether its least value is low enough."""
-        least = self._least(store)
+        least = self._least([store.bounds(key) for key in self.keys])
         return least < 0.0 or (not self._is_strict and least <= self._slack)
 
     def demand(self, store: Store) -> None:
         """Narrow each variable to what the least values of the others leave."""
-        least = self._least(store)
+        bounds = [store.bounds(key) for key in self.keys]  # the hot path of sums of many
+        least = self._least(bounds)
         if least > self._slack:
             raise Contradiction
-        for key, weight in self._weights.items():
-            low, high = store.bounds(key)
-            if abs(weight) * (high - low) < -least:  # also its other end is possible
+        for key, (weight, size), (low, high) in zip(self.keys, self._weights, bounds, strict=True):
+            if size * (high - low) < -least:  # also its other end is possible
                 continue
             others = least - weight * (low if weight > 0.0 else high)
             if not isfinite(others):

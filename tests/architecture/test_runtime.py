@@ -108,7 +108,7 @@ motion: actor_dimensions commands geometry grip lateral longitudinal measuring p
 plant: actor_dimensions checks geometry grip measuring motion protocol state surroundings tracking
 drivers: actor_dimensions checks geometry grip measuring plant protocol state surroundings
 embedded: actor_dimensions checks commands geometry grip longitudinal measuring motion plant
-    protocol state surroundings
+    protocol state step_inputs surroundings
 recorded: embedded protocol state
 """)
 

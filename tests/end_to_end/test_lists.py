@@ -84,7 +84,7 @@ scenario lists:{MEMBERS}
     do serial:
         wait speeds[n] > 5kph
 """
-    with pytest.raises(ScenarioError, match="the condition has no value: list index"):
+    with pytest.raises(ScenarioError, match="no value: a list of 1 has no member with the index 1"):
         run(load(emit(asam(text, tmp_path))))
 
 
@@ -99,7 +99,7 @@ scenario lists:{MEMBERS}
 """
     scenario = load(emit(asam(text, tmp_path)))
     assert v_of(run(scenario)) == pytest.approx(20 / 3.6)
-    with pytest.raises(ScenarioError, match=r"`speeds\[n\] > 15 \* kph .*` does not hold"):
+    with pytest.raises(ScenarioError, match=r"`member_at\(speeds, n\) > 15 \* kph .*` does not"):
         run(scenario, RunSettings(set={"n": 0}))
 
 

@@ -65,7 +65,8 @@ def without_fixed(
                 )
                 for name, value in known.items()
             }
-    left_out = fixed | computed.keys()
+    actors = {each.parameter for each in arguments if each.value.type.kind is ir.Kind.ACTOR}
+    left_out = fixed | (computed.keys() - actors)  # the run checks that two actors are the same
     kept = tuple(each for each in arguments if each.parameter not in left_out)
     return (*kept, *(each for name, each in supplied.items() if name not in left_out | given))
 

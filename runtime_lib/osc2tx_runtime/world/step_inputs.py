@@ -15,7 +15,7 @@ class Outlook(NamedTuple):
     """What an actor will have done after a time.
 
     Attributes:
-        way: Metres along its way.
+        way: Metres along its path.
         speed: m/s then.
     """
 

@@ -13,7 +13,7 @@ from osc2tx_runtime.world import ActorSpec, ActorState, EmbeddedWorld
 from osc2tx_runtime.world.actor_dimensions import Shape
 from osc2tx_runtime.world.commands import LaneOffset
 from osc2tx_runtime.world.geometry.lane_neighbours import offset_from
-from osc2tx_runtime.world.measuring.collision import box_of, contact_interval, overlapping
+from osc2tx_runtime.world.measuring.collision import box_of, contact_interval, overlapped
 from osc2tx_runtime.world.measuring.distances import (
     along_lanes,
     gap_between,
@@ -104,10 +104,10 @@ def test_along_and_across_on_a_curve(
 
 def test_contact_of_turned_boxes() -> None:
     a = box_of(state(0, 0))
-    assert overlapping(a, box_of(state(1.5, 2.2, math.pi / 4)))
-    assert not overlapping(a, box_of(state(1.5, 2.2)))
+    assert overlapped(a, {"b": box_of(state(1.5, 2.2, math.pi / 4))}) == ["b"]
+    assert not overlapped(a, {"b": box_of(state(1.5, 2.2))})
     high = box_of(state(0, 0)._replace(z=5.0))
-    assert not overlapping(a, high)
+    assert not overlapped(a, {"b": high})
     assert contact_interval(a, box_of(state(30, 0)), -5.0, 0.0) == pytest.approx((5.0, 7.0))
 
 

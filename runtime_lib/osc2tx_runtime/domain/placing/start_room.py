@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
+from operator import attrgetter
 from typing import ClassVar, Generic, NamedTuple, Protocol, TypeVar
 
 from osc2tx_runtime.opendrive import LanePosition
-from osc2tx_runtime.world.measuring.collision import Box, overlap_along, overlapping
+from osc2tx_runtime.world.measuring.collision import Box, overlap_along, overlapped
 
 
 class Start(Protocol):
@@ -82,10 +83,10 @@ class StartRoom(ABC, Generic[StartT]):
         waiting = list(starts)
         placed: list[StartT] = []
         while waiting:
-            ready = [s for s in waiting if all(r in self._placed for r in s.references)]
+            ready = [s for s in waiting if self._placed.keys() >= set(s.references)]
             if not ready:
                 raise self.cycle_of(waiting)
-            start = min(ready, key=lambda s: s.rank)  # the first of equals: order of the cast
+            start = min(ready, key=attrgetter("rank"))  # the first of equals: order of the cast
             waiting.remove(start)
             placed.append(start)
             try:
@@ -144,10 +145,8 @@ class StartRoom(ABC, Generic[StartT]):
 
 def overlap_with(box: Box, others: Mapping[str, Box]) -> str | None:
     """Return the first of other actors that a box overlaps, with the length of the overlap."""
-    for actor, other in others.items():
-        if overlapping(box, other):
-            return f"{actor} by {overlap_along(box, other):.2f} m"
-    return None
+    found = overlapped(box, others)
+    return f"{found[0]} by {overlap_along(box, others[found[0]]):.2f} m" if found else None
 
 
 def _is_behind(start: StartT, anchor: StartT, placed: Sequence[StartT]) -> bool:

@@ -11,7 +11,7 @@ from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, Pose
 from osc2tx_runtime.world.actor_dimensions import COMFORT, Limits, Shape
 from osc2tx_runtime.world.geometry.attitude import Tilt
-from osc2tx_runtime.world.measuring.collision import Box, box_of, overlapping
+from osc2tx_runtime.world.measuring.collision import Box, box_of, overlapped
 from osc2tx_runtime.world.state import ActorState
 from osc2tx_shared.classes import replace
 
@@ -195,7 +195,7 @@ def _rooms(way: WayIn, arrival: Arrival, road_map: RoadMap, dt: float) -> list[B
 def _blocked(rooms: Sequence[Box], actor: str, others: Boxes, dt: float) -> str | None:
     """Return the blocking actor, and the time; None if there is none."""
     for step, (room, boxes) in enumerate(zip(rooms, others, strict=False)):
-        for other, taken in boxes.items():
-            if other != actor and overlapping(room, taken):
+        for other in overlapped(room, boxes):
+            if other != actor:
                 return f"{other} is in its way at {step * dt:.2f} s"
     return None

@@ -217,7 +217,7 @@ def excessive_rate(command: SpeedChange, speed: float, limits: Limits = TYRES) -
 def within_limits(command: SpeedChange, speed: float, limits: Limits) -> SpeedChange:
     """Return a speed change that can be driven, if there is one; else the change itself.
 
-    Where nothing is said of the profile (§8.8.2.12), it is smooth, and has a constant acceleration
+    Where nothing states the profile (§8.8.2.12), it is smooth, and has a constant acceleration
     where only that reaches the speed in the time.
     """
     if command.profile != "none" or excessive_rate(command, speed, limits) is None:

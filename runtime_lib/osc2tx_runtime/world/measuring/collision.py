@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from osc2tx_runtime.world.state import ActorState
@@ -117,13 +118,17 @@ def _axes(a: Box, b: Box) -> tuple[tuple[float, float, float], ...]:
     )
 
 
-def overlapping(a: Box, b: Box) -> bool:
-    """True if two boxes have a common point."""
-    if a.low > b.high or b.low > a.high:
-        return False
-    if abs(a.x - b.x) > a.reach_x + b.reach_x or abs(a.y - b.y) > a.reach_y + b.reach_y:
-        return False
-    return contact_interval(a, b, 0.0, 0.0) is not None
+def overlapped(box: Box, others: Mapping[str, Box]) -> list[str]:
+    """The ids of the boxes that have a common point with one, in their order."""
+    near = [
+        (actor, other)
+        for actor, other in others.items()
+        if abs(other.x - box.x) <= box.reach_x + other.reach_x
+        and abs(other.y - box.y) <= box.reach_y + other.reach_y
+        and box.low <= other.high
+        and other.low <= box.high
+    ]
+    return [actor for actor, other in near if contact_interval(box, other, 0.0, 0.0) is not None]
 
 
 class Swept(NamedTuple):
