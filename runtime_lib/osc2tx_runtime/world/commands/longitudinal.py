@@ -111,7 +111,9 @@ class FollowSpeed(Command):
         difference: Least difference (m/s).
         spread: Allowed surplus (m/s) of the difference.
         course: Instead of a difference: its course over time since the start.
-        keeps_up: Comfort is for the way to that speed; what the other actor does comes on top.
+        due: Seconds in which it has this speed, infinite if that is open: comfort is for the
+            approach, as far as that takes no more; what the other actor does comes on top. None:
+            all is done in comfort.
     """
 
     reference: str
@@ -119,7 +121,7 @@ class FollowSpeed(Command):
     difference: float = 0.0
     spread: float = 0.0
     course: Profile | None = None
-    keeps_up: bool = False
+    due: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

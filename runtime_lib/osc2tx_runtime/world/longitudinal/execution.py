@@ -136,9 +136,13 @@ class _Following:
             return speed
         least = other.v * command.factor + command.difference
         wanted = min(max(me.v, least), least + command.spread)
-        if command.keeps_up:
+        if command.due is not None:
             gained = me.v + other.a * command.factor * inputs.dt
-            nearer = towards(gained, wanted, self._limits, COMFORT, inputs.dt)
+            left = max(command.due - (self._steps - 1) * inputs.dt, inputs.dt)
+            limits = self._limits
+            most = limits.acceleration if wanted > gained else limits.deceleration
+            share = min(max(COMFORT, abs(wanted - gained) / (left * most)), 1.0)
+            nearer = towards(gained, wanted, limits, share, inputs.dt)
             speed = towards(me.v, nearer, self._limits, 1.0, inputs.dt)
         else:
             speed = towards(me.v, wanted, self._limits, COMFORT, inputs.dt)

@@ -181,8 +181,9 @@ def _following(action: ModifiedMotion, speed: Speed, reference: str, other: floa
     """The speed of an actor plus a difference, which may have a course of its own."""
     low, high = speed.difference()
     if not speed.shaped:
-        is_due = speed.at == "end"  # it has to be there by then, whatever the other one does
-        return FollowSpeed(reference, speed.times, low, high - low, keeps_up=is_due)
+        left = action.time_left()
+        due = (math.inf if left is None else left) if speed.at == "end" else None
+        return FollowSpeed(reference, speed.times, low, high - low, due=due)
     own, sign = own_course(speed.shape), -1.0 if speed.slower_than is not None else 1.0
     here = action.here.v - other
     course: Profile
