@@ -10,11 +10,22 @@ from osc2tx.importing.dimensions import SPEED, TIME, Quantity, literal
 from osc2tx.importing.effects import Reader
 from osc2tx.importing.program import Statement, composed
 from osc2tx.xosc.player.courses import with_jerk
+from osc2tx_runtime.world.actor_dimensions import CAR_LIMITS, COMFORT
 
-COMFORT = {"maxAcceleration": 2.0, "maxDeceleration": 4.0, "maxAccelerationRate": 10.0}
-"""Limits of a change of the speed without a profile, in the embedded world."""
-UTMOST = {"maxAcceleration": 4.0, "maxDeceleration": 8.0, "maxAccelerationRate": 10.0}
-"""Limits of a change of the speed as soon as possible, likewise."""
+
+def _limits(share: float) -> dict[str, float]:
+    """Return the limits of a car in the world, of which a share of the accelerations is used."""
+    return {
+        "maxAcceleration": share * CAR_LIMITS.acceleration,
+        "maxDeceleration": share * CAR_LIMITS.deceleration,
+        "maxAccelerationRate": CAR_LIMITS.jerk,
+    }
+
+
+COMFORTABLE = _limits(COMFORT)
+"""Of a change of the speed without a profile."""
+UTMOST = _limits(1.0)
+"""Of a change of the speed as soon as possible."""
 
 
 class Profiles(Reader):
@@ -22,7 +33,7 @@ class Profiles(Reader):
 
     def statement(self, node: Node, said: str, actor: Actor) -> Statement | None:
         """Return what a profile does; `None`, with a finding, if nothing says it."""
-        mode = node.text("followingMode") or "position"
+        node.text("followingMode")  # the times of the entries hold in both modes
         if node.has("entityRef"):
             node.leave_out(
                 "a speed profile relative to another actor has no counterpart in the DSL"
@@ -44,7 +55,6 @@ class Profiles(Reader):
             self._speeds[said] = speed
         if limits is not None:
             limits.use_all()
-        del mode
         return composed("serial", changes) if changes else None
 
     def _untimed(
@@ -52,9 +62,9 @@ class Profiles(Reader):
     ) -> Statement:
         """Return a change of the speed that only limits of the acceleration tell."""
         call, before = f"{actor.name}.change_speed(target: {speed.text}", self._speeds.get(said)
-        names = COMFORT if limits is not None else {}
+        names = COMFORTABLE if limits is not None else {}
         told = {name: self._values.nominal(limits, name, math.inf) for name in names if limits}
-        if told == COMFORT:
+        if told == COMFORTABLE:
             return Statement(f"{call})")
         if told == UTMOST:
             return Statement(f"{call}, rate_profile: asap)")

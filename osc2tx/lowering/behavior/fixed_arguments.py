@@ -10,6 +10,7 @@ from osc2tx.lowering.context import LoweringContext
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics.names.member_lookup import parameters_of
 from osc2tx.syntax import ast
+from osc2tx_shared.classes import replace
 
 
 def without_fixed(
@@ -32,42 +33,35 @@ def without_fixed(
             fixed.add(parameter.name)
     computed = _computed(ctx, callee, arguments)
     stated = {a.parameter for a in arguments if not _is_open(a)}  # constants, which are checked
-    given = {argument.parameter for argument in arguments}
     supplied: dict[str, ir.Argument] = {}
+    actors = set()
     for argument in arguments:
-        is_open = _is_open(argument)
+        name = argument.parameter
         if argument.value.type.kind is ir.Kind.ACTOR:
-            continue
-        if argument.parameter in fixed and is_open:
+            actors.add(name)
+        elif name in fixed and _is_open(argument):
             ctx.unsupported(
                 "OSC501",
                 argument.span,
-                f"`{callee.qualified_name}` has one value of `{argument.parameter}` itself; this"
+                f"`{callee.qualified_name}` has one value of `{name}` itself; this"
                 " one is open, and may be another",
                 help="leave the argument out, or the constraint there",
             )
-        elif argument.parameter in computed:
-            others = computed[argument.parameter]
-            missing = [each for each in others if each.name not in stated | computed.keys()]
-            found = {each.name: _value(constraints, node, each) for each in missing}
-            known = {name: value for name, value in found.items() if value is not None}
-            if is_open or len(known) < len(found):
-                names = " and ".join(f"`{each.name}`" for each in others)
+        elif name in computed:
+            missing = [o for o in computed[name] if o.name not in stated | computed.keys()]
+            found = _supplied(constraints, node, argument, missing)
+            if _is_open(argument) or len(found) < len(missing):
+                names = " and ".join(f"`{each.name}`" for each in computed[name])
                 ctx.unsupported(
                     "OSC501",
                     argument.span,
-                    f"`{callee.qualified_name}` computes `{argument.parameter}` from {names}",
+                    f"`{callee.qualified_name}` computes `{name}` from {names}",
                     help=f"give {names} instead",
                 )
-            supplied |= {
-                name: ir.Argument(
-                    parameter=name, value=value, is_positional=False, span=argument.span
-                )
-                for name, value in known.items()
-            }
-    actors = {each.parameter for each in arguments if each.value.type.kind is ir.Kind.ACTOR}
+            supplied |= found
     left_out = fixed | (computed.keys() - actors)  # the run checks that two actors are the same
     kept = tuple(each for each in arguments if each.parameter not in left_out)
+    given = {argument.parameter for argument in arguments}
     return (*kept, *(each for name, each in supplied.items() if name not in left_out | given))
 
 
@@ -104,9 +98,19 @@ def _related(
     return list(found)
 
 
-def _value(
-    constraints: ConstraintLowering, node: ast.Invocation, parameter: sym.FieldSymbol
-) -> ir.Expression | None:
-    """Return the only value that the constraints of an invocation leave a parameter."""
-    setting = constraints.setting((node, parameter), parameter.type)
-    return setting.value if setting.is_fixed else None
+def _supplied(
+    constraints: ConstraintLowering,
+    node: ast.Invocation,
+    argument: ir.Argument,
+    parameters: list[sym.FieldSymbol],
+) -> dict[str, ir.Argument]:
+    """Return the values that an argument leaves other parameters, where each has only one."""
+    found = {}
+    for parameter in parameters:
+        setting = constraints.setting((node, parameter), parameter.type)
+        if setting.is_fixed and setting.value is not None:
+            name = parameter.name
+            found[name] = replace(
+                argument, parameter=name, value=setting.value, is_positional=False
+            )
+    return found

@@ -41,7 +41,10 @@ def check_requirements(root: Behaviour, context: ExecutionContext) -> None:
 
 
 def at_start(node: Behaviour) -> Iterator[Behaviour]:
-    """Yield the leaves that start in the first instant whatever happens."""
+    """Yield the leaves that start in the first instant whatever happens.
+
+    Unlike in `started_at_once` an assignment takes no time here, though it waits for its effect.
+    """
     match node:
         case Serial():
             for child in node.children:

@@ -167,7 +167,7 @@ class EmbeddedWorld:
         return projected(self.map, state, seconds)
 
     def outlook(self, actor: str, steps: int) -> Outlook | None:
-        """What an actor will have done after so many steps; None if its command does not tell."""
+        """How an actor will go on for so many steps; None if its command does not tell."""
         moved = self._ids.index(actor) < len(self._commanding)
         return self._member(actor).outlook(steps, self.dt, moved=moved)
 

@@ -12,14 +12,14 @@ from .state import ActorState
 
 
 class Outlook(NamedTuple):
-    """What an actor will have done after a time.
+    """How an actor will go on for a time.
 
     Attributes:
-        way: Metres along its path.
-        speed: m/s then.
+        mean: Its mean speed until then (m/s).
+        speed: Its speed then (m/s).
     """
 
-    way: float
+    mean: float
     speed: float
 
 
@@ -39,7 +39,7 @@ class StepInputs(Protocol):
         """The position of an actor after a time if it continued in its lane at its speed."""
 
     def outlook(self, actor: str, steps: int) -> Outlook | None:
-        """What an actor will have done after so many steps; None if its command does not tell."""
+        """How an actor will go on for so many steps; None if its command does not tell."""
 
     def along(self, a: ActorState, b: ActorState) -> float | None:
         """Route distance (m) from a to b; None if not connected."""

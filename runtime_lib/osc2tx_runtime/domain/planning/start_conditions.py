@@ -168,9 +168,11 @@ def measured(action: ModifiedMotion, position: Position) -> tuple[float, float, 
     if position.reference is None:
         place = action.place_of(action.actor.id)
         here = position_from(action.world.map, action.origin, place)
-        low, high = position.size() if position.is_on_road else way_to(action, position)
-        shift = 0.0 if position.is_on_road else here
-        return here, shift + low, shift + high, "its position along its road is"
+        what = "its position along its road is"
+        if position.is_on_road:
+            return here, *position.size(), what
+        low, high = way_to(action, position)
+        return here, here + low, here + high, what
     other = action.world.state(position.reference.id)
     along = along_lanes(action.world.map, other, action.here)
     if along is None:

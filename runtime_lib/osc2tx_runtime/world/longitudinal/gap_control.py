@@ -17,7 +17,7 @@ from osc2tx_runtime.world.measuring.distances import gap_between, headway_betwee
 from osc2tx_runtime.world.measuring.projected_motion import Tracked
 from osc2tx_runtime.world.protocol import PENDING, REACHED, Progress
 from osc2tx_runtime.world.state import ActorState
-from osc2tx_runtime.world.step_inputs import StepInputs
+from osc2tx_runtime.world.step_inputs import Outlook, StepInputs
 
 from .arrival_schedule import towards
 
@@ -187,7 +187,8 @@ class ArrivalRun:
     def _end_speed(self, inputs: StepInputs) -> float | None:
         wanted = self._command.speed
         if isinstance(wanted, FollowSpeed):
-            return self._speed_then(wanted.reference, inputs) * wanted.factor + wanted.difference
+            speed = self._outlook(wanted.reference, inputs).speed
+            return speed * wanted.factor + wanted.difference
         return wanted
 
     def _rest(
@@ -198,10 +199,10 @@ class ArrivalRun:
         if gap is None or self._other is None:
             return (self._command.way or 0.0) - self._covered, 0.0
         other = self._other.state(inputs)
-        outlook = None if gap.projected else inputs.outlook(gap.reference, self._steps or 1)
-        mean = other.v if outlook is None else outlook.way / time
-        if outlook is not None:
-            other = other._replace(v=outlook.speed)
+        mean = other.v
+        if not gap.projected:
+            mean, speed = self._outlook(gap.reference, inputs)
+            other = other._replace(v=speed)
         found = allowed_gap(gap, me, other, me.v if end is None else end, inputs)
         if found is None:
             return None
@@ -209,10 +210,13 @@ class ArrivalRun:
         steady = here + (me.v - mean) * time
         return min(max(steady, low), high) - here, mean
 
-    def _speed_then(self, actor: str, inputs: StepInputs) -> float:
-        """Speed (m/s) of an actor at the end, as far as its command tells; else its present one."""
-        outlook = inputs.outlook(actor, self._steps or 1)
-        return inputs.state(actor).v if outlook is None else outlook.speed
+    def _outlook(self, actor: str, inputs: StepInputs) -> Outlook:
+        """How another actor will go on until then: as its command tells, or else at its speed."""
+        found = inputs.outlook(actor, self._steps or 1)
+        if found is None:
+            speed = inputs.state(actor).v
+            return Outlook(speed, speed)
+        return found
 
     def _rate(self, v: float, rest: float, moving: float, end: float | None, dt: float) -> float:
         n = self._steps or 1

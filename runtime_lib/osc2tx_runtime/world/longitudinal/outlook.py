@@ -1,4 +1,4 @@
-"""Where a command in closed form will have led after a time."""
+"""How a command in closed form will go on for a time."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from osc2tx_runtime.world.step_inputs import Outlook
 from .acceleration import AccelerationRun, AssignedSpeed, ConstantAcceleration
 from .execution import Longitudinal, ProfileRun
 
-_PIECES = 64  # of the time in which the way is summed up
+_PIECES = 64  # of the time, at whose ends the speed is asked
 
 
 def outlook_of(run: Longitudinal | None, steps: int, dt: float, *, moved: bool) -> Outlook | None:
-    """What an actor will have done after so many steps from the present one.
+    """How an actor will go on for so many steps from the present one.
 
     Args:
         run: Its command at work.
@@ -28,5 +28,4 @@ def outlook_of(run: Longitudinal | None, steps: int, dt: float, *, moved: bool) 
         return None
     first, pieces = (-1 if moved else 0), min(steps, _PIECES)
     speeds = [run.foreseen(first + steps * i / pieces, dt) for i in range(pieces + 1)]
-    mean = (sum(speeds) - 0.5 * (speeds[0] + speeds[-1])) / pieces
-    return Outlook(mean * steps * dt, speeds[-1])
+    return Outlook((sum(speeds) - 0.5 * (speeds[0] + speeds[-1])) / pieces, speeds[-1])

@@ -202,7 +202,7 @@ class CommandedActor(MovingActor):
         self._last = None
 
     def outlook(self, steps: int, dt: float, *, moved: bool) -> Outlook | None:
-        """What it will have done after so many steps, where its command tells; see `outlook_of`."""
+        """How it will go on for so many steps, where its command tells; see `outlook_of`."""
         is_told = self.follows and self._stopping is None
         return outlook_of(self._speed, steps, dt, moved=moved) if is_told else None
 
