@@ -101,7 +101,7 @@ def _implied_by(
     if any(argument.parameter == "shape" for each in positions for argument in each.arguments):
         return ()
     found = [*_place_at_end(action, first), *_open_speed(action)]
-    return tuple(each for each in found if not _changes(each))
+    return tuple(each for each in found if not _changes(each) and not _is_rest(each))
 
 
 def _place_at_end(action: FirstAction, first: Mapping[str, FirstAction]) -> list[ir.ModifierCall]:
@@ -209,6 +209,12 @@ def _kept_reference(positions: Sequence[ir.ModifierCall], *, has_end: bool) -> i
 def _changes(modifier: ir.ModifierCall) -> bool:
     """Whether a value is known only during the run."""
     return any(ir.is_live(argument.value) for argument in modifier.arguments)
+
+
+def _is_rest(modifier: ir.ModifierCall) -> bool:
+    """Whether it is the speed of who stands, as everyone does of whom nothing is stated."""
+    speed = _value(modifier, "speed") if modifier.name == "speed" else None
+    return speed is not None and ir.constant(speed) == 0.0
 
 
 def _references(position: ir.ModifierCall) -> list[ir.Argument]:

@@ -39,10 +39,6 @@ class StopThere(Scenario):
         self.is_tired = self.parameter("is_tired", False)
         self.time_to_stop = self.parameter("time_to_stop", 4 * s, unit="s")
 
-    def placement(self) -> None:
-        """Where the actors are when the scenario starts."""
-        self.place(self.actor, speed(0 * mps), implied=True)
-
     def behavior(self) -> Behaviour:
         return self.actor.drive(speed(0 * mps, at="end"), duration=self.time_to_stop)
 
