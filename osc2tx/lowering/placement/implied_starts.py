@@ -212,7 +212,7 @@ def _changes(modifier: ir.ModifierCall) -> bool:
 
 
 def _is_rest(modifier: ir.ModifierCall) -> bool:
-    """Whether it is the speed of who stands, as everyone does of whom nothing is stated."""
+    """Whether it is the speed of an actor that stands, as all do of which nothing is stated."""
     speed = _value(modifier, "speed") if modifier.name == "speed" else None
     return speed is not None and ir.constant(speed) == 0.0
 
