@@ -4,8 +4,8 @@
 2. `parameters` with the `dimensions` that their uses give them (`inference`), `values`:
    `expressions` with units
 3. `cast`, `places` (`beside` other actors, `courses` on the map, `points` as texts), `conditions`
-   and `actions` (`speeds` with `profiles`, `offsets`, `routes`, `surroundings`): the parts of the
-   storyboard
+   (`entity_conditions`, `place_conditions`) and `actions` (`speeds` with `profiles`, `offsets`,
+   `routes`, `surroundings`): the parts of the storyboard
 4. `steps`: events with their triggers; `structure`: the order of events as compositions, `waiting`
    the triggers as waits, `starts` how actors begin (`starting`: where), `endings` what ends the
    scenario, `whole` all together

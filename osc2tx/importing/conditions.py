@@ -6,13 +6,13 @@ of events) is waited for first; then what may change.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import field
 
 from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import TIME, Quantity
-from osc2tx.importing.entity_conditions import EntityConditions
+from osc2tx.importing.entity_conditions import EntityConditions, joined_by
 from osc2tx.importing.places import Places
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Unresolved
@@ -117,7 +117,9 @@ class Conditions:
         found = Trigger(node=node)
         groups = list(node.children("ConditionGroup"))
         for group in groups:
-            conditions = [self._condition(each) for each in group.children("Condition")]
+            nodes = list(group.children("Condition"))
+            self._of_entity.begin_group(nodes)
+            conditions = [self._condition(each) for each in nodes]
             if any(each.kind == "never" for each in conditions):
                 continue
             found.groups.append([each for each in conditions if each.kind != "always"])
@@ -225,14 +227,6 @@ class Conditions:
             return Condition("always", condition)
         joined = joined_by("or" if rule == "any" else "and", texts)
         return Condition("expression", condition, joined, edge, delay, lasting=lasting)
-
-
-def joined_by(word: str, texts: Sequence[str]) -> str:
-    """Return expressions joined by `and` or `or`, those of the other one in brackets."""
-    other = {"and": " or ", "or": " and "}[word]
-    if len(texts) == 1:
-        return texts[0]
-    return f" {word} ".join(f"({text})" if other in text else text for text in texts)
 
 
 def _holds(given: str, rule: str, value: str) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
@@ -17,21 +17,16 @@ from osc2tx.importing.dimensions import (
     Dimension,
     literal,
 )
+from osc2tx.importing.place_conditions import ANYWHERE, COMPARISONS, PlaceConditions
 from osc2tx.importing.places import Places
 from osc2tx.importing.values import Values
-from osc2tx.xosc.element import Unresolved
+from osc2tx.xosc.element import Element, Unresolved
 from osc2tx.xosc.player.distances import asked
 
-COMPARISONS: Mapping[str, str] = {
-    "greaterThan": ">",
-    "lessThan": "<",
-    "greaterOrEqual": ">=",
-    "lessOrEqual": "<=",
-    "equalTo": "==",
-    "notEqualTo": "!=",
-}
+DIRECTIONS: Mapping[str, str] = {"longitudinal": "x", "lateral": "y", "vertical": "z"}
 STANDING = 0.01  # m/s
-ANYWHERE = 1000.0  # m: a clearance of that size only asks for the side
+CLEARANCE = "RelativeClearanceCondition"
+MANY = 20  # lanes: no road has more
 
 
 class EntityConditions:
@@ -39,15 +34,29 @@ class EntityConditions:
 
     def __init__(self, values: Values, places: Places, actors: Mapping[str, Actor]) -> None:
         self._values, self._places, self._actors = values, places, actors
+        self._at_places = PlaceConditions(values, places, actors)
+        self._sides: dict[tuple[str, str], int] = {}
+
+    def begin_group(self, group: Sequence[Node]) -> None:
+        """Note who is ahead of whom, where a distance of both and a clearance count together."""
+        found = [(_pair(each), self._places.resolved(each).below(Element)) for each in group]
+        nodes = [(pair, node) for pair, below in found for node in below if pair is not None]
+        sides = {pair: _side_of(node) for pair, node in nodes if node.tag == CLEARANCE}
+        far = {
+            pair
+            for pair, node in nodes
+            if node.tag in ("RelativeDistanceCondition", "TimeHeadwayCondition")
+            and asked(node)[0] == "longitudinal"
+            and node.said("rule").startswith("greater")
+        }
+        self._sides = {pair: side for pair, side in sides.items() if side and pair in far}
 
     def expression(self, node: Node, said: str, a: str) -> str | None:
         """Return the expression of a condition on an actor; `None`, with a finding, if none."""
         match node.tag:
             case "SpeedCondition":
-                if node.text("direction") not in (None, "longitudinal"):
-                    node.leave_out("the language has no speed in this direction")
-                    return None
-                return self._compared(node, f"{a}.speed", SPEED)
+                part = _part(node, f"{a}.velocity.translational")
+                return self._compared(node, part or f"{a}.speed", SPEED)
             case "RelativeSpeedCondition":
                 node.text("direction")
                 b = self._actor(node)
@@ -57,8 +66,8 @@ class EntityConditions:
                     return f"{a}.speed {sign} {b}.speed"
                 return f"{a}.speed - {b}.speed {sign} {value.within(SUM)}"
             case "AccelerationCondition":
-                node.text("direction")
-                return self._compared(node, f"{a}.acceleration.translational.x", ACCELERATION)
+                whole = f"{a}.acceleration.translational"
+                return self._compared(node, _part(node, whole) or f"{whole}.norm()", ACCELERATION)
             case "RelativeDistanceCondition":
                 return self._distance(node, said, a)
             case "TimeHeadwayCondition":
@@ -67,8 +76,10 @@ class EntityConditions:
                 return self._collision_time(node, said, a)
             case "TraveledDistanceCondition":
                 return self._travelled(node, said, a)
-            case "ReachPositionCondition" | "DistanceCondition":
-                return self._at_place(node, said, a)
+            case "ReachPositionCondition":
+                return self._at_places.reached(node, a)
+            case "DistanceCondition":
+                return self._at_places.far(node, said, a)
             case "StandStillCondition":
                 if self._values.nominal(node, "duration") > 0.0:
                     node.approximate("a time of standing still begins with the first such instant")
@@ -76,10 +87,7 @@ class EntityConditions:
             case "CollisionCondition":
                 return self._collision(node, a)
             case "RelativeClearanceCondition":
-                far = self._values.nominal(node, "distanceForward")
-                if far >= ANYWHERE or self._values.nominal(node, "distanceBackward") >= ANYWHERE:
-                    node.use_all()
-                    return "true"
+                return self._clearance(node, said, a)
         node.leave_out("the language has no condition for it; it is never met here")
         return None
 
@@ -127,11 +135,14 @@ class EntityConditions:
         if system in ("lane", "trajectory"):
             node.approximate(f"distances in the system of a {system} are those of the road")
         from_, to = a, b
-        sign = self._side(said, b_said, kind)
+        told = self._sides.get((said, b_said)) if kind == "longitudinal" else None
+        sign = told or self._side(said, b_said, kind)
         if kind == "longitudinal" and sign is not None and sign < 0:
             from_, to = b, a  # the one behind asks, so the distance is positive
         measure = f"{from_}.{method}({to}, {kind}{mode})"
         compared = f"{measure} {COMPARISONS[rule]} {value}"
+        if told and rule.startswith("greater"):
+            return compared
         if rule.startswith("less"):
             is_ahead = kind == "longitudinal" and sign is not None
             if is_ahead and self._values.nominal(node, "value") > 0.0:
@@ -208,30 +219,36 @@ class EntityConditions:
             return f"{reached} >= {start} + {value.within(SUM)}"
         return f"{reached} <= {start} - {value.within(2)}"
 
-    def _at_place(self, node: Node, said: str, a: str) -> str | None:
-        found = self._places.coordinates(node.one("Position"))
-        if found is None:
-            node.leave_out("the place is not known before the run; it is never met here")
-            return None
-        node.one("Position").use_all()
-        if any(
-            text.startswith("$")
-            for each in node.element.walk()
-            for _, text in each.attributes
-            if each is not node.element
-        ):
-            node.approximate("the place keeps that of its nominal values")
-        point = self._places.points.goal(*found, a)
-        if node.tag == "ReachPositionCondition":
-            within = self._values.quantity(node, "tolerance", LENGTH)
-            return f"{a}.distance_to_xyz_point({point}, euclidean) <= {within.within(SUM)}"
-        kind = node.text("relativeDistanceType")
-        if kind in ("longitudinal", "lateral"):
-            node.approximate("the distance to a place is the straight one")
-        for name in ("coordinateSystem", "alongRoute", "routingAlgorithm"):
-            node.text(name)
-        mode = _mode(node, default=False)
-        return self._compared(node, f"{a}.distance_to_xyz_point({point}, euclidean{mode})", LENGTH)
+    def _clearance(self, node: Node, said: str, a: str) -> str | None:
+        """Return the condition that no other actor is near, ahead or behind."""
+        refs = list(node.children("EntityRef"))
+        others = {self._values.text(each, "entityRef"): self._actor(each) for each in refs}
+        if not others:
+            others = {key: each.name for key, each in self._actors.items() if each.name != a}
+        side = _side_of(self._places.resolved(node))
+        free = (node.text("freeSpace") or "false").lower() in ("true", "1")
+        lanes = list(node.children("RelativeLaneRange"))
+        is_narrow = any(
+            abs(self._values.nominal(each, end, MANY)) < MANY
+            for each in lanes
+            for end in ("from", "to")
+        )
+        if is_narrow or (node.text("oppositeLanes") or "false").lower() not in ("true", "1"):
+            node.approximate("a clearance is that of all lanes")
+        texts = []
+        for key, b in others.items():
+            if (said, key) in self._sides:
+                continue
+            measure = f"{a}.road_distance({b}, longitudinal{', bounding_boxes' if free else ''})"
+            ahead = self._values.quantity(node, "distanceForward", LENGTH)
+            behind = self._values.quantity(node, "distanceBackward", LENGTH)
+            is_behind = (
+                f"{measure} < -{behind.within(PRODUCT)}" if behind.value else f"{measure} < 0m"
+            )
+            is_ahead = f"{measure} > {ahead.within(SUM)}"
+            texts.append({-1: is_behind, 1: is_ahead}.get(side, f"{is_behind} or {is_ahead}"))
+        node.use_all()
+        return joined_by("and", texts) if texts else "true"
 
     def _collision(self, node: Node, a: str) -> str | None:
         by = node.inner
@@ -250,3 +267,33 @@ class EntityConditions:
 def _mode(node: Node, *, default: bool) -> str:
     text = (node.text("freespace") or str(default)).lower()
     return ", bounding_boxes" if text in ("true", "1") else ""
+
+
+def joined_by(word: str, texts: Sequence[str]) -> str:
+    """Return expressions joined by `and` or `or`, those of the other one in brackets."""
+    other = {"and": " or ", "or": " and "}[word]
+    if len(texts) == 1:
+        return texts[0]
+    return f" {word} ".join(f"({text})" if other in text else text for text in texts)
+
+
+def _part(node: Node, whole: str) -> str | None:
+    """Return the part of a velocity or acceleration that a condition is about; `None`: all."""
+    direction = node.text("direction")
+    return None if direction is None else f"{whole}.{DIRECTIONS[direction]}"
+
+
+def _pair(condition: Node) -> tuple[str, str] | None:
+    """Return the entity of a condition and the other one in it; `None`: there are others."""
+    refs = [ref for each in condition.element.walk() if (ref := each.get("entityRef"))]
+    return (refs[0], refs[1]) if len(refs) == 2 else None
+
+
+def _side_of(clearance: Element) -> int:
+    """Return 1 where a clearance is met by those ahead, -1: by those behind; 0: far from both."""
+    ahead, behind = (
+        float(clearance.get(name) or 0.0) for name in ("distanceForward", "distanceBackward")
+    )
+    if ahead >= ANYWHERE and behind == 0.0:
+        return -1
+    return 1 if behind >= ANYWHERE and ahead == 0.0 else 0

@@ -128,7 +128,7 @@ class Offsets(Reader):
         between = [each for each in section.lanes if low <= each <= high and each != here]
         driving = [each for each in between if section.lanes[each].type == "driving"]
         self._lanes[said] = goal
-        sign = (1 if goal > here else -1) * road_map.travel_direction(body.place.road, here)
+        sign = (1 if goal > here else -1) * self._along(said)  # also in a lane of oncoming traffic
         return sign * len(driving) * body.along, ""
 
     def _lane_of(self, said: str) -> int | None:

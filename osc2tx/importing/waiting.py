@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 
-from osc2tx.importing.conditions import Condition, Trigger, joined_by
+from osc2tx.importing.conditions import Condition, Trigger
 from osc2tx.importing.dimensions import PRODUCT, TIME, Quantity, literal
+from osc2tx.importing.entity_conditions import joined_by
 from osc2tx.importing.names import snake
 from osc2tx.importing.program import Statement, composed, wait
 from osc2tx.importing.steps import ENDS, Board, Step

@@ -28,10 +28,6 @@ DIFFERENT = {  # by names of scenarios
     "braking_distances": PROFILE,
     "road_conditions": PROFILE,
     "signal_conditions": "traffic lights are not imported",
-    "overtaking": "the lane change back finds no lane",
-    "relative_coordinates": "distances to places are straight ones, so it ends later",
-    "route_coordinates": "distances to places are straight ones",
-    "motion_readings": "an edge that is waited for never comes",
     "overriding": "what ends it never comes",
 }
 
@@ -54,20 +50,18 @@ def test_a_scenario_comes_back(path: Path, tmp_path: Path) -> None:
 
 
 WITHOUT_SECOND = {  # what is imported has no document again
-    "actor_parts",
     "assign_orientation",
-    "cut_in",
-    "falling_edge",
     "follow_leader",
     "lateral_modifiers",
     "move_drive_walk",
     "orientation_modifiers",
     "overlaps",
+    "overtaking",
     "parallel_execution",
+    "relative_coordinates",
     "relative_modifiers",
     "semantic_validation",
     "speed_modifier",
-    "trigger_measures",
 }
 STEP, LATE = 0.05, 6  # s; steps: events follow each other one step later, here up to six
 NEAR = 0.1  # m
