@@ -10,7 +10,7 @@ from pathlib import Path
 from osc2tx.importing.reach import Reach
 from osc2tx.xosc import Element, Place, Unreadable, read
 from osc2tx.xosc import elements as xml
-from osc2tx.xosc.arithmetic import evaluated
+from osc2tx.xosc.arithmetic import text_value
 from osc2tx.xosc.reader import Comment
 from osc2tx_runtime.domain.map.search import find_map
 from osc2tx_runtime.errors import ScenarioError
@@ -106,19 +106,8 @@ class Document:
 
     def text_at(self, text: str, values: Mapping[str, str] | None = None) -> str:
         """Return a text with its parameters at nominal values; itself if it has no value."""
-        if not text.startswith("$"):
-            return text
-        shown = self.parameters if values is None else values
-        if text[1:] in shown:
-            return shown[text[1:]]
-        numbers: dict[str, float] = {}
-        for name, said in shown.items():
-            try:
-                numbers[name] = float(said)
-            except ValueError:
-                continue
-        value = evaluated(text, numbers)
-        return text if value is None else repr(value)
+        value = text_value(text, self.parameters if values is None else values)
+        return text if value is None else value
 
     @cached_property
     def reach(self) -> Reach:

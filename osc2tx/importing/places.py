@@ -20,6 +20,7 @@ from osc2tx.importing.points import Points, Spot, degrees, heading_of, odr_point
 from osc2tx.importing.starting import STRAIGHT, wrapped
 from osc2tx.importing.values import Values
 from osc2tx.xosc.player.bodies import Pose
+from osc2tx.xosc.player.places import offset_of
 from osc2tx_runtime.opendrive import LanePosition, MapError
 
 
@@ -51,7 +52,7 @@ class Places(Ground):
         """
         inner = position.inner
         if inner.tag == "LanePosition":
-            return self._lane(inner)
+            return self._lane(inner, name)
         if inner.tag == "RoadPosition":
             return self._road(inner)
         if inner.tag == "RelativeLanePosition":
@@ -69,7 +70,7 @@ class Places(Ground):
         )
         return None
 
-    def _lane(self, node: Node) -> Spot:
+    def _lane(self, node: Node, name: str) -> Spot:
         road, lane = self._values.text(node, "roadId"), self._values.text(node, "laneId")
         s = self._values.quantity(node, "s", LENGTH)
         t = self._values.quantity(node, "offset", LENGTH)
@@ -85,23 +86,50 @@ class Places(Ground):
                 along = 1
         else:
             along = -1 if lane.lstrip("-").isdigit() and int(lane) > 0 else 1
-        return Spot(text, yaw=self._yaw(node, direction, 0.0 if along > 0 else math.pi))
+        of_lane = 0.0 if along > 0 else math.pi
+        turn = self._turn(node, direction, of_lane)
+        if self.map is None or abs(turn) <= 0.5 * math.pi:
+            return Spot(text, yaw=_yaw(turn))
+        aside = self._against(LanePosition(road, int(lane), s.value, t.value * along))
+        if aside is not None:
+            return Spot(odr_point(road, str(aside[0]), s.text, literal(aside[1], LENGTH)))
+        heading = direction + of_lane + turn
+        return Spot(text, yaw=_yaw(turn), turned=self.points.orientation(heading, name))
 
-    def _yaw(self, node: Node, road: float, of_lane: float) -> str:
-        """Return the modifier for an orientation, given those of road and lane."""
+    def _against(self, place: LanePosition) -> tuple[int, float] | None:
+        """Return the innermost lane of oncoming traffic, and the offset (m) from it of a position.
+
+        An actor that drives against its lane belongs to the lane of its direction. `None`: the
+        road has no such lane there.
+        """
+        assert self.map is not None
+        along = self.map.travel_direction(place.road, place.lane)
+        lanes = self.map.roads[place.road].section_at(place.s).lanes.values()
+        like = next((each.id for each in lanes if each.direction == -along), None)
+        oncoming = () if like is None else self.map.lanes(place.road, place.s, like=like)
+        if not oncoming:
+            return None
+        lane, at = place._replace(lane=oncoming[-1]), self.map.pose(place)
+        return lane.lane, -along * offset_of(self.map, lane, Pose(at.x, at.y, at.h))
+
+    def _turn(self, node: Node, road: float, of_lane: float) -> float:
+        """Return how an orientation is turned (rad) from that of the lane.
+
+        Args:
+            node: The position with the orientation.
+            road: Heading (rad) of the road, in the direction of s.
+            of_lane: Heading (rad) of the lane from that of the road.
+        """
         orientation = node.find("Orientation")
         if orientation is None:
-            return ""
+            return 0.0
         kind = orientation.text("type") or "absolute"
         for name in ("p", "r"):
             if abs(self._values.nominal(orientation, name)) > 1e-6:
                 orientation.approximate(f"{name} is that of the road here")
         h = self._values.nominal(orientation, "h")
         turned = h - of_lane if kind == "relative" else h - road - of_lane
-        turned = wrapped(turned)
-        if abs(turned) < STRAIGHT:
-            return ""
-        return f"yaw({degrees(turned)})"
+        return wrapped(turned)
 
     def _road(self, node: Node) -> Spot:
         road = self._values.text(node, "roadId")
@@ -114,7 +142,7 @@ class Places(Ground):
             except (MapError, LookupError, ValueError):
                 node_pose = None
         if node_pose is None:
-            return Spot(text, yaw=self._yaw(node, 0.0, 0.0))
+            return Spot(text, yaw=_yaw(self._turn(node, 0.0, 0.0)))
         found = self.static_of(node)
         h = found[1] if found is not None and found[1] is not None else node_pose.h
         node.find("Orientation") and node.find("Orientation").use_all()  # type: ignore[union-attr]
@@ -141,3 +169,8 @@ class Places(Ground):
         point = self.points.point(where.x, where.y, name)
         h = where.h if heading is None else heading
         return Spot(position=point, yaw=heading_of(h))
+
+
+def _yaw(turn: float) -> str:
+    """Return the modifier for a turn (rad) from the direction of the lane; `""`: there is none."""
+    return "" if abs(turn) < STRAIGHT else f"yaw({degrees(turn)})"

@@ -23,12 +23,14 @@ class Spot:
         position: The name of a point in the world; `""`: it is none.
         modifiers: Modifiers that say it, without their `at`.
         yaw: A modifier for the heading, where it is not that of the lane.
+        turned: The name of an orientation against the lane, if that is the heading.
     """
 
     odr_point: str = ""
     position: str = ""
     modifiers: list[str] = field(default_factory=list)
     yaw: str = ""
+    turned: str = ""
 
     @property
     def argument(self) -> str:
@@ -76,6 +78,16 @@ class Points:
                 for axis, v in zip("xyz", (*key[1:], 0.0), strict=True)
             ]
             self.lines += declaration(made, "position_3d", [" and ".join(told)])
+            self._declared[key] = made
+        return self._declared[key]
+
+    def orientation(self, h: float, name: str) -> str:
+        """Return the name of an orientation with a heading (rad) in the world."""
+        key = ("orientation", round(math.degrees(h), 6), 0.0)
+        if key not in self._declared:
+            made = self._names.new("", kind="point", base=f"{name}_orientation")
+            told = f"it.yaw == {degrees(h)} and it.pitch == 0deg and it.roll == 0deg"
+            self.lines += declaration(made, "orientation_3d", [told])
             self._declared[key] = made
         return self._declared[key]
 

@@ -24,7 +24,7 @@ class Routes(Reader):
         self._lanes[said] = None
         self._offsets[said] = 0.0
         if spot is not None:
-            if spot.yaw:
+            if spot.yaw and not spot.turned:
                 node.approximate("it looks along its lane")
             yield from self.moved(spot, actor)
 
@@ -34,6 +34,9 @@ class Routes(Reader):
         call = f"{actor.name}.assign_position({spot.argument})"
         statement = Statement(call, modifiers=list(spot.modifiers), length=0.0)
         yield Effect(statement, actor.name, BOTH)
+        if spot.turned:
+            call = f"{actor.name}.assign_orientation({spot.turned})"
+            yield Effect(Statement(call, length=0.0), actor.name, BOTH)
 
     def assigned(self, node: Node, said: str, actor: Actor) -> Statement | None:
         """Return what takes an actor along a route."""

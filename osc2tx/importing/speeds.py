@@ -46,8 +46,11 @@ class Speeds(Reader):
             case _:
                 node.leave_out("the language has no such action")
                 return
-        if statement is not None:
-            yield Effect(statement, actor.name, slots)
+        if statement is None:
+            return
+        in_order = at_start and statement.text == "serial" and statement.members
+        for each in in_order or [statement]:
+            yield Effect(each, actor.name, slots)
 
     def _speed(self, node: Node, said: str, actor: Actor, at_start: bool) -> Statement | None:
         target_node = node.one("SpeedActionTarget").inner
@@ -56,7 +59,11 @@ class Speeds(Reader):
         shape = dynamics.text("dynamicsShape") or "step"
         dynamics.text("followingMode")
         if (target_node.text("continuous") or "false").lower() in ("true", "1"):
-            return self._as_fast_as(node, target_node, dynamics, actor)
+            kept = self._as_fast_as(node, target_node, dynamics, actor)
+            if shape != "step":
+                return kept
+            assigned = Statement(f"{actor.name}.assign_speed({target.text})", length=0.0)
+            return composed("serial", [assigned, kept])
         standing = Quantity(literal(0.0, SPEED), 0.0)
         before = self._speeds.get(said, standing)
         self._speeds[said] = target

@@ -179,7 +179,7 @@ class Starts:
         is_moved = any(".assign_position(" in each.text for each in at_once)
         if said in self._spots and not is_moved:
             spot, node = self._spots[said]
-            if spot.yaw:
+            if spot.yaw and not spot.turned:
                 node.approximate("it looks along its lane at the start")
             found += [each.statement for each in Routes.moved(spot, actor)]
         if said in self._speeds:

@@ -251,9 +251,12 @@ class Structure:
             for other in branches[index + 1 :]:
                 for a in one.steps:
                     for b in other.steps:
-                        if a.effects and b.effects and _conflict_of(a, b):
-                            self.lines += [f"override({a.label}, {b.label})"]
-                            self.lines += [f"override({b.label}, {a.label})"]
+                        if a.effects and b.effects:
+                            self.lines += [
+                                f"override({ended.label}, {by.label})"
+                                for ended, by in ((a, b), (b, a))
+                                if _ends(by, ended)
+                            ]
 
     def _stopped(self, number: int, trigger: Trigger, branches: list[Branch]) -> list[Branch]:
         """Return the branches with those of an act up to what stops it."""
@@ -299,7 +302,12 @@ def _conflict(one: Step, other: Step) -> bool:
 
 
 def _conflict_of(a: Step, b: Step) -> bool:
-    if a.slots & b.slots:
+    return _ends(a, b) or _ends(b, a)
+
+
+def _ends(later: Step, earlier: Step) -> bool:
+    """Whether a step that starts ends one that has started before, if that still runs."""
+    if later.slots & earlier.slots:
         return True
-    is_beside = a.maneuver == b.maneuver and (a.overrides or b.overrides)
-    return is_beside and bool(a.actors & b.actors)
+    is_beside = later.overrides and later.maneuver == earlier.maneuver
+    return is_beside and bool(later.actors & earlier.actors)

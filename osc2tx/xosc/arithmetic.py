@@ -41,6 +41,8 @@ CONSTANTS: Mapping[str, float] = {"pi": math.pi}
 
 _TOKEN = re.compile(r"\s*(\$?[A-Za-z_]\w*|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|[-+*/%(),])")
 
+_PART = re.compile(r"\$?[\w .:]+")  # of texts that are joined
+
 
 def evaluated(text: str, shown: Shown) -> float | None:
     """Return the number that an attribute says for values of parameters; `None` if it is none."""
@@ -50,6 +52,37 @@ def evaluated(text: str, shown: Shown) -> float | None:
         return shown[text[1:]] if text.startswith("$") else float(text)
     except (ArithmeticError, KeyError, ValueError):
         return None
+
+
+def text_value(text: str, values: Mapping[str, str]) -> str | None:
+    """Return the text of an attribute with its parameters; `None` if it has no value.
+
+    `${abc + $name}` joins texts where it is no arithmetic, as esmini does.
+
+    Args:
+        text: The attribute.
+        values: Texts of the parameters, by their names.
+    """
+    if not text.startswith("$"):
+        return text
+    if text[1:] in values:
+        return values[text[1:]]
+    numbers: dict[str, float] = {}
+    for name, value in values.items():
+        try:
+            numbers[name] = float(value)
+        except ValueError:  # a name or a truth value
+            continue
+    number = evaluated(text, numbers)
+    return _joined(text, values) if number is None else repr(number)
+
+
+def _joined(text: str, values: Mapping[str, str]) -> str | None:
+    parts = [part.strip() for part in text.removeprefix("${").removesuffix("}").split("+")]
+    if len(parts) == 1 or not all(_PART.fullmatch(part) for part in parts):
+        return None
+    found = [values.get(part[1:]) if part.startswith("$") else part for part in parts]
+    return None if None in found else "".join(filter(None, found))
 
 
 class Range(NamedTuple):

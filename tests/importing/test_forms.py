@@ -2,7 +2,15 @@
 
 import re
 
-from tests.importing.documents import at_time, document, event, faults, imported, speed_change
+from tests.importing.documents import (
+    AT_ONCE,
+    at_time,
+    document,
+    event,
+    faults,
+    imported,
+    speed_change,
+)
 from tests.importing.test_structure import apart
 
 GAP = """<LongitudinalAction><LongitudinalDistanceAction entityRef="ego" freespace="true"
@@ -29,6 +37,26 @@ def test_on_a_straight_road_actors_go_on_by_themselves() -> None:
     found = imported(text.replace('roadId="1"', 'roadId="2"'))
     assert "keep_speed" not in found.text
     assert faults(found) == []
+    assert apart(found) < 0.1
+
+
+def test_an_actor_turned_against_its_lane_drives_there() -> None:
+    beside = '<RelativeLanePosition entityRef="ego" dLane="1" ds="30" offset="0"/>'
+    turned = """<LanePosition roadId="1" laneId="-1" s="400" offset="0.5">
+      <Orientation type="relative" h="3.141592653589793"/></LanePosition>"""
+    found = imported(document("").replace(beside, turned))
+    assert 'road.create_odr_point("1", "1", 400m, ' in found.text
+    assert faults(found) == []
+    assert apart(found) < 0.1
+
+
+def test_a_step_to_a_relative_speed_that_is_kept_is_there_at_once() -> None:
+    faster = f"""<LongitudinalAction><SpeedAction>{AT_ONCE}<SpeedActionTarget>
+      <RelativeTargetSpeed entityRef="ego" value="5" speedTargetValueType="delta"
+      continuous="true"/></SpeedActionTarget></SpeedAction></LongitudinalAction>"""
+    found = imported(document(event("Faster", faster, at_time("1"))))
+    assert "other.assign_speed(ego.speed + 5mps)" in found.text
+    assert "speed(5mps, faster_than: ego)" in found.text
     assert apart(found) < 0.1
 
 

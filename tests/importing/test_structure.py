@@ -125,6 +125,22 @@ def test_an_unknown_order_is_an_override() -> None:
     assert apart(found) < 0.1
 
 
+def test_an_event_in_parallel_ends_nothing_but_what_controls_the_same() -> None:
+    near = """<Condition name="near" delay="0" conditionEdge="rising"><ByEntityCondition>
+      <TriggeringEntities triggeringEntitiesRule="any"><EntityRef entityRef="ego"/>
+      </TriggeringEntities>
+      <EntityCondition><RelativeDistanceCondition entityRef="other" value="18" freespace="true"
+      relativeDistanceType="longitudinal" rule="lessThan"/></EntityCondition>
+      </ByEntityCondition></Condition>"""
+    first = event("One", lane_change(-1, "6"), near)
+    second = event("Two", speed_change("10", "2"), at_time("2.5"), "parallel")
+    found = imported(document(first + second))
+    assert not faults(found)
+    assert "override(two, one)" in found.text
+    assert "override(one, two)" not in found.text
+    assert apart(found) < 0.1
+
+
 def test_an_act_that_is_stopped_ends_its_events() -> None:
     """Its end is that of the composition; what waits for its start in it does not wait."""
     started = """<Condition name="c" delay="1" conditionEdge="none"><ByValueCondition>

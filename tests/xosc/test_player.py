@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from osc2tx.xosc import read
-from osc2tx.xosc.arithmetic import evaluated
+from osc2tx.xosc.arithmetic import evaluated, text_value
 from osc2tx.xosc.element import Unresolved
 from osc2tx.xosc.player import Evaluator, Unplayable, map_of
 from osc2tx_runtime.opendrive import LanePosition, read_map
@@ -71,6 +71,22 @@ def test_equal_elements_are_two() -> None:
 )
 def test_expressions_are_computed_not_run(text: str, value: float | None) -> None:
     assert evaluated(text, {"a": 3.0, "b": 5.0}) == value
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("plain", "plain"),
+        ("$name", "Car"),
+        ("${$a + 1}", "4.0"),
+        ("${Brake at + _ + $a}", "Brake at_3"),
+        ("${$name + Event}", "CarEvent"),
+        ("${$other + Event}", None),
+        ("${$name * 2}", None),
+    ],
+)
+def test_texts_of_attributes_are_joined(text: str, value: str | None) -> None:
+    assert text_value(text, {"a": "3", "name": "Car"}) == value
 
 
 @pytest.mark.parametrize(

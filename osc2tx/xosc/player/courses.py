@@ -1,11 +1,11 @@
 """Numbers of a document, and courses of values over time."""
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from itertools import pairwise
 
 from osc2tx.xosc import elements as xml
-from osc2tx.xosc.arithmetic import evaluated
+from osc2tx.xosc.arithmetic import text_value
 from osc2tx.xosc.element import Element
 from osc2tx.xosc.player.errors import Unplayable
 
@@ -46,26 +46,12 @@ def _resolved(node: Element, declared: Mapping[str, str]) -> Element:
         attributes["value"] = declared[node.name]
     for name, text in attributes.items():
         if text.startswith("$"):
-            attributes[name] = _value_of(node, text, declared)
+            value = text_value(text, declared)
+            if value is None:
+                raise Unplayable(f"`{text}` has no value", node.place)
+            attributes[name] = value
     children = (_resolved(child, declared) for child in node.children)
     return node.with_attributes(attributes).with_children(*children)
-
-
-def _value_of(node: Element, text: str, declared: Mapping[str, str]) -> str:
-    if text[1:] in declared:
-        return declared[text[1:]]
-    value = evaluated(text, dict(_numbers(declared)))
-    if value is None:
-        raise Unplayable(f"`{text}` has no value", node.place)
-    return repr(value)
-
-
-def _numbers(declared: Mapping[str, str]) -> Iterator[tuple[str, float]]:
-    for name, text in declared.items():
-        try:
-            yield name, float(text)
-        except ValueError:  # a name or a truth value
-            continue
 
 
 def shaped(shape: str, start: float, end: float, time: float) -> Course:

@@ -55,10 +55,10 @@ class Scene:
     def side(self, body: Body, node: Element, kind: str) -> int:
         """Return on which side of the other one an action keeps its distance.
 
-        In 1.0 it cannot say one: then it is that on which the body is.
+        If none is stated, as in 1.0, or any, it is the one on which the body is.
         """
         told = node.get("displacement")
-        if told is not None:
+        if told is not None and told != "any":
             return SIDES[told]
         is_ahead = self.gap(body, node, kind) > 0.0  # the other one, or to the left
         return 1 if is_ahead is (kind == "longitudinal") else -1

@@ -110,19 +110,18 @@ class Evaluator:
         return self.step * self.dt
 
     def _init(self) -> None:
-        """Carry out `Init`: references before what is placed beside them."""
-        privates = list(
-            self.root.one(xml.Storyboard).one(xml.Init).one(xml.Actions).all(xml.Private)
-        )
-        waiting = [(self.bodies[p.entityRef], p.children) for p in privates]
+        """Carry out `Init`: actions of an entity in order, after the positions they refer to."""
+        privates = self.root.one(xml.Storyboard).one(xml.Init).one(xml.Actions).all(xml.Private)
+        waiting = [(self.bodies[each.entityRef], list(each.children)) for each in privates]
         while waiting:
-            ready = [each for each in waiting if not self._waits(each[1])]
-            if not (ready):
-                raise Unplayable("places of Init refer to each other")
-            for entry in ready:
-                waiting.remove(entry)
-                for action in entry[1]:
-                    self.stage.begin(action, entry[0], self.time)
+            has_begun = False
+            for body, actions in waiting:
+                while actions and not self._waits(actions[0]):
+                    self.stage.begin(actions.pop(0), body, self.time)
+                    has_begun = True
+            waiting = [each for each in waiting if each[1]]
+            if waiting and not has_begun:
+                raise Unplayable("positions of Init refer to each other", waiting[0][1][0].place)
         for action in (
             self.root.one(xml.Storyboard).one(xml.Init).one(xml.Actions).all(xml.GlobalAction)
         ):
@@ -136,8 +135,8 @@ class Evaluator:
                 body.pose = tow.here._replace(x=x - back * math.cos(h), y=y - back * math.sin(h))
                 body.v = tow.v
 
-    def _waits(self, actions: Sequence[Element]) -> bool:
-        named = (node.get("entityRef") for action in actions for node in action.walk())
+    def _waits(self, action: Element) -> bool:
+        named = (node.get("entityRef") for node in action.walk())
         return any(name is not None and self.bodies[name].pose is None for name in named)
 
     # --- a run ------------------------------------------------------------------------------------
