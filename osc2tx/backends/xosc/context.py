@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from math import inf
+from typing import NamedTuple
 
 from osc2tx import ir
 from osc2tx.backends.xosc.entities.cast import CastMember
@@ -15,7 +16,7 @@ from osc2tx.backends.xosc.logical.parameter_choices import NOTHING_OPEN, Choosin
 from osc2tx.backends.xosc.names import Names
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, LossReport, Remedy
 from osc2tx.backends.xosc.scopes import Scope, open_scopes
-from osc2tx.backends.xosc.state import ActorState, Demand
+from osc2tx.backends.xosc.state import ActorState, Demand, merged
 from osc2tx.backends.xosc.values.folding import Values
 from osc2tx.diagnostics import Span
 from osc2tx.options import XmlOptions, XmlVersion
@@ -35,10 +36,19 @@ class Outlook:
     Attributes:
         demands: Of the motion of actors, by name.
         speeds_read: The actors at whose speed a condition looks.
+        moves: As `Context.moves`.
     """
 
     demands: Mapping[str, Demand]
     speeds_read: frozenset[str]
+    moves: Mapping[str, Mapping[int, Move]]
+
+
+class Move(NamedTuple):
+    """What is known of an actor during an invocation, and when that has reached its goal."""
+
+    during: ActorState
+    after: ActorState
 
 
 class Context:
@@ -70,6 +80,7 @@ class Context:
         init_globals: Actions of `Init` that concern no entity.
         init_privates: What `Init` says about actors, by name, references first.
         demands: What the scenario asks of the motion of an actor, by name.
+        moves: What invocations make of actors, by name and by the id of the invocation.
         outlook: What the whole scenario asks for; `None` while it is written down first.
         asks_outlook: Something that is written down depends on that.
         followed: Whose motion an actor has to be able to take over, by name.
@@ -115,6 +126,7 @@ class Context:
         self.present: set[str] = set()
         self.start_poses: dict[str, Pose] = {}
         self.demands: dict[str, Demand] = {}
+        self.moves: dict[str, dict[int, Move]] = {}
         self.outlook = outlook
         self.asks_outlook = False
         self.followed: dict[str, set[str]] = {}
@@ -236,6 +248,17 @@ class Context:
         if self.outlook is None:
             return Demand(inf, inf, inf, True)
         return self.outlook.demands.get(actor, Demand())
+
+    def note_move(self, actor: str, node: ir.Invoke, during: ActorState, after: ActorState) -> None:
+        """Note what an invocation makes of an actor."""
+        moves, own = self.moves.setdefault(actor, {}), merged(during, after)
+        known = moves.get(id(node))
+        moves[id(node)] = Move(own if known is None else merged(known.during, own), after)
+
+    def moves_of(self, actor: str) -> Mapping[int, Move] | None:
+        """Return what the whole scenario makes of an actor; `None` while that is not known."""
+        self.asks_outlook = True
+        return None if self.outlook is None else self.outlook.moves.get(actor, {})
 
     def is_speed_read(self, actor: str) -> bool:
         """Whether a condition looks at the speed of an actor."""

@@ -141,7 +141,9 @@ class _Emission:
         ctx, document = self._write_with(maps, choosing, None)
         if document is None or not ctx.asks_outlook:
             return ctx, document
-        return self._write_with(maps, choosing, Outlook(ctx.demands, speeds_read(document)))
+        return self._write_with(
+            maps, choosing, Outlook(ctx.demands, speeds_read(document), ctx.moves)
+        )
 
     def _write_with(
         self, maps: MapFolders, choosing: Choosing, outlook: Outlook | None

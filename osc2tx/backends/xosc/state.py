@@ -128,6 +128,9 @@ class ActorState:
         return tuple(pair for pair in self.unfinished if pair[0] != domain)
 
 
+NOTHING_KNOWN = ActorState(offset=None, rate=None)
+
+
 def either(a: Mapping[str, ActorState], b: Mapping[str, ActorState]) -> dict[str, ActorState]:
     """Return what is known if one of two courses was taken."""
     return {name: merged(a[name], b[name]) for name in a}

@@ -25,6 +25,8 @@ class Arguments:
     Attributes:
         source: The invocation, or the modifier.
         span: Where it stands.
+        name: Of the action or the modifier.
+        at: When a modifier holds: `all`, `start` or `end`.
         construct: What it is called in reports.
     """
 
@@ -35,11 +37,10 @@ class Arguments:
         self._used: set[str] = set()
         self.source = source
         self.span = source.span
-        self.construct = (
-            construct_of_action(source)
-            if isinstance(source, ir.Invoke)
-            else f"modifier {source.name}"
-        )
+        if isinstance(source, ir.Invoke):
+            self.name, self.at, self.construct = source.action, "all", construct_of_action(source)
+        else:
+            self.name, self.at, self.construct = source.name, source.at, f"modifier {source.name}"
 
     def __contains__(self, name: str) -> bool:
         return name in self._by_name
@@ -161,19 +162,3 @@ class Arguments:
         for name, argument in self._by_name.items():
             if name not in self._used:
                 raise Inexpressible(f"argument `{name}` has no counterpart", argument.span)
-
-
-class Call(Arguments):
-    """A modifier of an invocation, with its arguments.
-
-    Attributes:
-        node: The modifier.
-        name: What it is called.
-        at: When it holds: `all`, `start` or `end`.
-    """
-
-    def __init__(self, ctx: Context, node: ir.ModifierCall) -> None:
-        super().__init__(ctx, node)
-        self.node = node
-        self.name = node.name
-        self.at = node.at

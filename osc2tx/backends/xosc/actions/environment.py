@@ -45,15 +45,19 @@ OKTAS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight",
 
 @global_action("assign_celestial_position")
 def _celestial_position(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
-    azimuth, elevation = arguments.number("azimuth"), arguments.number("elevation")
     source = arguments.expression("light_source")
     if source is not None and source.span.text.endswith("moon"):
         raise Inexpressible("there is no moon in OpenSCENARIO XML")
-    if azimuth is not None:  # what nobody has said is open, and the XML says some value
-        ctx.weather["sun_azimuth"] = azimuth
-    if elevation is not None:
-        ctx.weather["sun_elevation"] = elevation
+    _note(ctx, arguments, azimuth="sun_azimuth", elevation="sun_elevation")
     return (environment_action(ctx, node, xml.Weather(_sun(ctx))),)
+
+
+def _note(ctx: Context, arguments: Arguments, **names: str) -> None:
+    """Note what arguments state of the weather: what nobody has stated is open."""
+    for argument, name in names.items():
+        value = arguments.number(argument)
+        if value is not None:
+            ctx.weather[name] = value
 
 
 def _sun(ctx: Context) -> xml.Sun:
@@ -71,8 +75,7 @@ def _sun(ctx: Context) -> xml.Sun:
 def _air(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     temperature, pressure = arguments.number("temperature"), arguments.number("pressure")
     humidity = arguments.number("relative_humidity")
-    if temperature is not None:
-        ctx.weather["temperature"] = temperature
+    _note(ctx, arguments, temperature="temperature")
     if humidity is not None:
         arguments.approximate(
             "there is no humidity in OpenSCENARIO XML",
@@ -88,10 +91,7 @@ def _air(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
 @global_action("wind")
 def _wind(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globals:
     ctx.require("wind", "1.1")
-    for name in ("speed", "direction"):
-        value = arguments.number(name)
-        if value is not None:
-            ctx.weather[f"wind_{name}"] = value
+    _note(ctx, arguments, speed="wind_speed", direction="wind_direction")
     if "wind_speed" not in ctx.weather or "wind_direction" not in ctx.weather:
         raise Inexpressible("the XML asks for both speed and direction")
     # The DSL says where it comes from, clockwise from north; the XML whither, counter-clockwise

@@ -10,21 +10,23 @@ from collections.abc import Callable, Sequence
 from typing import Literal, TypeAlias
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.arguments import Arguments, Call
+from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import (
     Course,
     Limits,
     Pace,
+    Profile,
     held_by,
     road_condition,
     steepest,
 )
+from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import NOTHING, Inexpressible, Metres, Remedy
-from osc2tx.backends.xosc.state import LONGITUDINAL, ActorState, Demand
+from osc2tx.backends.xosc.state import LONGITUDINAL, NOTHING_KNOWN, ActorState, Demand, merged
 from osc2tx.xosc import elements as xml
-from osc2tx_shared.classes import dataclass
+from osc2tx_shared.classes import dataclass, replace
 
 UNKNOWN_SPEED = "the speed at the start is only known during the run"
 
@@ -170,6 +172,11 @@ class Leaf:
         if rigid:
             self.ctx.followed.setdefault(self.member.name, set()).add(reference.name)
 
+    def at_open_speed(self, action: xml.PrivateAction, time: float | None) -> Change:
+        """Return the change of the speed, in a time (s), to one that only the run shows."""
+        state = replace(self.state, speed=None).finished(LONGITUDINAL)
+        return Change(LONGITUDINAL, (action,), time, state, state)
+
     def demand_of(self, changes: Sequence[Change]) -> None:
         """Note what changes ask of the motion of the actor."""
         name = self.member.name
@@ -184,26 +191,67 @@ class Leaf:
         """Report that the action means nearly the same in the XML."""
         self.arguments.approximate(reason, bound, remedy)
 
-    def modifier(self, name: str) -> Call | None:
+    def modifier(self, name: str) -> Arguments | None:
         """Return the modifier of a name, if the invocation has one."""
         node = next((call for call in self.node.modifiers if call.name == name), None)
-        return None if node is None else Call(self.ctx, node)
+        return None if node is None else Arguments(self.ctx, node)
 
-    def in_time(self, call: Call, pace: Pace) -> Pace:
+    def in_time(self, call: Arguments, pace: Pace) -> Pace:
         """Return how a change goes that has to be done when the invocation ends, if it has to."""
         is_free = pace.profile != "asap" and pace.peak is None
         return pace._replace(duration=self.duration) if call.at == "end" and is_free else pace
 
-    def within_limit(self, pace: Pace, own: float) -> Pace:
-        """Return how a change goes that takes `own` seconds where it has all the time it needs."""
+    def within_limit(self, pace: Pace, planned: Callable[[Pace], Profile]) -> tuple[Pace, Profile]:
+        """Return how a change goes and its course, in no more time than compositions leave it."""
+        course = planned(pace)
         is_free = pace == Pace(pace.profile) and pace.profile != "asap"
-        is_late = self.limit is not None and own > self.limit
-        return pace._replace(duration=self.limit) if is_free and is_late else pace
+        if self.limit is None or course.duration <= self.limit or not is_free:
+            return pace, course
+        pace = pace._replace(duration=self.limit)
+        return pace, planned(pace)
 
     def starts_behind(self, reference: CastMember) -> float | None:
         """Return by how many metres an actor is behind another one if it begins with the run."""
         apart = self.ctx.init_gaps.get((self.member.name, reference.name))
         return apart if self.is_start else None
+
+    def state_of(self, other: CastMember, *, always: bool = False) -> ActorState:
+        """Return what is known of another actor at the start of the action, or all the time.
+
+        Members beside one another are written one after the other: what one of them does may be
+        over then, or not.
+        """
+        ctx, body = self.ctx, self.ctx.scenario.body
+        if self.is_start and not always:
+            return ctx.at_start[other.name]
+        moves = ctx.moves_of(other.name)
+        if moves is None:
+            return NOTHING_KNOWN
+        members = ir.runs_beside(body, self.node)
+        beside = {id(n): n for member in members for n in ir.walk_behaviors(member)}
+        invokes = any(isinstance(each, ir.InvokeScenario) for each in beside.values())
+        is_any = always or invokes or not ir.holds(body, self.node)
+        state = (ctx.at_start if is_any else ctx.states)[other.name]
+        for node, move in moves.items():
+            state = merged(state, move.during) if is_any or node in beside else state
+        return state
+
+    def start_pose(self) -> Pose | None:
+        """Return where the actor begins: at its start, or after a drive from there at one speed."""
+        state, ctx = self.state, self.ctx
+        start = ctx.at_start[self.member.name]
+        if state.pose is not None or ctx.roads is None or start.lane is None:
+            return state.pose
+        if self.is_start:
+            return ctx.roads.map.pose(start.lane)
+        before = ir.predecessor(ctx.scenario.body, self.node)
+        if before is None or before.duration is None or not ir.is_first(ctx.scenario.body, before):
+            return None
+        speed = state.known_speed
+        if speed is None or state.speed != start.speed or state.offset != start.offset:
+            return None
+        there = ctx.roads.ahead(start.lane, speed * ctx.values.number(before.duration))
+        return None if there is None else ctx.roads.map.pose(there)
 
     def is_left(self, side: str) -> bool:
         """Whether the `inside` or the `outside` of its road is to its left."""
@@ -232,4 +280,4 @@ class Leaf:
 
 Perform: TypeAlias = Callable[[Leaf], Performance]
 PerformGlobal: TypeAlias = Callable[[Context, ir.Invoke, Arguments], Globals]
-Modify: TypeAlias = Callable[[Leaf, Call], Changes]
+Modify: TypeAlias = Callable[[Leaf, Arguments], Changes]

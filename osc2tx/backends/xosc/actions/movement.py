@@ -7,7 +7,7 @@ and the like add theirs in files of their own (`registry`).
 from __future__ import annotations
 
 from osc2tx.backends.xosc.actions.leaf import Change, Ending, Leaf, Performance
-from osc2tx.backends.xosc.actions.position.walkers import change_pace, stand, walk_on
+from osc2tx.backends.xosc.actions.position.walkers import UNKNOWN, stand, walk
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
 from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to
 from osc2tx.backends.xosc.actions.speed.speed_elements import hold_speed
@@ -27,7 +27,8 @@ def _drive(leaf: Leaf) -> Performance:
         return _walk(leaf)
     changes = apply_modifiers(leaf)
     note_open_speed(leaf)
-    ends: Ending = "goal" if _has_goal(leaf) else "open"
+    goals = (m for m in leaf.node.modifiers if m.at == "end" or m.name.startswith("along"))
+    ends: Ending = "goal" if leaf.duration is None and any(goals) else "open"
     return Performance(changes, ends, time_to_cover(leaf), leaf.reached)
 
 
@@ -45,17 +46,14 @@ def _walk(leaf: Leaf) -> Performance:
     for call in leaf.node.modifiers:
         if call.name != "speed" or call.at == "end":
             raise Inexpressible(f"`{call.name}` of a walker off the lanes", call.span)
-    return Performance((walk_on(leaf, _walking_speed(leaf)),), "open")
-
-
-def _walking_speed(leaf: Leaf) -> float | None:
-    call = leaf.modifier("speed")
-    if call is not None:
-        with leaf.ctx.report_as(call.construct, call.span):
-            speed = call.number("speed")
-            call.finish()
-            return speed
-    return None
+    start = leaf.known_speed(UNKNOWN)
+    told, speed = leaf.modifier("speed"), None
+    if told is not None:
+        with leaf.ctx.report_as(told.construct, told.span):
+            speed = told.number("speed")
+            told.finish()
+    course = course_of_speed(start, start if speed is None else speed, Pace(), leaf.limits)
+    return Performance((walk(leaf, course, leaf.duration),), "open")
 
 
 @action("change_speed")
@@ -65,8 +63,8 @@ def _change_speed(leaf: Leaf) -> Performance:
     if leaf.member.walks and leaf.state.pose is not None:
         start = leaf.known_speed("how fast it walks is not known")
         course = course_of_speed(start, target, pace, leaf.limits)
-        walk = change_pace(leaf, target, course)
-        return Performance((walk, *apply_modifiers(leaf)), "goal", course.duration)
+        change = walk(leaf, course, course.duration)
+        return Performance((change, *apply_modifiers(leaf)), "goal", course.duration)
     change = change_speed(leaf, target, pace)
     if not change.actions:  # it has that speed, which stays for the duration
         return Performance((change, *apply_modifiers(leaf)), "goal", leaf.duration)
@@ -78,7 +76,7 @@ def _assign_speed(leaf: Leaf) -> Performance:
     target = leaf.arguments.required("speed")
     if leaf.member.walks and leaf.state.pose is not None:
         course = course_of_speed(target, target, Pace(), leaf.limits)
-        return Performance((change_pace(leaf, target, course),), "goal", 0.0)
+        return Performance((walk(leaf, course, 0.0),), "goal", 0.0)
     return Performance((jump_to(leaf, target),), "goal")
 
 
@@ -99,10 +97,3 @@ def _remain_stationary(leaf: Leaf) -> Performance:
     if leaf.member.walks:
         return Performance((stand(leaf),), "open")
     return Performance((change_speed(leaf, 0.0, FASTEST), *apply_modifiers(leaf)), "open")
-
-
-def _has_goal(leaf: Leaf) -> bool:
-    if leaf.duration is not None:
-        return False
-    modifiers = leaf.node.modifiers
-    return any(call.at == "end" or call.name.startswith("along") for call in modifiers)

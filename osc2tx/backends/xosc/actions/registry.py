@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Literal, TypeVar
 
-from osc2tx.backends.xosc.actions.arguments import Call
+from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import (
     Change,
     Changes,
@@ -91,7 +91,7 @@ def apply_modifiers(leaf: Leaf) -> Changes:
     """Return what the modifiers of an invocation change."""
     changes: list[Change] = []
     for node in leaf.node.modifiers:
-        call = Call(leaf.ctx, node)
+        call = Arguments(leaf.ctx, node)
         handler = MODIFIERS.get(call.name)
         if handler is None:
             reason = f"`{call.name}` has no counterpart here"

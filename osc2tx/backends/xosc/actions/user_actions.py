@@ -10,7 +10,7 @@ from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
-from osc2tx.backends.xosc.state import WAY, ActorState
+from osc2tx.backends.xosc.state import NOTHING_KNOWN, WAY
 from osc2tx.backends.xosc.values.constants import Constant, Member, Named
 from osc2tx.diagnostics import Span
 from osc2tx.xosc import elements as xml
@@ -38,8 +38,7 @@ def no_model(what: str, span: Span) -> Inexpressible:
 def user_action(leaf: Leaf) -> Performance:
     """Return the command that a tool carries out for an action of the scenario's own."""
     command = own_command(leaf.ctx, leaf.node, leaf.arguments)
-    after = ActorState(offset=None, rate=None)
-    change = Change(WAY, (command,), None, after, after)
+    change = Change(WAY, (command,), None, NOTHING_KNOWN, NOTHING_KNOWN)
     return Performance((change,), "open")
 
 

@@ -139,7 +139,7 @@ def _private(ctx: Context, start: Start, position: xml.PositionPart) -> xml.Priv
     actions = [xml.PrivateAction(xml.TeleportAction(xml.Position(position)))]
     speed = speed_at_start(ctx, start)
     if speed != 0.0:
-        actions.append(speed_action(speed, "step", "time", 0.0))
+        actions.append(speed_action(speed))
     tows = start.modifiers.get("tow_trailer")
     if tows is not None:
         ctx.require("a trailer that is coupled", "1.3", tows.source.span)

@@ -18,6 +18,9 @@ from osc2tx_shared.classes import replace
 
 RUN_START = single(run_start())
 
+VERDICT = "verdict"
+"""Name of the monitor that says whether the scenario has succeeded."""
+
 
 class StoryboardBuilder:
     """The acts of one scenario while they are made.
@@ -86,6 +89,12 @@ class StoryboardBuilder:
         is_open = bool(self.ctx.choosing.parameters)
         follows = () if is_open else start.followed_after(lasting)
         return single(replace(state_of("event", name), follows=follows))
+
+    def tell_failure(self, name: str, start: Flow) -> Flow:
+        """Add the event that lets the monitor tell that the scenario has failed."""
+        self.ctx.monitors[VERDICT] = True
+        action = xml.GlobalAction(xml.SetMonitorAction(monitorRef=VERDICT, value=False))
+        return self.add(self.ctx.names.new(name), (action,), start, actor=self.mark_actor)
 
     def add_signals(self) -> None:
         """Add the events from outside whose time is given."""

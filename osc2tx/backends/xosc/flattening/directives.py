@@ -48,9 +48,6 @@ def react_periodically(
     builder.add(ctx.names.new("every_time"), up, single(full), repeats=MANY_TIMES)
 
 
-VERDICT = "verdict"
-"""Name of the monitor that says whether the scenario has succeeded."""
-
 OPPOSITE: dict[Edge, Edge] = {"rising": "falling", "falling": "rising", "none": "none"}
 
 
@@ -92,10 +89,7 @@ def finish(builder: StoryboardBuilder, node: ir.Finish, start: Flow) -> Flow:
     if not node.succeeds:
         ctx.require("a verdict", "1.3")
         ctx.require_support("SetMonitorAction")
-        ctx.monitors[VERDICT] = True
-        action = xml.SetMonitorAction(monitorRef=VERDICT, value=False)
-        actions = (xml.GlobalAction(action),)
-        start = builder.add(ctx.names.new("fail"), actions, start, actor=builder.mark_actor)
+        start = builder.tell_failure("fail", start)
     builder.finished = builder.finished | start
     ctx.report.exact("emit end" if node.succeeds else "emit fail", node.span)
     return start

@@ -12,18 +12,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
+from math import inf
 from typing import Literal, TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.conditions.flow import NEVER, Flow
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.flattening.builder import StoryboardBuilder, construct_of
-from osc2tx.backends.xosc.flattening.directives import VERDICT
+from osc2tx.backends.xosc.flattening.builder import VERDICT, StoryboardBuilder, construct_of
 from osc2tx.backends.xosc.flattening.parallel_overlaps import is_open, length_of
 from osc2tx.backends.xosc.flattening.tree_queries import is_instant
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
-from osc2tx.backends.xosc.values.constants import Bounds
-from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import replace
 
 Timed: TypeAlias = ir.Composition | ir.InvokeScenario
@@ -51,14 +49,19 @@ def end_within_duration(
     if isinstance(node, ir.OneOf):
         reason = "the member that ends within the duration wins, which only the run shows"
         raise Inexpressible(reason, node.duration.span)
-    length = _length(builder, node)
+    length = None  # of the content, if it is known
+    if not isinstance(node, ir.InvokeScenario):
+        length = length_of(builder.ctx, replace(node, duration=None, until=()))
     # A member without end fills what the others leave of a duration.
     fills = isinstance(node, ir.Parallel) and any(map(is_open, node.members))
     if length is not None and length <= high and (fills or low <= length):
         return (start.later(low) if length < low else content) | until
     if length is not None and role != "racer":
+        reason = f"it takes {length:g} s, longer than {high:g} s: every run fails"
+        if length < low:
+            reason = f"it is over after {length:g} s, and nothing fills the rest: every run fails"
         fitting = Remedy(instead=f"a duration of {length:g} s, or a member without end, is exact")
-        raise Inexpressible(_always_fails(length, low, high), node.duration.span, fitting)
+        raise Inexpressible(reason, node.duration.span, fitting)
     if length is not None:
         failed = content if length < low else start.later(high)
         return _failing(builder, node, NEVER, failed, role) | until
@@ -73,19 +76,6 @@ def end_within_duration(
         builder.keep(filled, start.later(low))
         failed = failed | over & builder.is_unset(filled)
     return _failing(builder, node, over & start.later(low), failed, role) | until
-
-
-def _always_fails(length: float, low: float, high: float) -> str:
-    if length < low:
-        return f"it is over after {length:g} s, and nothing fills the rest: every run fails"
-    return f"it takes {length:g} s, longer than {high:g} s: every run fails"
-
-
-def _length(builder: StoryboardBuilder, node: Timed) -> float | None:
-    """Return how long (s) the content takes, if that is known."""
-    if isinstance(node, ir.InvokeScenario):
-        return None
-    return length_of(builder.ctx, replace(node, duration=None, until=()))
 
 
 def _failing(
@@ -111,73 +101,49 @@ def _failing(
         ctx.report.approximate(construct, span, reason, bound, Remedy(version="1.3"))
         builder.finished = builder.finished | failed
         return in_time
-    ctx.monitors[VERDICT] = True
-    action = xml.SetMonitorAction(monitorRef=VERDICT, value=False)
-    failing = (xml.GlobalAction(action),)
-    told = builder.add(ctx.names.new(name), failing, failed, actor=builder.mark_actor)
-    builder.finished = builder.finished | told
+    builder.finished = builder.finished | builder.tell_failure(name, failed)
     ctx.report.exact(construct, span, f"if it takes another time, the monitor `{VERDICT}` says so")
     return in_time
 
 
-# --- open-ended actions ---------------------------------------------------------------------------
+# --- what compositions leave an action ------------------------------------------------------------
 
 
-def time_left(ctx: Context, node: ir.Invoke) -> float | None:
-    """Return the time (s) from the start of an open-ended action to its end, if that is planned.
+def time_frame(ctx: Context, node: ir.Invoke) -> tuple[float | None, float | None]:
+    """Return the time (s) from the start of an action to its planned end, and at most to its goal.
+
+    Durations of compositions around it end open-ended actions, and limit the others. `None`:
+    nothing is planned.
 
     Raises:
         Inexpressible: A duration ends it, and only the run shows when it starts; modifiers state
             what holds at its end.
     """
-    if not is_open(node):
-        return None
+    ends = is_open(node)
+    if ctx.module.dialect == "carla" or (not ends and node.duration is not None):
+        return None, None
     passed: float | None = 0.0
     for parent, before, after in _around(ctx, node):
-        fixed = _fixed(ctx, parent)
-        if after or not (isinstance(parent, ir.Serial) or _ends_with_it(parent, fixed)):
-            return None
-        passed = _later(ctx, passed, before)
-        if fixed is not None:
-            return _rest(node, fixed, passed)
-        if parent.duration is not None:
-            return None
-    return None
-
-
-def time_limit(ctx: Context, node: ir.Invoke) -> float | None:
-    """Return the time (s) that compositions leave an action for its goal, if that is known."""
-    if is_open(node) or node.duration is not None or ctx.module.dialect == "carla":
-        return None
-    passed: float | None = 0.0
-    for parent, before, after in _around(ctx, node):
-        passed = _later(ctx, passed, before)
-        if passed is None or not all(map(is_instant, after)):
-            return None
-        if not (isinstance(parent, ir.Serial) or _start_together(parent)):
-            return None
-        if parent.duration is not None:
-            return max(0.0, ctx.values.bounds(parent.duration)[1] - passed)
-    return None
-
-
-def _later(ctx: Context, passed: float | None, members: Sequence[ir.Behavior]) -> float | None:
-    """Return a time (s) after members that follow one another, if their lengths are known."""
-    for member in members:
-        length = length_of(ctx, member)
-        passed = None if passed is None or length is None else passed + length
-    return passed
-
-
-def _rest(node: ir.Invoke, fixed: float, passed: float | None) -> float | None:
-    """Return what is left of a duration (s) after a time, which may be unknown."""
-    if passed is not None:
-        return max(0.0, fixed - passed)
-    ending = next((call for call in node.modifiers if call.at == "end"), None)
-    if ending is None:
-        return None
-    reason = f"only the run shows how much is left of the {fixed:g} s when it starts"
-    raise Inexpressible(reason, ending.span)
+        for member in before:
+            length = length_of(ctx, member)
+            passed = None if passed is None or length is None else passed + length
+        low, high = (0.0, inf) if parent.duration is None else ctx.values.bounds(parent.duration)
+        is_planned = not after and _ends_with(parent, is_fixed=low == high)
+        if not ends:
+            is_planned = passed is not None and all(map(is_instant, after)) and _begins_with(parent)
+        if not is_planned:
+            break
+        if parent.duration is None:
+            continue
+        if passed is not None:
+            left = max(0.0, high - passed)
+            return (left if low == high else None, None) if ends else (None, left)
+        ending = next((call for call in node.modifiers if call.at == "end"), None)
+        if ending is None or low != high:
+            break
+        reason = f"only the run shows how much is left of the {low:g} s when it starts"
+        raise Inexpressible(reason, ending.span)
+    return None, None
 
 
 def _around(
@@ -206,23 +172,14 @@ def _parents(body: ir.Behavior) -> Mapping[int, ir.Composition]:
     }
 
 
-def _fixed(ctx: Context, node: ir.Composition) -> float | None:
-    """Return a duration (s) that is one number."""
-    if node.duration is None or ctx.module.dialect == "carla":
-        return None
-    is_range = isinstance(ctx.values.of(node.duration), Bounds)
-    return None if is_range else ctx.values.number(node.duration)
+def _ends_with(node: ir.Composition, *, is_fixed: bool) -> bool:
+    """Whether open-ended last members end with a composition, whose duration may be fixed."""
+    is_free = is_fixed or all(is_instant(each) or is_open(each) for each in node.members)
+    return isinstance(node, ir.Serial) or (_begins_with(node) and is_free)
 
 
-def _ends_with_it(node: ir.Composition, duration: float | None) -> bool:
-    """Whether the open-ended members of a composition start and end with it."""
-    if not isinstance(node, ir.Parallel) or not _start_together(node):
-        return False
-    return duration is not None or all(is_instant(each) or is_open(each) for each in node.members)
-
-
-def _start_together(node: ir.Composition) -> bool:
-    """Whether the members of a parallel start with it, and end when they like."""
-    if not isinstance(node, ir.Parallel) or node.overlap not in (None, "start"):
-        return False
-    return not (node.start_to_start or node.end_to_end)
+def _begins_with(node: ir.Composition) -> bool:
+    """Whether members follow one another, or begin with a parallel and end when they like."""
+    if not isinstance(node, ir.Parallel):
+        return isinstance(node, ir.Serial)
+    return node.overlap in (None, "start") and not (node.start_to_start or node.end_to_end)

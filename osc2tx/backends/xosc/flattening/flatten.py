@@ -188,11 +188,15 @@ class Flattener:
         ends: dict[str, Flow] = {}
         for member, is_leaf in zip(self._courses(node), single, strict=True):
             if not is_leaf:
-                act, mark = self._region(member, start, partial(self._entrant, member, is_race))
+                if is_race:
+                    self._entrants.add(member.span)
+                act, mark = self._region(
+                    member, start, partial(self._racer, member, is_race, False)
+                )
                 acts.append(act)
                 if mark is not None:
                     ends[mark] = self._builder.is_set(mark)
-            elif not (end := self._racer(member, start, is_race)).is_never:
+            elif not (end := self._racer(member, is_race, True, start)).is_never:
                 mark = self._ctx.names.new(f"end_of_{self._builder.name_of(member)}")
                 ends[mark] = self._builder.keep(mark, end) if races else end
         for act in acts:  # the first one stops the others
@@ -225,15 +229,7 @@ class Flattener:
         self._ctx.states = after or before
         self._builder.mark_actor = mark_actor
 
-    def _entrant(self, member: ir.Behavior, is_race: bool, start: Flow) -> Flow:
-        """Flatten a member of a race that has an act of its own."""
-        if is_race:
-            self._entrants.add(member.span)
-        return self._racer(member, start, is_race, is_cut=False)
-
-    def _racer(
-        self, member: ir.Behavior, start: Flow, is_race: bool, *, is_cut: bool = True
-    ) -> Flow:
+    def _racer(self, member: ir.Behavior, is_race: bool, is_cut: bool, start: Flow) -> Flow:
         """Flatten a member of a race; if it is no act of its own, its action may be cut short."""
         builder = self._builder
         outer = builder.is_race, self._is_racing

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.lateral.lanes import LANE_WIDTH
+from osc2tx.backends.xosc.actions.lateral.lanes import LANE_WIDTH, lateral
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, WITHOUT_FORM
 from osc2tx.backends.xosc.actions.speed.speed_elements import ends_evenly, hold_speed, in_steps
@@ -19,7 +19,7 @@ from osc2tx.backends.xosc.flattening.builder import (
     StoryboardBuilder,
 )
 from osc2tx.backends.xosc.flattening.directives import invoke_global
-from osc2tx.backends.xosc.flattening.durations import time_left, time_limit
+from osc2tx.backends.xosc.flattening.durations import time_frame
 from osc2tx.backends.xosc.flattening.tree_queries import entry_of
 from osc2tx.backends.xosc.names import event_name
 from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
@@ -47,7 +47,7 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
         start = builder.latched(start, builder.name_of(node))
     name = ctx.names.new(event_name(ctx.scope.deeds, node, member.name))
     is_start = start == RUN_START or ir.is_first(ctx.scenario.body, node)
-    left, limit = time_left(ctx, node), time_limit(ctx, node)
+    left, limit = time_frame(ctx, node)
     leaf = Leaf(ctx, node, member, name, is_start=is_start, time_left=left, time_limit=limit)
     ctx.present.add(member.name)
     performance = Performance((), "instant")
@@ -79,8 +79,9 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
         for other, action, word in leaf.others:
             follows = ctx.names.new(f"{other.name}_{word}")
             builder.add(follows, (action,), goal, actor=other.name)
-            state = replace(ctx.states[other.name], speed=None)
-            ctx.states[other.name] = state.finished(LONGITUDINAL)
+            state = replace(ctx.states[other.name], speed=None).finished(LONGITUDINAL)
+            ctx.states[other.name] = state
+            ctx.note_move(other.name, node, state, state)
     ends = _ends(builder, node, start, goal, performance)
     successors = builder.claimed_by(overriding)
     for change in performance.changes:
@@ -202,27 +203,24 @@ def record_end_state(
     if not is_over and not change.goes_on:
         state = state.with_unfinished(change.domain, leaf.event)
     builder.ctx.states[leaf.member.name] = state
-    for noted in (change.during, change.after):
-        builder.note(
-            leaf.member.name, replace(_merged(before, noted, change.domain), unfinished=())
-        )
+    noted = [_merged(before, each, change.domain) for each in (change.during, change.after)]
+    builder.ctx.note_move(leaf.member.name, leaf.node, *noted)
+    for each in noted:
+        builder.note(leaf.member.name, replace(each, unfinished=()))
+
+
+CHANGED = {
+    LONGITUDINAL: ("speed", "pose", "aim", "rate", "pending", "jumped"),
+    LATERAL: ("offset", "lane", "pose", "drift", "aside"),
+}
+"""What a change may change, by domain; in others it is all."""
 
 
 def _merged(before: ActorState, now: ActorState, domain: str) -> ActorState:
     """Return the state in which only one domain has changed."""
-    if domain == LATERAL:
-        placed = replace(before, offset=now.offset, lane=now.lane, pose=now.pose)
-        return replace(placed, drift=now.drift, aside=now.aside)
-    if domain == LONGITUDINAL:
-        return replace(
-            now,
-            offset=before.offset,
-            lane=before.lane,
-            drift=before.drift,
-            aside=before.aside,
-            unfinished=before.unfinished,
-        )
-    return replace(now, unfinished=before.unfinished)
+    if domain not in CHANGED:
+        return replace(now, unfinished=before.unfinished)
+    return replace(before, **{name: getattr(now, name) for name in CHANGED[domain]})
 
 
 def end_open_actions(
@@ -282,13 +280,8 @@ def _ending(
         instead="an uninterrupted lane change is exact", asks=("LaneChangeActionDynamics",)
     )
     builder.ctx.report.approximate(construct, member.span, reason, bound, finishing)
-    return xml.PrivateAction(
-        xml.LateralAction(
-            xml.LaneChangeAction(
-                xml.LaneChangeActionDynamics(
-                    dynamicsShape="sinusoidal", dynamicsDimension="time", value=BACK_TO_CENTRE
-                ),
-                xml.LaneChangeTarget(xml.RelativeTargetLane(entityRef=actor, value=0)),
-            )
-        )
+    dynamics = xml.LaneChangeActionDynamics(
+        dynamicsShape="sinusoidal", dynamicsDimension="time", value=BACK_TO_CENTRE
     )
+    target = xml.LaneChangeTarget(xml.RelativeTargetLane(entityRef=actor, value=0))
+    return lateral(xml.LaneChangeAction(dynamics, target))

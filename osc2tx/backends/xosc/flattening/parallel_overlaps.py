@@ -7,7 +7,6 @@ another one is active.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from itertools import product
 
 from osc2tx import ir
@@ -18,7 +17,7 @@ from osc2tx.backends.xosc.flattening.builder import StoryboardBuilder
 from osc2tx.backends.xosc.flattening.tree_queries import claims, entry_of, is_instant
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.values.constants import Bounds
-from osc2tx_shared.classes import dataclass, replace
+from osc2tx_shared.classes import replace
 
 
 def starts_of(ctx: Context, node: ir.Parallel) -> list[float | None]:
@@ -85,58 +84,33 @@ def length_of(ctx: Context, node: ir.Behavior) -> float | None:
 # --- conflicts ------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class _Claimant:
-    """An action that controls something.
-
-    Attributes:
-        member: The number of the member that it is in.
-        node: The action.
-        at_once: Whether it begins when the composition does.
-        lasts: Whether it then goes on for as long as the composition.
-    """
-
-    member: int
-    node: ir.Invoke
-    at_once: bool
-    lasts: bool
-
-
 def report_conflicts(ctx: Context, node: ir.Parallel) -> None:
     """Report actions that control what another one surely controls at the same time."""
     overridden = {override.overridden for override in ctx.scope.scenario.overrides}
-    claimants: dict[tuple[str, str], list[_Claimant]] = {}
+    first = {id(each) for member in node.members for each in _from_the_start(member)}
+    at_once = first if _starts_together(node) else set()
+    lasting = {id(each) for each in node.members if id(each) in first and is_open(each)}
+    claimants: dict[tuple[str, str], list[tuple[int, ir.Invoke]]] = {}
     for number, member in enumerate(node.members):
-        first = list(map(id, _from_the_start(member)))
-        for action in _actions(member):
-            if action.label in overridden:
+        for action in ir.invocations(member):
+            if not _takes_time(action) or action.label in overridden:
                 continue
-            begins = id(action) in first
-            lasts = action is member and begins and is_open(action)
-            at_once = begins and _starts_together(node)
-            for what in _controls(action):
-                found = _Claimant(number, action, at_once, lasts)
-                claimants.setdefault(what, []).append(found)
+            going_on = tuple(call for call in action.modifiers if call.at != "start")
+            for what in claims(replace(action, modifiers=going_on)):
+                claimants.setdefault(what, []).append((number, action))
     told = set()
     for rivals in claimants.values():
-        holders = [each for each in rivals if each.lasts or each.at_once]
-        for holder, rival in product(holders, rivals):
-            meet = holder.lasts or rival.at_once
-            pair = (id(holder.node), id(rival.node))
-            if meet and holder.member != rival.member and pair not in told:
-                told.add(pair)
-                _report(ctx, holder.node, rival.node)
-
-
-def _report(ctx: Context, holder: ir.Invoke, rival: ir.Invoke) -> None:
-    reason = f"runs fail: it would control what `{_head(holder)}` controls at the same time"
-    instead = Remedy(instead="one after the other, or with an `override`, they are exact")
-    ctx.report.cannot(f"action {rival.action}", rival.span, reason, instead)
-
-
-def _head(node: ir.Invoke) -> str:
-    first = node.span.text.splitlines()[0]
-    return first.removesuffix(":").removesuffix(" with")
+        holders = [each for each in rivals if id(each[1]) in lasting | at_once]
+        for (one, holder), (other, rival) in product(holders, rivals):
+            meet = id(holder) in lasting or id(rival) in at_once
+            pair = (id(holder), id(rival))
+            if not meet or one == other or pair in told:
+                continue
+            told.add(pair)
+            head = holder.span.text.splitlines()[0].removesuffix(":").removesuffix(" with")
+            reason = f"runs fail: it would control what `{head}` controls at the same time"
+            instead = Remedy(instead="one after the other, or with an `override`, they are exact")
+            ctx.report.cannot(f"action {rival.action}", rival.span, reason, instead)
 
 
 def _starts_together(node: ir.Parallel) -> bool:
@@ -156,21 +130,9 @@ def _from_the_start(member: ir.Behavior) -> list[ir.Invoke]:
             return []
 
 
-def _actions(member: ir.Behavior) -> Iterator[ir.Invoke]:
-    for each in ir.walk_behaviors(member):
-        if isinstance(each, ir.Invoke) and _takes_time(each):
-            yield each
-
-
 def _takes_time(node: ir.Invoke) -> bool:
     entry = entry_of(node)
     return entry is not None and entry.ends in ("goal", "open")
-
-
-def _controls(node: ir.Invoke) -> frozenset[tuple[str, str]]:
-    """Return actor and domain of what an action controls while it goes on."""
-    lasting = tuple(call for call in node.modifiers if call.at != "start")
-    return claims(replace(node, modifiers=lasting))
 
 
 # --- overrides ------------------------------------------------------------------------------------

@@ -95,12 +95,12 @@ def _in_order(group: Group, *, is_lazy: bool) -> Group:
     to count. That the run has begun is left out where there is more to say.
     """
     telling = tuple(test for test in group if test.reached != 0.0) or group[:1]
-    return tuple(sorted(telling, key=lambda test: _rank(test, is_lazy=is_lazy)))
 
+    def rank(test: Test) -> tuple[bool, bool, bool]:
+        is_event = test.edge != "none" and any(test.condition.below(xml.VariableCondition))
+        return not (is_lazy and is_event), not test.latched, test.edge == "none"
 
-def _rank(test: Test, *, is_lazy: bool) -> tuple[bool, bool, bool]:
-    is_event = test.edge != "none" and any(test.condition.below(xml.VariableCondition))
-    return not (is_lazy and is_event), not test.latched, test.edge == "none"
+    return tuple(sorted(telling, key=rank))
 
 
 Trigger = TypeVar("Trigger", xml.StartTrigger, xml.StopTrigger)

@@ -6,7 +6,6 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.registry import TAKES
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
 from osc2tx.catalogue import ActionEntry, catalogue
-from osc2tx_shared.classes import replace
 
 DIRECTIONS_ALONG = ("ahead", "behind", "longitudinal")
 """Directions of an action that is about the speed; in others it is about the place in the lane."""
@@ -56,24 +55,6 @@ def _domains(node: ir.Invoke) -> frozenset[str]:
         known = modifiers.get(call.name)  # none if only a dialect has it
         domains |= {*TAKES.get(f"modifier {call.name}", () if known is None else known.slots)}
     return frozenset(domains)
-
-
-def shifts_beside(body: ir.Behavior, node: ir.Invoke, actor: str) -> bool:
-    """Whether members beside an invocation may move an actor across the road; if in doubt, yes."""
-    beside = ir.runs_beside(body, node)
-    return not ir.holds(body, node) or any(_shifts(member, actor) for member in beside)
-
-
-def _shifts(member: ir.Behavior, actor: str) -> bool:
-    for node in ir.walk_behaviors(member):
-        if isinstance(node, ir.InvokeScenario):
-            return True
-        if not isinstance(node, ir.Invoke) or node.actor_name != actor:
-            continue
-        going_on = (m for m in node.modifiers if m.at != "start" and m.name != "keep_lane")
-        if LATERAL in _domains(replace(node, modifiers=tuple(going_on))):
-            return True
-    return False
 
 
 def _is_sideways(node: ir.Invoke) -> bool:

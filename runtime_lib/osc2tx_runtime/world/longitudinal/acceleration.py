@@ -77,7 +77,7 @@ class AccelerationRun:
         self._steps += 1
         before, self._time = self._time, self._steps * inputs.dt
         if isinstance(self._profile, Linear | Quintic):
-            self._gained = _integral(self._profile, self._time)
+            self._gained = integral(self._profile, self._time)
         else:
             self._gained += _simpson(self._profile, before, self._time)
         speed = self._start_speed + self._gained
@@ -89,7 +89,7 @@ class AccelerationRun:
         """Speed (m/s) so many steps after the last one that was asked for."""
         time = (self._steps + steps) * dt
         if isinstance(self._profile, Linear | Quintic):
-            speed = self._start_speed + _integral(self._profile, time)
+            speed = self._start_speed + integral(self._profile, time)
         else:
             speed = self._start_speed + self._gained + _simpson(self._profile, self._time, time)
         stops = self._start_speed > 0.0 > speed or self._start_speed < 0.0 < speed
@@ -116,7 +116,7 @@ def _simpson(profile: Profile, low: float, high: float) -> float:
     return (high - low) * (profile.value(low) + 4.0 * middle + profile.value(high)) / 6.0
 
 
-def _integral(profile: Linear | Quintic, t: float) -> float:
+def integral(profile: Linear | Quintic, t: float) -> float:
     """Integral of a profile from 0 to t; beyond its duration with its end value."""
     start, change, whole = profile.start, profile.end - profile.start, profile.duration
     if t >= whole:

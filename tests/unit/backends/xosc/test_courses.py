@@ -5,9 +5,9 @@ from math import pi, sqrt
 
 import pytest
 
-from osc2tx.backends.xosc.actions.position.position_modifiers import Arrival
-from osc2tx.backends.xosc.actions.speed.acceleration import Ramp
-from osc2tx.backends.xosc.actions.speed.speed_changes import through_points
+from osc2tx.backends.xosc.actions.position.position_modifiers import arrival
+from osc2tx.backends.xosc.actions.speed.acceleration import ramp
+from osc2tx.backends.xosc.actions.speed.courses import Computed, through_points
 from osc2tx.backends.xosc.facts.actors import Cosine, Linear, Quintic, SCurve, steepest
 from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve
 from osc2tx.backends.xosc.report import Inexpressible
@@ -16,7 +16,7 @@ from osc2tx.xosc.arithmetic import evaluated
 from osc2tx.xosc.expressions import Symbol
 
 
-def way(course: Arrival | Ramp, pieces: int = 1000) -> float:
+def way(course: Computed, pieces: int = 1000) -> float:
     """Return the way (m) by the midpoint rule."""
     step = course.duration / pieces
     return sum(course.value((index + 0.5) * step) * step for index in range(pieces))
@@ -24,30 +24,30 @@ def way(course: Arrival | Ramp, pieces: int = 1000) -> float:
 
 @pytest.mark.parametrize("time", [0.5, 1.0, 2.0, 3.5])
 def test_an_acceleration_that_builds_up(time: float) -> None:
-    ramp = Ramp(10.0, Linear(0.0, 1.5, 2.0), 3.5)  # jerk 0.75 m/s^3 for 2 s, then 1.5 m/s^2
+    course = ramp(10.0, Linear(0.0, 1.5, 2.0), 3.5)  # jerk 0.75 m/s^3 for 2 s, then 1.5 m/s^2
     expected = 10.0 + 0.375 * time**2 if time <= 2.0 else 11.5 + 1.5 * (time - 2.0)
-    assert ramp.value(time) == pytest.approx(expected, abs=1e-9)
+    assert course.value(time) == pytest.approx(expected, abs=1e-9)
 
 
 def test_a_smooth_change_of_the_acceleration_has_the_mean_of_both() -> None:
-    ramp = Ramp(10.0, Quintic(-1.0, 2.0, 4.0), 4.0)
-    assert ramp.value(4.0) == pytest.approx(12.0, abs=1e-6)
+    course = ramp(10.0, Quintic(-1.0, 2.0, 4.0), 4.0)
+    assert course.value(4.0) == pytest.approx(12.0, abs=1e-6)
 
 
 def test_who_brakes_comes_to_a_stand() -> None:
-    assert Ramp(1.0, Linear(-2.0, -2.0, 1.0), 1.0).value(1.0) == 0.0
+    assert ramp(1.0, Linear(-2.0, -2.0, 1.0), 1.0).value(1.0) == 0.0
 
 
 @pytest.mark.parametrize("missing", [-20.0, 30.0])
 def test_who_has_to_arrive_covers_the_way(missing: float) -> None:
-    arrival = Arrival(15.0, missing, 6.0)
-    assert way(arrival) == pytest.approx(90.0 + missing, abs=1e-4)
-    assert arrival.value(6.0) == pytest.approx(15.0 + 1.5 * missing / 6.0)
+    course = arrival(15.0, missing, 6.0)
+    assert way(course) == pytest.approx(90.0 + missing, abs=1e-4)
+    assert course.value(6.0) == pytest.approx(15.0 + 1.5 * missing / 6.0)
 
 
 def test_points_on_a_straight_line_are_left_out() -> None:
     """esmini joins such entries, and never ends while it has fewer than there were."""
-    course = Ramp(10.0, Linear(0.0, -2.0, 1.0), 4.0)  # jerk for 1 s, then -2 m/s^2 for 3 s
+    course = ramp(10.0, Linear(0.0, -2.0, 1.0), 4.0)  # jerk for 1 s, then -2 m/s^2 for 3 s
     entries = list(through_points(course, 8).below(xml.SpeedProfileEntry))
     assert [(each.time, each.speed) for each in entries] == [(0.5, 9.75), (0.5, 9.0), (3.0, 3.0)]
 

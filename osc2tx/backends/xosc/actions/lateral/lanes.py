@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 from osc2tx import ir
+from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, to_goal
 from osc2tx.backends.xosc.actions.speed.speed_notes import note_slow
@@ -19,7 +21,6 @@ from osc2tx.backends.xosc.facts.maps import (
     lane_either_way,
     number_of_oncoming,
 )
-from osc2tx.backends.xosc.flattening.tree_queries import shifts_beside
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres
 from osc2tx.backends.xosc.state import LATERAL, ActorState, known
 from osc2tx.xosc import elements as xml
@@ -37,14 +38,16 @@ def _change_lane(leaf: Leaf) -> Performance:
     arguments = leaf.arguments
     reference = arguments.entity("reference")
     target = segment_of(leaf.ctx, arguments.get("target"))
-    lanes = _lanes(leaf) if target is None else lanes_to_segment(leaf, target)
-    offset = arguments.number("offset") or 0.0
+    if target is None:
+        lanes = lanes_aside(leaf, arguments, "num_of_lanes")
+    else:
+        lanes = lanes_to_segment(leaf, target)
     change = lane_change(
         leaf,
         lanes,
         arguments.pace(leaf.duration),
-        None if reference is None else reference.name,
-        offset=offset,
+        reference,
+        offset=arguments.number("offset") or 0.0,
         own_lanes=None if reference is None else lanes_to(leaf, reference, lanes),
         is_absolute=target is not None,
     )
@@ -64,27 +67,22 @@ def lanes_to_segment(leaf: Leaf, target: MapSegment) -> int:
     return lanes
 
 
-def _lanes(leaf: Leaf) -> int:
-    """Return how many lanes to the left of the reference the target is."""
-    count = leaf.arguments.count("num_of_lanes")
-    side = leaf.arguments.member("side", "")
-    match side:
-        case "left":
-            return count
-        case "right":
-            return -count
-        case "same":
-            return 0
-        case "inside" | "outside":
-            return count if leaf.is_left(side) else -count
-    return count if drawn_side(leaf, leaf.node, count) == "left" else -count
+def lanes_aside(leaf: Leaf, arguments: Arguments, name: str) -> int:
+    """Return the lanes that an argument counts to the `side`: positive to the left."""
+    count, side = arguments.count(name), arguments.member("side", "")
+    if side == "same":
+        return 0
+    if side in ("inside", "outside"):
+        return count if leaf.is_left(side) else -count
+    return count if (side or _drawn_side(leaf, arguments, count)) == "left" else -count
 
 
-def drawn_side(leaf: Leaf, node: ir.Invoke | ir.ModifierCall, count: int) -> str:
+def _drawn_side(leaf: Leaf, arguments: Arguments, count: int) -> str:
     """Return the side that a parameter of the document gives, of those with a lane."""
-    drawn = leaf.ctx.choosing.side(leaf.ctx.scope, node)
+    drawn = leaf.ctx.choosing.side(leaf.ctx.scope, arguments.source)
     if not isinstance(drawn, str):
-        raise Inexpressible("the side is drawn for each run; say `left` or `right`", node.span)
+        reason = "the side is drawn for each run; say `left` or `right`"
+        raise Inexpressible(reason, arguments.span)
     roads, lane = leaf.ctx.roads, leaf.state.lane
     if roads is None or lane is None:
         return drawn
@@ -93,11 +91,42 @@ def drawn_side(leaf: Leaf, node: ir.Invoke | ir.ModifierCall, count: int) -> str
     return drawn if drawn in there or not there else there[0]
 
 
+def shift(
+    leaf: Leaf, way: float, pace: Pace, *, jumps: bool = False
+) -> tuple[DynamicsShape, float, float]:
+    """Return shape, length (s) and fastest speed (m/s) of a movement across the road.
+
+    Reported is where the one of the XML, of as many metres, differs from that of the world.
+    """
+    planned = partial(course_of_shift, way, limits=leaf.limits)
+    pace, course = leaf.within_limit(pace, planned)
+    if jumps:
+        return "step", 0.0, 0.0
+    _note_drift(leaf, way, pace, course)
+    note_slow(leaf, way, course)
+    # Where the scenario leaves the shape open, any is right.
+    is_free = pace.profile == "none" and not leaf.ctx.profile.has_shapes
+    is_even = isinstance(course, Linear) or is_free
+    return "linear" if is_even else "sinusoidal", course.duration, fastest(course)
+
+
+def _note_drift(leaf: Leaf, way: float, pace: Pace, course: Profile) -> None:
+    """Report that a change takes over a speed across the road: the XML begins without any."""
+    drift = leaf.state.drift
+    if drift == 0.0 or pace.profile == "constant":
+        return
+    off = max(apart(course_of_shift(way, pace, leaf.limits, v), course) for v in (-drift, drift))
+    leaf.approximate(
+        "it takes over the lateral speed of the change before; one of the XML begins without any",
+        Metres(off, "beside, while it changes"),
+    )
+
+
 def lane_change(
     leaf: Leaf,
     lanes: int,
     pace: Pace,
-    reference: str | None = None,
+    reference: CastMember | None = None,
     *,
     offset: float = 0.0,
     own_lanes: int | None = None,
@@ -105,34 +134,31 @@ def lane_change(
     is_absolute: bool = False,
 ) -> Change:
     """Return the change to a lane to the left of that of the actor or a reference."""
-    state = leaf.state
+    state, roads = leaf.state, leaf.ctx.roads
     if own_lanes is None and reference is None:
         own_lanes = lanes
     here, target = (None, None) if own_lanes is None else _from_and_to(leaf, own_lanes)
     count = 1 if own_lanes is None else own_lanes
-    to_lane = math.copysign(_distance(leaf, here, target, count), count)
+    to_lane = LANE_WIDTH * count
+    if roads is not None and here is not None and target is not None:
+        centre = lane_either_way(roads.map, here, 0)
+        assert centre is not None
+        ways = (roads.map.pose(place)[:2] for place in (centre, target))
+        to_lane = math.copysign(math.dist(*ways), count)
     way = abs(to_lane + offset - offset_of(state))
-    course = course_of_shift(way, pace, leaf.limits)
-    limited = leaf.within_limit(pace, course.duration)
-    if limited is not pace:
-        pace, course = limited, course_of_shift(way, limited, leaf.limits)
-    if not jumps:
-        note_drift(leaf, way, pace, course)
-        note_slow(leaf, way, course)
-    time = 0.0 if jumps else course.duration
-    if own_lanes is None and pace.duration is None and not jumps:
+    shape, time, drift = shift(leaf, way, pace, jumps=jumps)
+    if own_lanes is None and reference is not None and pace.duration is None and not jumps:
         leaf.approximate(
-            f"how far the lane of {reference} is away is only known during the run",
+            f"how far the lane of {reference.name} is away is only known during the run",
             f"it takes {time:.3g} s, as to a lane beside it",
         )
-    shape = "step" if jumps else shape_of(leaf, course, pace)
     after = replace(state, lane=target, offset=known(offset)).finished(LATERAL)
     if reference is not None and "RelativeTargetLane/entityRef" in leaf.ctx.profile.unsupported:
         if own_lanes is None:
             leaf.ctx.require_support("RelativeTargetLane/entityRef", leaf.node.span)
         reference, lanes = None, count
     goal: xml.LaneChangeTargetPart
-    goal = xml.RelativeTargetLane(entityRef=reference or leaf.member.name, value=lanes)
+    goal = xml.RelativeTargetLane(entityRef=(reference or leaf.member).name, value=lanes)
     number = _number_among_oncoming(leaf, here, target, offset)
     if number is not None:
         goal = xml.AbsoluteTargetLane(value=number)
@@ -145,7 +171,6 @@ def lane_change(
             targetLaneOffset=along_t(leaf, offset, target) or None,
         )
     )
-    drift = 0.0 if jumps else fastest(course)
     during = replace(after, lane=None, offset=None, drift=drift)
     return Change(LATERAL, (action,), time, during, after)
 
@@ -197,40 +222,22 @@ def _number_among_oncoming(
     return number if oncoming is target else target.lane
 
 
-def note_drift(leaf: Leaf, way: float, pace: Pace, course: Profile) -> None:
-    """Report that a change takes over a speed across the road: the XML begins without any."""
-    drift = leaf.state.drift
-    if drift == 0.0 or pace.profile == "constant":
-        return
-    off = max(apart(course_of_shift(way, pace, leaf.limits, v), course) for v in (-drift, drift))
-    leaf.approximate(
-        "it takes over the lateral speed of the change before; one of the XML begins without any",
-        Metres(off, "beside, while it changes"),
-    )
-
-
-def shape_of(leaf: Leaf, course: Profile, pace: Pace) -> DynamicsShape:
-    """Return the literal for a course; where the scenario leaves it open, any is right."""
-    is_free = pace.profile == "none" and not leaf.ctx.profile.has_shapes
-    return "linear" if isinstance(course, Linear) or is_free else "sinusoidal"
-
-
 def _dynamics(leaf: Leaf, shape: DynamicsShape, time: float) -> xml.LaneChangeActionDynamics:
     """Return the dynamics of a lane change, over a distance for tools that ask for it."""
     dimension: DynamicsDimension = "time"
-    value = time
-    speed = leaf.state.known_speed
-    asks = f"LaneChangeActionDynamics/{dimension}" in leaf.ctx.profile.unsupported
-    if asks and speed is not None and speed > 0.0 and time > 0.0:
-        dimension, value = "distance", time * speed
-    elif asks and leaf.state.aim and time > 0.0:
-        dimension, value = "distance", time * leaf.state.aim
-        leaf.approximate(
-            f"{leaf.ctx.profile.name} asks for its distance, and the speed may still be changing",
-            f"it goes over {value:.3g} m, {time:.3g} s at {leaf.state.aim:.3g} m/s; slower, it is"
-            " longer",
-            GENERIC,
-        )
+    value, tool = time, leaf.ctx.profile
+    if "LaneChangeActionDynamics/time" in tool.unsupported and value > 0.0:
+        speed = leaf.state.known_speed
+        speed = speed if speed is not None and speed > 0.0 else leaf.state.aim
+        if speed:
+            dimension, value = "distance", value * speed
+        if speed and speed != leaf.state.known_speed:
+            leaf.approximate(
+                f"{tool.name} asks for its distance, and the speed may still be changing",
+                f"it goes over {value:.3g} m, {time:.3g} s at {speed:.3g} m/s; slower, it is"
+                " longer",
+                GENERIC,
+            )
     return xml.LaneChangeActionDynamics(
         dynamicsShape=shape, dynamicsDimension=dimension, value=round(value, 6)
     )
@@ -244,40 +251,24 @@ def lanes_to(leaf: Leaf, reference: CastMember, lanes: int) -> int | None:
     """
     beside = ir.runs_beside(leaf.ctx.scenario.body, leaf.node)
     nodes = (node for each in beside for node in ir.invocations(each))
-    if any(_leaves_lane(node, reference.actor.name) for node in nodes):
+    own = (node for node in nodes if node.actor_name == reference.actor.name)
+    if any(
+        node.action == "change_lane"
+        or any(m.at == "end" and m.name in ("lane", "change_lane") for m in node.modifiers)
+        for node in own
+    ):
         raise Inexpressible(
             f"{reference.name} may be in another lane before it ends; the XML takes the lane at the"
             " start",
             leaf.node.span,
         )
-    roads, mine, theirs = leaf.ctx.roads, leaf.state.lane, lane_of(leaf, reference)
+    roads, mine, theirs = leaf.ctx.roads, leaf.state.lane, leaf.state_of(reference).lane
     if roads is None or mine is None or theirs is None:
         return None
     between = roads.lanes_between(mine, theirs)
     if between is None:
         return None
     return between - lanes if are_opposed(roads.map, mine, theirs) else between + lanes
-
-
-def lane_of(leaf: Leaf, other: CastMember) -> LanePosition | None:
-    """Return the lane in which another actor is at that time; `None` if only the run shows it.
-
-    Members beside one another are written down one after the other: what the state of an actor is
-    then may be that before or after what such a member does.
-    """
-    if leaf.is_start:
-        return leaf.ctx.at_start[other.name].lane
-    if shifts_beside(leaf.ctx.scenario.body, leaf.node, other.actor.name):
-        return None
-    return leaf.ctx.states[other.name].lane
-
-
-def _leaves_lane(node: ir.Invoke, actor: str) -> bool:
-    """Whether an actor goes to another lane in an invocation."""
-    if node.actor_name != actor:
-        return False
-    ends = {call.name for call in node.modifiers if call.at == "end"}
-    return node.action == "change_lane" or not ends.isdisjoint(("lane", "change_lane"))
 
 
 def _from_and_to(leaf: Leaf, lanes: int) -> tuple[LanePosition | None, LanePosition | None]:
@@ -305,19 +296,6 @@ def _from_and_to(leaf: Leaf, lanes: int) -> tuple[LanePosition | None, LanePosit
             leaf.node.span,
         )
     return here, target
-
-
-def _distance(
-    leaf: Leaf, lane: LanePosition | None, target: LanePosition | None, lanes: int
-) -> float:
-    """Return how far (m) a lane is from another one."""
-    roads = leaf.ctx.roads
-    if roads is None or lane is None or target is None:
-        return LANE_WIDTH * abs(lanes)
-    centre = lane_either_way(roads.map, lane, 0)
-    assert centre is not None
-    here, there = roads.map.pose(centre), roads.map.pose(target)
-    return math.hypot(here.x - there.x, here.y - there.y)
 
 
 def offset_of(state: ActorState) -> float:

@@ -7,28 +7,26 @@ from __future__ import annotations
 
 import math
 
-from osc2tx.backends.xosc.actions.arguments import Arguments, Call
+from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.lateral.lanes import (
     NO_ONE_SIDE,
     along_t,
-    drawn_side,
     lane_change,
+    lanes_aside,
     lanes_to,
     lanes_to_segment,
     lateral,
-    note_drift,
     offset_of,
-    shape_of,
+    shift,
 )
 from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, modifier
 from osc2tx.backends.xosc.actions.speed.gaps import Gap, reach
 from osc2tx.backends.xosc.actions.speed.speed_changes import may_jump
-from osc2tx.backends.xosc.actions.speed.speed_notes import note_slow
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
-from osc2tx.backends.xosc.facts.actors import Linear, Pace, course_of_shift, fastest
+from osc2tx.backends.xosc.facts.actors import Pace
 from osc2tx.backends.xosc.facts.maps import LanePosition, is_oncoming
 from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LATERAL, known
@@ -64,30 +62,23 @@ def offset_change(leaf: Leaf, offset: float, pace: Pace) -> Change:
         if is_oncoming(roads.map, lane) or is_oncoming(roads.map, reached):
             raise Inexpressible(NO_ONE_SIDE, leaf.node.span)
     way = abs(offset - offset_of(leaf.state))
-    course = course_of_shift(way, pace, leaf.limits)
-    note_drift(leaf, way, pace, course)
-    note_slow(leaf, way, course)
-    shape = shape_of(leaf, course, pace)
-    if isinstance(course, Linear):
+    shape, time, drift = shift(leaf, way, pace)
+    if pace.profile == "constant":
         leaf.approximate(
             "the XML states no length for a change of the offset, and a steady one has no peak that"
             " gives it",
             Metres(way, "beside, until it is there"),
         )
     # The XML gives no time, only the peak of the lateral acceleration: that of the shape.
-    half_turn = math.pi / course.duration
+    half_turn = math.pi / time
     peak_rate = 0.5 * way * half_turn * half_turn
-    action = lateral(
-        xml.LaneOffsetAction(
-            xml.LaneOffsetActionDynamics(dynamicsShape=shape, maxLateralAcc=round(peak_rate, 6)),
-            xml.LaneOffsetTarget(xml.AbsoluteTargetLaneOffset(value=along_t(leaf, offset))),
-            continuous=False,
-        )
-    )
+    dynamics = xml.LaneOffsetActionDynamics(dynamicsShape=shape, maxLateralAcc=round(peak_rate, 6))
+    target = xml.LaneOffsetTarget(xml.AbsoluteTargetLaneOffset(value=along_t(leaf, offset)))
+    action = lateral(xml.LaneOffsetAction(dynamics, target, continuous=False))
     after = replace(leaf.state, offset=known(offset)).finished(LATERAL)
     goes_on = abs(offset) < INSIDE
-    during = replace(after, offset=None, drift=fastest(course), aside=way if goes_on else 0.0)
-    return Change(LATERAL, (action,), course.duration, during, after, goes_on=goes_on)
+    during = replace(after, offset=None, drift=drift, aside=way if goes_on else 0.0)
+    return Change(LATERAL, (action,), time, during, after, goes_on=goes_on)
 
 
 EDGES = {"left": 0.5, "center": 0.0, "right": -0.5}
@@ -131,24 +122,22 @@ def left_of(arguments: Arguments, own: float, theirs: float | None) -> float:
 
 
 @modifier("change_lane")
-def _change_lane(leaf: Leaf, call: Call) -> Changes:
-    count = call.count("lane")
-    side = call.member("side", "") or drawn_side(leaf, call.node, count)
-    return (_to(leaf, call, count if side == "left" else -count),)
+def _change_lane(leaf: Leaf, call: Arguments) -> Changes:
+    return (_to(leaf, call, lanes_aside(leaf, call, "lane")),)
 
 
 @modifier("lane")
-def _lane(leaf: Leaf, call: Call) -> Changes:
+def _lane(leaf: Leaf, call: Arguments) -> Changes:
     reference, lanes = call.beside_lane()
     if reference is None:
         return _numbered(leaf, call)
     own = lanes_to(leaf, reference, lanes)
     if own == 0:
         return ()
-    return (_to(leaf, call, lanes, reference.name, own),)
+    return (_to(leaf, call, lanes, reference, own),)
 
 
-def _numbered(leaf: Leaf, call: Call) -> Changes:
+def _numbered(leaf: Leaf, call: Arguments) -> Changes:
     """Return the change to a lane with a number, counted from an edge of the road."""
     number, edge = call.count("lane"), call.member("from", "right")
     roads, here = leaf.ctx.roads, leaf.state.lane
@@ -164,7 +153,11 @@ def _numbered(leaf: Leaf, call: Call) -> Changes:
 
 
 def _to(
-    leaf: Leaf, call: Call, lanes: int, reference: str | None = None, own_lanes: int | None = None
+    leaf: Leaf,
+    call: Arguments,
+    lanes: int,
+    reference: CastMember | None = None,
+    own_lanes: int | None = None,
 ) -> Change:
     """Return the change to a lane beside that of the actor or of a reference."""
     if any(other.name == "lateral" and other.at != "start" for other in leaf.node.modifiers):
@@ -176,7 +169,7 @@ def _to(
 
 
 @modifier("lateral")
-def _lateral(leaf: Leaf, call: Call) -> Changes:
+def _lateral(leaf: Leaf, call: Arguments) -> Changes:
     reference = call.entity("side_of")
     if reference is not None:
         return _beside(leaf, call, reference)
@@ -185,7 +178,7 @@ def _lateral(leaf: Leaf, call: Call) -> Changes:
     return () if leaf.state.offset == known(offset) else (offset_change(leaf, offset, pace),)
 
 
-def _beside(leaf: Leaf, call: Call, reference: CastMember) -> Changes:
+def _beside(leaf: Leaf, call: Arguments, reference: CastMember) -> Changes:
     """Return the control of the distance across the road from another actor."""
     size = call.size("distance")
     if size is None:

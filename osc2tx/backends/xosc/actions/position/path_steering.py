@@ -73,13 +73,9 @@ def _start(leaf: Leaf, line: Line, corners: Sequence[Waypoint]) -> Pose:
     if line.frame is not None:
         is_own = line.reference == leaf.member.name and line.frame != "world_relative"
         return Pose(0.0, 0.0, 0.0, 0.0) if is_own else along
-    state, roads = leaf.state, leaf.ctx.roads
-    if state.pose is not None:
-        return state.pose
-    if roads is None:
-        return along
-    if state.lane is not None and leaf.is_start:
-        return roads.map.pose(state.lane)
+    here, roads = leaf.start_pose(), leaf.ctx.roads
+    if here is not None or roads is None:
+        return here or along
     on = roads.locate(first.x, first.y, first.z)
     return along if on is None else along._replace(h=roads.map.pose(on).h)
 
@@ -113,7 +109,10 @@ PARALLEL = Remedy(instead="a way whose last stretch is parallel to its lane is e
 
 def note_jump(leaf: Leaf, first: Waypoint) -> None:
     """Report that a trajectory with times begins where it does: the XML jumps there, if need be."""
-    here, bound = _place(leaf), "by the way from where it is to the first point, until it is there"
+    here, bound = (
+        leaf.start_pose(),
+        "by the way from where it is to the first point, until it is there",
+    )
     if here is not None:
         missing = math.hypot(first.x - here.x, first.y - here.y)
         if missing <= NEAR:
@@ -124,24 +123,6 @@ def note_jump(leaf: Leaf, first: Waypoint) -> None:
         bound,
         ARRIVING,
     )
-
-
-def _place(leaf: Leaf) -> Pose | None:
-    """Return where an actor begins: at its start, or after a drive from there at one speed."""
-    state, ctx = leaf.state, leaf.ctx
-    start = ctx.at_start[leaf.member.name]
-    if state.pose is not None or ctx.roads is None or start.lane is None:
-        return state.pose
-    if leaf.is_start:
-        return ctx.roads.map.pose(start.lane)
-    before = ir.predecessor(ctx.scenario.body, leaf.node)
-    if before is None or before.duration is None or not ir.is_first(ctx.scenario.body, before):
-        return None
-    speed = state.known_speed
-    if speed is None or state.speed != start.speed or state.offset != start.offset:
-        return None
-    there = ctx.roads.ahead(start.lane, speed * ctx.values.number(before.duration))
-    return None if there is None else ctx.roads.map.pose(there)
 
 
 def note_slant(

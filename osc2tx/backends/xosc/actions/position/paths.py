@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from itertools import pairwise
 
-from osc2tx.backends.xosc.actions.arguments import Call
+from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance
 from osc2tx.backends.xosc.actions.position.path_steering import (
     note_jump,
@@ -26,7 +26,7 @@ from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve
 from osc2tx.backends.xosc.facts.map_search import MapSegment, crossing_of, graph_of
-from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
+from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL, ActorState, known
 from osc2tx.backends.xosc.values.constants import Constant, Named
@@ -56,14 +56,14 @@ ACROSS = frozenset({"change_lane", "keep_lane", "lane", "lateral"})
 
 
 @modifier("along_trajectory")
-def _along_trajectory(leaf: Leaf, call: Call) -> Changes:
+def _along_trajectory(leaf: Leaf, call: Arguments) -> Changes:
     offsets = call.offsets()
     line = line_of(leaf.ctx, call.get("trajectory"))
     return along_line(leaf, replace(line, offsets=offsets))
 
 
 @modifier("along")
-def _along(leaf: Leaf, call: Call) -> Changes:
+def _along(leaf: Leaf, call: Arguments) -> Changes:
     offsets = call.offsets()
     route = call.get("route")
     segment = segment_of(leaf.ctx, route)
@@ -79,11 +79,18 @@ def _along_segment(leaf: Leaf, segment: MapSegment, offsets: tuple[float, float]
     """Return the changes that a route of the map makes: it goes on in the lanes, from wherever."""
     if offsets[1]:
         raise Inexpressible("a route of the map that is left before its end", leaf.node.span)
-    roads = required_roads(leaf.ctx)
-    action, goal = _assign_route(leaf, roads, segment)
+    roads, lane = required_roads(leaf.ctx), leaf.state.lane
+    graph = graph_of(roads.map)
+    ends = [graph.begin(segment), graph.end(segment)]
+    if lane is not None and lane.road == ends[1].road:  # it keeps its own lane
+        ends = [each._replace(lane=lane.lane) if each.road == lane.road else each for each in ends]
+    places = [lane_place(roads, each) for each in ends]
     if leaf.duration is None:
-        there = lane_place(roads, goal)
-        leaf.reached = at_place(leaf.ctx, leaf.arguments, leaf.member.name, there, goal)
+        name = leaf.member.name
+        leaf.reached = at_place(leaf.ctx, leaf.arguments, name, places[1], ends[1])
+    waypoints = (xml.Waypoint(xml.Position(each), routeStrategy="shortest") for each in places)
+    route = xml.Route(*waypoints, name=leaf.ctx.names.new(f"route_{leaf.event}"), closed=False)
+    action = xml.PrivateAction(xml.RoutingAction(xml.AssignRouteAction(route)))
     after = replace(leaf.state, lane=None).finished(LATERAL)
     return (Change(LATERAL, (action,), None, after, after),)
 
@@ -98,12 +105,16 @@ def along_line(leaf: Leaf, line: Line) -> Changes:
     if line.is_timed and points and points[0].time > 0.0:
         if line.frame is not None or any(line.offsets):
             raise Inexpressible("a trajectory that begins later, from wherever the actor is then")
-        points = (_here(leaf), *points)
+        here = leaf.state.pose
+        if here is None:
+            reason = "where it starts from is only known during the run"
+            raise Inexpressible(reason, leaf.node.span)
+        points = (Waypoint(0.0, here.x, here.y, here.z), *points)
     corners = sample_curve(replace(line, points=points))
     vertices = [_vertex(leaf, line, each) for each in corners]
     if not (line.is_timed or is_exact or _is_there(leaf, corners[0])) and line.frame is None:
-        here = xml.RelativeObjectPosition(entityRef=leaf.member.name, dx=0.0, dy=0.0)
-        vertices = [(0.0, here), *vertices]  # it goes to the path, it does not jump
+        start = xml.RelativeObjectPosition(entityRef=leaf.member.name, dx=0.0, dy=0.0)
+        vertices = [(0.0, start), *vertices]  # it goes to the path, it does not jump
     if line.is_timed and not is_exact:
         note_schedule(leaf, corners)
         if line.frame is None:
@@ -111,20 +122,18 @@ def along_line(leaf: Leaf, line: Line) -> Changes:
     elif not is_exact:
         note_steering(leaf, line, corners)
     action = follow(leaf, vertices, line.is_timed, is_exact)
-    end = corners[-1]
-    if line.is_timed:
-        before = corners[-2]
-        way = math.hypot(end.x - before.x, end.y - before.y)
-        speed = known(way / (end.time - before.time))
-        after = _at_end(leaf, line, corners, replace(leaf.state, speed=speed))
-        during = replace(after, speed=None, lane=None, offset=None, pose=None)
-        return (
-            Change(LONGITUDINAL, (action,), end.time, during, after),
-            Change(LATERAL, (), end.time, during, after),
-        )
-    after = _at_end(leaf, line, corners, leaf.state)
-    during = replace(after, lane=None, offset=None, pose=None)
-    return (Change(LATERAL, (action,), _time(leaf, corners), during, after),)
+    if not line.is_timed:
+        after = _at_end(leaf, line, corners, leaf.state)
+        during = replace(after, lane=None, offset=None, pose=None)
+        return (Change(LATERAL, (action,), _time(leaf, corners), during, after),)
+    before, end = corners[-2:]
+    speed = known(math.dist(end[1:3], before[1:3]) / (end.time - before.time))
+    after = _at_end(leaf, line, corners, replace(leaf.state, speed=speed))
+    during = replace(after, speed=None, lane=None, offset=None, pose=None)
+    return (
+        Change(LONGITUDINAL, (action,), end.time, during, after),
+        Change(LATERAL, (), end.time, during, after),
+    )
 
 
 def _time(leaf: Leaf, corners: Sequence[Waypoint]) -> float | None:
@@ -140,19 +149,9 @@ def _time(leaf: Leaf, corners: Sequence[Waypoint]) -> float | None:
     return way / speed
 
 
-def _here(leaf: Leaf) -> Waypoint:
-    """Return where an actor is at the start of its action."""
-    pose = leaf.state.pose
-    if pose is None:
-        raise Inexpressible("where it starts from is only known during the run", leaf.node.span)
-    return Waypoint(0.0, pose.x, pose.y, pose.z, None)
-
-
 def _is_there(leaf: Leaf, point: Waypoint) -> bool:
     """Whether an actor surely begins where a line does: tools set out on no line of no length."""
-    pose, lane, roads = leaf.state.pose, leaf.state.lane, leaf.ctx.roads
-    if pose is None and lane is not None and roads is not None and leaf.is_start:
-        pose = roads.map.pose(lane)
+    pose = leaf.start_pose() if leaf.is_start else leaf.state.pose
     return pose is not None and math.hypot(point.x - pose.x, point.y - pose.y) < 1e-3
 
 
@@ -177,13 +176,12 @@ def _at_end(leaf: Leaf, line: Line, corners: Sequence[Waypoint], state: ActorSta
 
 def _vertex(leaf: Leaf, line: Line, point: Waypoint) -> tuple[float, xml.PositionPart]:
     x, y, z = round(point.x, 6), round(point.y, 6), round(point.z, 6)
+    name = line.reference or ""
     place: xml.PositionPart
-    if line.frame is None:
-        h = None if point.h is None else round(point.h, 9)
-        return point.time, xml.WorldPosition(x=x, y=y, z=z, h=h)
-    name = line.reference
-    assert name is not None
     match line.frame:
+        case None:
+            h = None if point.h is None else round(point.h, 9)
+            place = xml.WorldPosition(x=x, y=y, z=z, h=h)
         case "road_relative":
             place = xml.RelativeRoadPosition(entityRef=name, ds=x, dt=y)
         case "lane_relative":
@@ -231,27 +229,3 @@ def follow(
             )
         )
     )
-
-
-# --- routes ---------------------------------------------------------------------------------------
-
-
-def _assign_route(
-    leaf: Leaf, roads: Roads, segment: MapSegment
-) -> tuple[xml.PrivateAction, LanePosition]:
-    """Return the action that gives an actor a route, and the place of its end."""
-    graph = graph_of(roads.map)
-    begin, end = graph.begin(segment), graph.end(segment)
-    lane = leaf.state.lane
-    if lane is not None and lane.road == end.road:  # it keeps its own lane
-        begin, end = (
-            LanePosition(each.road, lane.lane, each.s) if each.road == lane.road else each
-            for each in (begin, end)
-        )
-    waypoints = (
-        xml.Waypoint(xml.Position(place), routeStrategy="shortest")
-        for place in (lane_place(roads, begin), lane_place(roads, end))
-    )
-    route = xml.Route(*waypoints, name=leaf.ctx.names.new(f"route_{leaf.event}"), closed=False)
-    assign = xml.RoutingAction(xml.AssignRouteAction(route))
-    return xml.PrivateAction(assign), end

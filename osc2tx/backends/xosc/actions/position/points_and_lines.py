@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterator, Sequence
 
 from osc2tx.backends.xosc.actions.position.xml_positions import (
-    UNKNOWN,
     XmlPosition,
     at_world,
     number_of,
@@ -29,6 +28,16 @@ from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Member, MethodResult, Named
 from osc2tx_shared.classes import replace
 
+MADE = {
+    "create_odr_point": "odr_point",
+    "odr_to_route_point": "odr_point",
+    "create_route_point": "route_point",
+    "create_xyz_point": "position_3d",
+}
+"""Methods -> the type of point that has parts like their parameters."""
+
+GLOBAL = ("latitude", "longitude", "altitude")
+
 STRAIGHT = 0.01
 """Metres beside the straight line through its neighbours within which a point is left out."""
 
@@ -39,32 +48,39 @@ def xml_position(ctx: Context, point: Constant | None) -> XmlPosition:
     Raises:
         Inexpressible: It is not known before the run.
     """
-    kind, parts = parts_of(ctx, point)
+    part = parts_of(ctx, point, "point")
+    if isinstance(point, MethodResult):
+        if point.method not in MADE:
+            raise Inexpressible(f"`{point.method}` makes no place that is known before the run")
+        kind = MADE[point.method]
+    else:
+        assert isinstance(point, Named)
+        kind = ctx.values.type_of(point.name)
     match kind:
         case "route_point":
-            return _on_route(ctx, parts)
-        case "position_3d" | "xyz":
-            x, y, z = (number_of(parts.get(name)) for name in "xyz")
-            return at_world(ctx, x, y, z)
+            return _on_route(ctx, part("route"), number_of(part("s")), number_of(part("t")))
+        case "position_3d":
+            return at_world(ctx, *(number_of(part(name)) for name in "xyz"))
+        case "xyz_point":
+            return at_world(ctx, *(number_of(part("position", name)) for name in "xyz"))
         case "odr_point":
-            return on_road(ctx, parts)
+            s, t = number_of(part("s")), number_of(part("t"))
+            return on_road(ctx, part("road_id"), part("lane_id"), s, t)
         case "geodetic_point" | "geodetic_position_2d":
-            return on_earth(ctx, parts)
-    raise Inexpressible(UNKNOWN)
+            return on_earth(ctx, *(number_of(part(name)) for name in GLOBAL))
+    raise Inexpressible(f"a `{kind}` is no place that the map alone gives")
 
 
-def _on_route(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
-    """Return a place along a route and beside it."""
-    place = next(points_along(ctx, parts.get("route"), number_of(parts.get("s"))))
-    left = number_of(parts.get("t"))
+def _on_route(ctx: Context, route: Constant | None, s: float, left: float) -> XmlPosition:
+    """Return a place so far (m) along a route and beside it."""
+    place = next(points_along(ctx, route, s))
     if not isinstance(place, LanePosition):
         x, y = place.x - left * math.sin(place.h), place.y + left * math.cos(place.h)
         pose = Pose(x, y, place.z, place.h)
         return XmlPosition(world_position(pose), None, pose)
     assert ctx.roads is not None  # the route was found on it
     offset = left * ctx.roads.map.travel_direction(place.road, place.lane)
-    where: dict[str, Constant] = {"road_id": place.road, "lane_id": str(place.lane)}
-    return on_road(ctx, {**where, "s": place.s, "t": offset})
+    return on_road(ctx, place.road, str(place.lane), place.s, offset)
 
 
 def points_along(
@@ -148,17 +164,42 @@ def line_of(ctx: Context, value: Constant | None) -> Line:
     Raises:
         Inexpressible: It is not known before the run.
     """
-    if isinstance(value, MethodResult):
-        if value.method.startswith("resolve_relative_"):
-            inner = value.get("relative_path") or value.get("relative_trajectory")
-            return relative_line(ctx, inner, value.get("transform"), value.get("reference"))
-        return _made_line(ctx, value)
-    if not isinstance(value, Named):
+    part = parts_of(ctx, value, "way")
+    method = value.method if isinstance(value, MethodResult) else ""
+    if method.startswith("resolve_relative_"):
+        inner = part("relative_path") or part("relative_trajectory")
+        return relative_line(ctx, inner, part("transform"), part("reference"))
+    points, times, joined = part("points"), part("time_stamps"), part("interpolation")
+    if not isinstance(points, tuple):
         raise Inexpressible("the way is only known during the run")
-    fields = (ctx.values.field(value.name, name) for name in ("points", "time_stamps"))
-    points, times = fields
-    joined = ctx.values.field(value.name, "interpolation")
-    return Line(_posed(ctx, points, times), _is_smooth(joined), times is not None)
+    if method in ("", "create_path", "create_trajectory"):
+        found = [_pose(ctx, each) for each in points]
+    else:
+        positions = [xml_position(ctx, point) for point in points]
+        if part("on_road_network") is True:
+            places = [position.lane for position in positions if position.lane is not None]
+            if ctx.roads is None or len(places) != len(positions) or times is not None:
+                raise Inexpressible("a way along lanes needs the map, and points on lanes")
+            return Line(ctx.roads.along(places), is_smooth=True)
+        poses = [position.pose for position in positions if position.pose is not None]
+        if len(poses) != len(positions):
+            raise Inexpressible("a point of the way needs the map, which is not at hand")
+        found = [Waypoint(0.0, pose.x, pose.y, pose.z) for pose in poses]
+    if times is not None:
+        if not isinstance(times, tuple) or len(times) != len(found):
+            raise Inexpressible("points and time stamps of the trajectory do not fit each other")
+        stamps = map(number_of, times)
+        found = [point._replace(time=t) for point, t in zip(found, stamps, strict=True)]
+    is_smooth = isinstance(joined, Member) and joined.name == "smooth"
+    return Line(tuple(found), is_smooth, times is not None)
+
+
+def _pose(ctx: Context, pose: Constant) -> Waypoint:
+    if not isinstance(pose, Named) or ctx.values.type_of(pose.name) != "pose_3d":
+        raise Inexpressible("a point of the way is no pose")
+    x, y, z = (number_of(ctx.values.field(pose.name, "position", name)) for name in "xyz")
+    yaw = ctx.values.field(pose.name, "orientation", "yaw")
+    return Waypoint(0.0, x, y, z, None if yaw is None else number_of(yaw))
 
 
 def relative_line(
@@ -171,59 +212,3 @@ def relative_line(
         raise Inexpressible("the way is relative to something that is no entity of the XML")
     name = ctx.cast[reference.name].name
     return replace(line, frame=frame, reference=name)
-
-
-def _made_line(ctx: Context, made: MethodResult) -> Line:
-    points, times = made.get("points"), made.get("time_stamps")
-    smooth = _is_smooth(made.get("interpolation"))
-    if made.method in ("create_path", "create_trajectory"):
-        return Line(_posed(ctx, points, times), smooth, times is not None)
-    if not isinstance(points, tuple):
-        raise Inexpressible("the way is only known during the run")
-    positions = [xml_position(ctx, point) for point in points]
-    if made.get("on_road_network") is True:
-        places = [position.lane for position in positions if position.lane is not None]
-        if ctx.roads is None or len(places) != len(positions) or times is not None:
-            raise Inexpressible("a way along lanes needs the map, and points on lanes")
-        return Line(ctx.roads.along(places), is_smooth=True)
-    poses = [position.pose for position in positions if position.pose is not None]
-    if len(poses) != len(positions):
-        raise Inexpressible("a point of the way needs the map, which is not at hand")
-    stamps = _stamps(times, len(poses))
-    found = (
-        Waypoint(time, pose.x, pose.y, pose.z) for time, pose in zip(stamps, poses, strict=True)
-    )
-    return Line(tuple(found), smooth, times is not None)
-
-
-def _posed(ctx: Context, points: Constant | None, times: Constant | None) -> tuple[Waypoint, ...]:
-    if not isinstance(points, tuple):
-        raise Inexpressible("the way is only known during the run")
-    stamps = _stamps(times, len(points))
-    return tuple(_pose(ctx, each, t) for each, t in zip(points, stamps, strict=True))
-
-
-def _pose(ctx: Context, pose: Constant, time: float) -> Waypoint:
-    if not isinstance(pose, Named) or ctx.values.type_of(pose.name) != "pose_3d":
-        raise Inexpressible("a point of the way is no pose")
-    position = ctx.values.field(pose.name, "position")
-    owner, path = (position.name, ()) if isinstance(position, Named) else (pose.name, ("position",))
-    x, y, z = (number_of(ctx.values.field(owner, *path, name)) for name in "xyz")
-    turned = ctx.values.field(pose.name, "orientation")
-    if isinstance(turned, Named):
-        yaw = ctx.values.field(turned.name, "yaw")
-    else:
-        yaw = ctx.values.field(pose.name, "orientation", "yaw")
-    return Waypoint(time, x, y, z, None if yaw is None else number_of(yaw))
-
-
-def _stamps(times: Constant | None, count: int) -> tuple[float, ...]:
-    if times is None:
-        return (0.0,) * count
-    if not isinstance(times, tuple) or len(times) != count:
-        raise Inexpressible("points and time stamps of the trajectory do not fit each other")
-    return tuple(number_of(time) for time in times)
-
-
-def _is_smooth(joined: Constant | None) -> bool:
-    return isinstance(joined, Member) and joined.name == "smooth"

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 
-from osc2tx.backends.xosc.actions.arguments import Call
-from osc2tx.backends.xosc.actions.lateral.lanes import lane_of
+from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance
 from osc2tx.backends.xosc.actions.position.path_steering import note_steering
 from osc2tx.backends.xosc.actions.position.paths import follow
@@ -56,7 +55,7 @@ def _beside(leaf: Leaf) -> XmlPosition:
     lanes, along = 0, 0.0
     references: list[CastMember] = []
     for node in leaf.node.modifiers:
-        call = Call(leaf.ctx, node)
+        call = Arguments(leaf.ctx, node)
         with leaf.ctx.report_as(call.construct, call.span):
             match call.name:
                 case "lane":
@@ -77,7 +76,7 @@ def _beside(leaf: Leaf) -> XmlPosition:
     if not references or len({each.name for each in references}) > 1:
         raise Inexpressible("it is put relative to none or to several actors")
     reference = references[0]
-    lane, roads = lane_of(leaf, reference), leaf.ctx.roads
+    lane, roads = leaf.state_of(reference).lane, leaf.ctx.roads
     if leaf.ctx.version == "1.0" and (lane is None or lane.lane > 0):
         raise Inexpressible(
             "OpenSCENARIO XML 1.0 counts along the road, not in the direction of travel",
@@ -173,7 +172,7 @@ def _straight_to(leaf: Leaf, target: XmlPosition) -> Performance:
     v = leaf.state.known_speed
     if v == 0.0:
         v = CRUISE
-        actions = (speed_action(v, "step", "time", 0.0),)
+        actions = (speed_action(v),)
     changes = apply_modifiers(leaf)
     is_timed = time is not None and v is not None and not changes
     length = time / v if time is not None and v is not None else None

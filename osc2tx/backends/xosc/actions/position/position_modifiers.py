@@ -2,29 +2,20 @@
 
 from __future__ import annotations
 
-from osc2tx.backends.xosc.actions.arguments import Call
+from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf
 from osc2tx.backends.xosc.actions.position.points_and_lines import xml_position
 from osc2tx.backends.xosc.actions.position.xml_positions import at_place, lane_place
 from osc2tx.backends.xosc.actions.registry import modifier
+from osc2tx.backends.xosc.actions.speed.courses import Computed, follow_course
 from osc2tx.backends.xosc.actions.speed.gaps import Gap, reach
-from osc2tx.backends.xosc.actions.speed.speed_changes import through_points
-from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
 from osc2tx.backends.xosc.actions.speed.speed_modifiers import cover_in_time
-from osc2tx.backends.xosc.actions.speed.speed_notes import (
-    NEAR,
-    PROFILE_ACTION,
-    steady_speed,
-    with_profiles,
-)
-from osc2tx.backends.xosc.facts.actors import Linear, way_between
-from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
-from osc2tx.backends.xosc.state import LONGITUDINAL, known
-from osc2tx_shared.classes import dataclass, replace
+from osc2tx.backends.xosc.facts.actors import Linear
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
 
 
 @modifier("position")
-def _position(leaf: Leaf, call: Call) -> Changes:
+def _position(leaf: Leaf, call: Arguments) -> Changes:
     if "at_point" in call:
         return _at_point(leaf, call)
     reference, is_behind = call.ahead_of()
@@ -57,7 +48,7 @@ def _position(leaf: Leaf, call: Call) -> Changes:
     return (reach(leaf, gap, keeps=True),)
 
 
-def _at_point(leaf: Leaf, call: Call) -> Changes:
+def _at_point(leaf: Leaf, call: Arguments) -> Changes:
     """End an invocation at a point that the way leads to."""
     point = xml_position(leaf.ctx, call.get("at_point"))
     call.get("project_on_route")
@@ -67,7 +58,7 @@ def _at_point(leaf: Leaf, call: Call) -> Changes:
     return ()
 
 
-def _along_road(leaf: Leaf, call: Call, distance: float) -> Changes:
+def _along_road(leaf: Leaf, call: Arguments, distance: float) -> Changes:
     """Be so far (m) along the road at the end of an invocation; it keeps its lane until then."""
     lane, roads = leaf.state.lane, leaf.ctx.roads
     if call.at != "end":
@@ -90,33 +81,25 @@ def _along_road(leaf: Leaf, call: Call, distance: float) -> Changes:
 # --- to be somewhere in time --------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class Arrival:
-    """The speed with the least effort that covers a way in a time, with a free speed at the end.
+def arrival(start: float, missing: float, duration: float) -> Computed:
+    """Return the speed with the least effort that covers a way in a time (s), free at the end.
 
-    The acceleration falls evenly to zero: a(t) = 3 m (T - t) / T^3 for what is missing, m.
-
-    Attributes:
-        start: m/s.
-        missing: Metres that the speed at the start would not cover.
-        duration: Seconds.
+    The acceleration falls evenly to zero: a(t) = 3 m (T - t) / T^3 for what is missing: the metres
+    m that the speed at the start (m/s) would not cover.
     """
 
-    start: float
-    missing: float
-    duration: float
+    def value(t: float) -> float:
+        share = t / duration
+        return start + 3.0 * missing / duration * share * (1.0 - 0.5 * share)
 
-    def value(self, t: float) -> float:
-        """Return the speed (m/s) after some seconds."""
-        share = t / self.duration
-        return self.start + 3.0 * self.missing / self.duration * share * (1.0 - 0.5 * share)
+    return Computed(duration, value)
 
 
-def _in_time(leaf: Leaf, call: Call, gap: Gap) -> Change:
+def _in_time(leaf: Leaf, call: Arguments, gap: Gap) -> Change:
     """Return the change of the speed that leads to a place beside another actor in time."""
-    ctx, speed, time = leaf.ctx, leaf.state.known_speed, leaf.duration
+    speed, time = leaf.state.known_speed, leaf.duration
     apart = leaf.starts_behind(gap.reference)
-    theirs = steady_speed(leaf, gap.reference)
+    theirs = leaf.state_of(gap.reference, always=True).known_speed
     if speed is None or apart is None or theirs is None or time is None or gap.is_time:
         call.approximate(
             "where both are by then is only known during the run",
@@ -124,33 +107,13 @@ def _in_time(leaf: Leaf, call: Call, gap: Gap) -> Change:
         )
         return reach(leaf, gap, keeps=False)
     way = apart + (gap.size if gap.side == "ahead" else -gap.size)
-    arrival = Arrival(speed, way + (theirs - speed) * time, time)
-    can_draw = ctx.can(PROFILE_ACTION, "1.2")
+    missing = way + (theirs - speed) * time
+    course = arrival(speed, missing, time)
     # Without courses of the speed an even change leads to the same place in the same time.
-    end = arrival.value(time) if can_draw else speed + 2.0 * arrival.missing / time
-    if end < 0.0:
+    even = Linear(speed, speed + 2.0 * missing / time, time)
+    faster = even.end - course.value(time)
+    rush = f"it arrives {abs(faster):.2g} m/s too {'fast' if faster > 0.0 else 'slow'}"
+    change = follow_course(leaf, course, even=even, where=f"on the way; {rush}", told=call)
+    if change.after.speed is None or change.after.speed.low < 0.0:
         raise Inexpressible("it would have to go backwards")
-    after = replace(leaf.state, speed=known(end)).finished(LONGITUDINAL)
-    during = replace(after, speed=known(speed).over(known(end)))
-    even = Linear(speed, end, time)
-    leaf.course = arrival if can_draw else even
-    if not can_draw:
-        _note_even_arrival(leaf, call, arrival, even)
-    action = (
-        through_points(arrival) if can_draw else speed_action(round(end, 9), "linear", "time", time)
-    )
-    return Change(LONGITUDINAL, (action,), time, during, after)
-
-
-def _note_even_arrival(leaf: Leaf, call: Call, arrival: Arrival, even: Linear) -> None:
-    """Report that an even change leads to the same place in time, with another speed there."""
-    apart = way_between(arrival, even)
-    if apart <= NEAR:
-        return
-    faster = even.end - arrival.value(arrival.duration)
-    call.approximate(
-        "a speed that changes unevenly needs SpeedProfileAction; it changes evenly instead",
-        f"{Metres(apart, 'on the way')}; it arrives {abs(faster):.2g} m/s too"
-        f" {'fast' if faster > 0.0 else 'slow'}",
-        with_profiles(leaf.ctx),
-    )
+    return change

@@ -14,7 +14,7 @@ from osc2tx.backends.xosc.actions.position.paths import follow
 from osc2tx.backends.xosc.actions.speed.speed_changes import jump_to
 from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
 from osc2tx.backends.xosc.entities.cast import PEDESTRIAN
-from osc2tx.backends.xosc.facts.actors import FASTEST, Pace, Profile, SCurve, course_of_speed
+from osc2tx.backends.xosc.facts.actors import FASTEST, Profile, SCurve, course_of_speed
 from osc2tx.backends.xosc.facts.curves import Waypoint, thinned
 from osc2tx.backends.xosc.facts.maps import Pose
 from osc2tx.backends.xosc.report import Inexpressible, Metres
@@ -23,6 +23,8 @@ from osc2tx.xosc import elements as xml
 from osc2tx.xosc.expressions import Symbol
 from osc2tx.xosc.literals import DynamicsShape
 from osc2tx_shared.classes import replace
+
+UNKNOWN = "where and how fast it walks is not known"
 
 SAMPLES = 20
 """Points of a change of the speed, before those that are not needed are left out."""
@@ -37,33 +39,21 @@ PIECES = 64
 """Pieces of a change of the speed for the sum of its way."""
 
 
-def walk_on(leaf: Leaf, target: float | None) -> Change:
-    """Return the walk straight on at a speed (m/s), or at the present one."""
-    state = leaf.state
-    start = state.known_speed
-    if start is None or state.pose is None:
-        raise Inexpressible("where and how fast it walks is not known")
-    goal = start if target is None else target
-    course = course_of_speed(start, goal, Pace(), leaf.limits)
-    action = _straight_on(leaf, state.pose, course)
-    during = replace(state, speed=known(start).over(known(goal)), pose=None)
-    if leaf.duration is None:
-        return Change(WAY, (action,), None, during, during)
-    pose = _ahead(state.pose, _covered(course, leaf.duration))
-    after = replace(state, speed=known(course.value(leaf.duration)), pose=pose)
-    return Change(WAY, (action,), leaf.duration, during, after)
+def walk(leaf: Leaf, course: Profile, time: float | None) -> Change:
+    """Return the walk straight on in a course of the speed.
 
-
-def change_pace(leaf: Leaf, goal: float, course: Profile) -> Change:
-    """Return the walk straight on during which the speed comes to a goal (m/s), and on."""
-    state = leaf.state
-    assert state.pose is not None
+    It is over after a time (s), or when something else ends it.
+    """
+    state, end = leaf.state, known(course.value(course.duration))
+    if state.pose is None:
+        raise Inexpressible(UNKNOWN)
     action = _straight_on(leaf, state.pose, course)
-    pose = _ahead(state.pose, _covered(course, course.duration))
-    after = replace(state, speed=known(goal), pose=pose)
-    passed = known(goal) if state.speed is None else state.speed.over(known(goal))
-    during = replace(after, speed=passed, pose=None)
-    return Change(WAY, (action,), course.duration, during, after)
+    passed = end if state.speed is None else state.speed.over(end)
+    during = after = replace(state, speed=passed, pose=None)
+    if time is not None:
+        pose = _ahead(state.pose, _covered(course, time))
+        after = replace(state, speed=known(course.value(time)), pose=pose)
+    return Change(WAY, (action,), time, during, after)
 
 
 def stand(leaf: Leaf) -> Change:
@@ -81,7 +71,7 @@ def stand(leaf: Leaf) -> Change:
         )
         return change
     course = course_of_speed(speed, 0.0, FASTEST, leaf.limits)
-    return change_pace(leaf, 0.0, course)
+    return walk(leaf, course, course.duration)
 
 
 def _straight_on(leaf: Leaf, start: Pose, course: Profile) -> xml.PrivateAction:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from functools import partial
 
 from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.conditions.comparisons import distance_to, of_entity
@@ -118,10 +120,10 @@ def world_position(pose: Pose) -> xml.WorldPosition:
     )
 
 
-def on_road(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
-    """Return a place on a road or in a lane, from its coordinates."""
-    road, lane = parts.get("road_id"), parts.get("lane_id")
-    s, t = number_of(parts.get("s")), number_of(parts.get("t"))
+def on_road(
+    ctx: Context, road: Constant | None, lane: Constant | None, s: float, t: float
+) -> XmlPosition:
+    """Return a place on a road or in a lane, from its coordinates (m)."""
     if not isinstance(road, str):
         raise Inexpressible("the point names no road")
     if not isinstance(lane, str) or lane == "":
@@ -136,10 +138,11 @@ def on_road(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
     return XmlPosition(place, on, ctx.roads.map.pose(on))
 
 
-def on_earth(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
-    """Return a place on the globe; where the map says where it lies, its place in the world too."""
-    latitude, longitude = number_of(parts.get("latitude")), number_of(parts.get("longitude"))
-    altitude = number_of(parts.get("altitude"))
+def on_earth(ctx: Context, latitude: float, longitude: float, altitude: float) -> XmlPosition:
+    """Return a place on the globe; where the map says where it lies, its place in the world too.
+
+    Angles are in rad, the altitude in m.
+    """
     pose = None if ctx.roads is None else ctx.roads.on_earth(latitude, longitude, altitude)
     if pose is not None and not ctx.can(GLOBE, "1.1"):
         return at_world(ctx, pose.x, pose.y, pose.z)
@@ -158,37 +161,18 @@ def on_earth(ctx: Context, parts: dict[str, Constant]) -> XmlPosition:
     return XmlPosition(place, lane, pose)
 
 
-def parts_of(ctx: Context, point: Constant | None) -> tuple[str, dict[str, Constant]]:
-    """Return the kind of a point and its coordinates."""
-    if isinstance(point, MethodResult):
-        given = dict(point.arguments)
-        if point.method in ("create_odr_point", "odr_to_route_point"):
-            return "odr_point", given
-        if point.method == "create_route_point":
-            return "route_point", given
-        if point.method == "create_xyz_point":
-            return "xyz", given
-        raise Inexpressible(f"`{point.method}` makes no place that is known before the run")
-    if not isinstance(point, Named):
-        raise Inexpressible(UNKNOWN)
-    kind = ctx.values.type_of(point.name)
-    names = {
-        "position_3d": "xyz",
-        "odr_point": ("road_id", "lane_id", "s", "t"),
-        "route_point": ("route", "s", "t"),
-        "geodetic_point": ("latitude", "longitude", "altitude"),
-        "geodetic_position_2d": ("latitude", "longitude"),
-    }
-    if kind == "xyz_point":
-        inner = ctx.values.field(point.name, "position")
-        if inner is not None:
-            return parts_of(ctx, inner)
-        found = {name: ctx.values.field(point.name, "position", name) for name in "xyz"}
-        return "xyz", {name: value for name, value in found.items() if value is not None}
-    if kind not in names:
-        raise Inexpressible(f"a `{kind}` is no place that the map alone gives")
-    fields = {name: ctx.values.field(point.name, name) for name in names[kind]}
-    return kind, {name: value for name, value in fields.items() if value is not None}
+def parts_of(ctx: Context, value: Constant | None, what: str) -> Callable[..., Constant | None]:
+    """Return what gives the parts of a struct by their path, and of what a method makes likewise.
+
+    Raises:
+        Inexpressible: It is neither; `what` names it.
+    """
+    match value:
+        case MethodResult():
+            return value.get
+        case Named(name=name):
+            return partial(ctx.values.field, name)
+    raise Inexpressible(f"the {what} is only known during the run")
 
 
 def number_of(value: Constant | None) -> float:

@@ -134,12 +134,14 @@ def _controller(ctx: Context, cycle: _Cycle) -> xml.GlobalAction:
             text = state_text(ctx, signal, shown)
             states.append(xml.TrafficSignalState(trafficSignalId=signal, state=text))
             ctx.lamps[signal] = None
+        meanings = {_MEANINGS[roads_of(ctx).meaning_of(*shown)] for shown in phase.shown}
+        meaning = meanings.pop() if len(meanings) == 1 else None  # of all lights
         phases.append(
             xml.Phase(
                 *states,
                 name=phase.name,
                 duration=phase.duration,
-                semantics=_meaning(ctx, phase) if ctx.version >= "1.4" else None,
+                semantics=meaning if ctx.version >= "1.4" else None,
             )
         )
     delay = cycle.offset or None
@@ -148,12 +150,6 @@ def _controller(ctx: Context, cycle: _Cycle) -> xml.GlobalAction:
     return infrastructure(
         xml.TrafficSignalControllerAction(trafficSignalControllerRef=name, phase=first)
     )
-
-
-def _meaning(ctx: Context, phase: _Phase) -> TrafficSignalSemantics | None:
-    """Return what all lights of a phase mean, if that is one thing."""
-    found = {_MEANINGS[roads_of(ctx).meaning_of(*shown)] for shown in phase.shown}
-    return found.pop() if len(found) == 1 else None
 
 
 def _written_out(ctx: Context, cycle: _Cycle, lasting: float) -> list[Global | Later]:

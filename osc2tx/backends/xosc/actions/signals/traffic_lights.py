@@ -135,19 +135,15 @@ def _addressed(ctx: Context, node: ir.Invoke, arguments: Arguments) -> tuple[str
     if arguments.get("sync"):
         raise Inexpressible("a switch in step with a cycle")
     light = arguments.get("traffic_light")
+    group = arguments.get("traffic_light_group") or arguments.get("group")
     if light is not None:
         signal = _map_id(ctx, light)
-        return _group_of(ctx, light) if "_group_" in node.action else (signal,)
-    return lights_of_group(ctx, arguments.get("traffic_light_group") or arguments.get("group"))
-
-
-def _group_of(ctx: Context, light: Constant) -> tuple[str, ...]:
-    group = ctx.values.field(light.name, "group") if isinstance(light, Named) else None
-    return (
-        roads_of(ctx).group_of(_map_id(ctx, light))
-        if group is None
-        else lights_of_group(ctx, group)
-    )
+        if "_group_" not in node.action:
+            return (signal,)
+        group = ctx.values.field(light.name, "group") if isinstance(light, Named) else None
+        if group is None:
+            return roads_of(ctx).group_of(signal)
+    return lights_of_group(ctx, group)
 
 
 def lights_of_group(ctx: Context, group: Constant | None) -> tuple[str, ...]:

@@ -58,14 +58,10 @@ def followed_lights(ctx: Context) -> dict[str, tuple[xml.ActionPart, ...]]:
 
 
 def _shining(mode: str) -> tuple[xml.ActionPart, ...]:
-    return tuple(_light(light, state) for light, state in LIGHTS[mode].items())
-
-
-def _light(light: VehicleLightType, state: LightMode) -> xml.PrivateAction:
-    return xml.PrivateAction(
-        xml.AppearanceAction(
-            xml.LightStateAction(
-                xml.LightType(xml.VehicleLight(vehicleLightType=light)), xml.LightState(mode=state)
-            )
+    actions = (
+        xml.LightStateAction(
+            xml.LightType(xml.VehicleLight(vehicleLightType=light)), xml.LightState(mode=state)
         )
+        for light, state in LIGHTS[mode].items()
     )
+    return tuple(xml.PrivateAction(xml.AppearanceAction(action)) for action in actions)

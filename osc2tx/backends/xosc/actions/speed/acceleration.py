@@ -7,30 +7,27 @@ speed, one that changes is a course through points.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from itertools import pairwise
 from math import inf
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.arguments import Arguments, Call
-from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance, Uneven
+from osc2tx.backends.xosc.actions.arguments import Arguments
+from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, modifier, to_goal
-from osc2tx.backends.xosc.actions.speed.speed_changes import through_points
+from osc2tx.backends.xosc.actions.speed.courses import Computed, follow_course
 from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
-from osc2tx.backends.xosc.actions.speed.speed_notes import PROFILE_ACTION, with_profiles
+from osc2tx.backends.xosc.actions.speed.speed_notes import PROFILE_ACTION
 from osc2tx.backends.xosc.facts.actors import (
     TOP_SPEED,
     Linear,
     Quintic,
-    apart,
     course_of_acceleration,
-    way_between,
+    integral,
 )
 from osc2tx.backends.xosc.report import Inexpressible, Metres
-from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
+from osc2tx.backends.xosc.state import LONGITUDINAL, known
 from osc2tx.backends.xosc.values.constants import as_number
-from osc2tx.xosc import elements as xml
-from osc2tx_shared.classes import dataclass, replace
+from osc2tx_shared.classes import replace
 
 UNKNOWN_RATE = "the present acceleration is only known during the run"
 
@@ -67,7 +64,7 @@ def _change_acceleration(leaf: Leaf) -> Performance:
 
 
 @modifier("acceleration")
-def _acceleration(leaf: Leaf, call: Call) -> Changes:
+def _acceleration(leaf: Leaf, call: Arguments) -> Changes:
     if call.at != "all":
         raise Inexpressible(f"an acceleration at the {call.at} only")
     own = user_shape(call)
@@ -98,25 +95,21 @@ def accelerated(leaf: Leaf, rate: float) -> Change:
         return Change(LONGITUDINAL, (), 0.0, state, state)
     if duration is None:
         duration = _time_over_distance(leaf, rate)
-    goal = TOP_SPEED if rate > 0.0 else 0.0
+    start, goal = state.known_speed, TOP_SPEED if rate > 0.0 else 0.0
+    if duration is not None and start is not None:
+        end = start + rate * duration
+        if rate < 0.0 and end < 0.0 <= start:
+            end, duration = 0.0, -start / rate
+        return follow_course(leaf, Linear(start, end, duration), rate=rate if end else 0.0)
+    # Whatever ends it cuts the change short.
     leaf.demand(max(rate, 0.0), max(-rate, 0.0))
-    start = state.known_speed
-    if duration is None or start is None:  # whatever ends it cuts the change short
-        if start is not None:
-            leaf.course = Linear(start, goal, (goal - start) / rate)
-        speed = None if state.speed is None else state.speed.over(known(goal))
-        during = replace(state.finished(LONGITUDINAL), speed=speed, rate=rate)
-        after = replace(during, speed=known(goal), rate=0.0)
-        action = speed_action(goal, "linear", "rate", abs(rate))
-        return Change(LONGITUDINAL, (action,), None, during, after)
-    end = start + rate * duration
-    if rate < 0.0 and end < 0.0 <= start:
-        end, duration = 0.0, -start / rate
-    after = replace(state.finished(LONGITUDINAL), speed=known(end), rate=rate if end else 0.0)
-    during = replace(after, speed=known(start).over(known(end)))
-    leaf.course = Linear(start, end, duration)
-    action = speed_action(end, "linear", "time", duration)
-    return Change(LONGITUDINAL, (action,), duration, during, after)
+    if start is not None:
+        leaf.course = Linear(start, goal, (goal - start) / rate)
+    speed = None if state.speed is None else state.speed.over(known(goal))
+    during = replace(state.finished(LONGITUDINAL), speed=speed, rate=rate)
+    after = replace(during, speed=known(goal), rate=0.0)
+    action = speed_action(goal, "linear", "rate", abs(rate))
+    return Change(LONGITUDINAL, (action,), None, during, after)
 
 
 def _time_over_distance(leaf: Leaf, rate: float) -> float | None:
@@ -132,59 +125,28 @@ def _time_over_distance(leaf: Leaf, rate: float) -> float | None:
     return round((math.sqrt(square) - speed) / rate, 9) if square > 0.0 else None
 
 
-@dataclass(frozen=True, slots=True)
-class Ramp:
-    """The speed while the acceleration takes a course and then stays.
+def ramp(start: float, rates: Linear | Quintic, duration: float) -> Computed:
+    """Return the speed from a start (m/s) while the acceleration takes a course and then stays.
 
-    Attributes:
-        start: Speed (m/s).
-        rates: Course of the acceleration (m/s^2).
-        duration: Seconds.
+    It does not go through a stand.
     """
 
-    start: float
-    rates: Linear | Quintic
-    duration: float
+    def value(t: float) -> float:
+        speed = start + integral(rates, t)
+        return max(speed, 0.0) if start >= 0.0 else speed
 
-    def value(self, t: float) -> float:
-        """Return the speed (m/s) after some seconds; it does not go through a stand."""
-        whole = self.rates.duration
-        inside = min(t, whole)
-        steps = 40
-        step = inside / steps
-        speed = self.start + self.rates.end * (t - inside)
-        for index in range(steps):  # Simpson's rule, exact for profiles up to cubic ones
-            left = index * step
-            a, b, c = (self.rates.value(left + part * step) for part in (0.0, 0.5, 1.0))
-            speed += step / 6.0 * (a + 4.0 * b + c)
-        return max(speed, 0.0) if self.start >= 0.0 else speed
+    return Computed(duration, value)
 
 
-def _ramp(leaf: Leaf, course: Linear | Quintic, duration: float) -> Change:
+def _ramp(leaf: Leaf, rates: Linear | Quintic, duration: float) -> Change:
     """Return the change of the speed that a course of the acceleration makes."""
-    state, start = leaf.state, leaf.known_speed()
-    ramp = Ramp(start, course, duration)
-    end = ramp.value(duration)
-    after = replace(state.finished(LONGITUDINAL), speed=known(end), rate=course.end)
-    points = [ramp.value(0.05 * index * duration) for index in range(21)]
-    during = replace(after, speed=Interval(min(points), max(points)))
-    leaf.course = ramp
+    course = ramp(leaf.known_speed(), rates, duration)
+    even = Linear(course.value(0.0), course.value(duration), duration)
     if duration == 0.0:
+        after = replace(leaf.state.finished(LONGITUDINAL), rate=rates.end)
         return Change(LONGITUDINAL, (), 0.0, after, after)
-    return Change(LONGITUDINAL, (_drawn(leaf, ramp, points),), duration, during, after)
-
-
-def _drawn(leaf: Leaf, ramp: Ramp, points: list[float]) -> xml.PrivateAction:
-    if leaf.ctx.can(PROFILE_ACTION, "1.2"):
-        return through_points(ramp)
-    even = Linear(points[0], points[-1], ramp.duration)
-    leaf.uneven = Uneven(apart(ramp, even), ramp.duration)
-    leaf.approximate(
-        "a change of the acceleration needs SpeedProfileAction; the speed changes evenly instead",
-        Metres(way_between(ramp, even), "ahead or behind; the speed at its end is exact"),
-        with_profiles(leaf.ctx),
-    )
-    return speed_action(even.end, "linear", "time", ramp.duration)
+    where = "ahead or behind; the speed at its end is exact"
+    return follow_course(leaf, course, even=even, where=where, rate=rates.end)
 
 
 NEAR = 0.02
@@ -197,19 +159,6 @@ STEPS = 400
 """Pieces in which an acceleration is summed up."""
 
 
-@dataclass(frozen=True, slots=True)
-class Computed:
-    """A course of the speed.
-
-    Attributes:
-        duration: Seconds.
-        value: Speed (m/s) after some seconds.
-    """
-
-    duration: float
-    value: Callable[[float], float]
-
-
 def user_shape(arguments: Arguments) -> ir.UserShape | None:
     """Return the shape of a modifier if it is one of the scenario's own."""
     given = arguments.expression("shape")
@@ -218,8 +167,7 @@ def user_shape(arguments: Arguments) -> ir.UserShape | None:
 
 def speed_by(leaf: Leaf, shape: ir.UserShape) -> Change:
     """Return the change that a shape of the speed makes."""
-    length = _length(leaf, shape)
-    return _change(leaf, Computed(length, lambda t: _computed(leaf, shape, t)))
+    return _shaped(leaf, Computed(_length(leaf, shape), lambda t: _computed(leaf, shape, t)))
 
 
 def acceleration_by(leaf: Leaf, shape: ir.UserShape) -> Change:
@@ -237,19 +185,15 @@ def acceleration_by(leaf: Leaf, shape: ir.UserShape) -> Change:
         share = t / step - index
         return speeds[index] + share * (speeds[index + 1] - speeds[index])
 
-    return _change(leaf, Computed(length, between))
+    return _shaped(leaf, Computed(length, between))
 
 
-def _change(leaf: Leaf, course: Computed) -> Change:
+def _shaped(leaf: Leaf, course: Computed) -> Change:
     leaf.ctx.require("a course of the speed", "1.2", leaf.node.span)
     leaf.ctx.require_support(PROFILE_ACTION, leaf.node.span)
-    state = leaf.state
-    start, end = course.value(0.0), course.value(course.duration)
-    if state.speed is None or not state.speed.low - NEAR <= start <= state.speed.high + NEAR:
+    start, speed = course.value(0.0), leaf.state.speed
+    if speed is None or not speed.low - NEAR <= start <= speed.high + NEAR:
         raise Inexpressible("the shape does not begin with the speed at the start", leaf.node.span)
-    samples = [course.value(course.duration * index / 48) for index in range(49)]
-    if min(samples) < 0.0:
-        raise Inexpressible("the shape goes backwards", leaf.node.span)
     count = next((each for each in COUNTS if _beside(course, each) <= NEAR), COUNTS[-1])
     off = _beside(course, count)
     if off > NEAR:
@@ -257,10 +201,10 @@ def _change(leaf: Leaf, course: Computed) -> Change:
             f"a course of the speed goes through {count} points, in straight lines",
             Metres(off * course.duration, "ahead or behind"),
         )
-    after = replace(state.finished(LONGITUDINAL), speed=known(end))
-    during = replace(after, speed=Interval(min(samples), max(samples)))
-    leaf.course = course
-    return Change(LONGITUDINAL, (through_points(course, count),), course.duration, during, after)
+    change = follow_course(leaf, course, count=count)
+    if change.during.speed is None or change.during.speed.low < 0.0:
+        raise Inexpressible("the shape goes backwards", leaf.node.span)
+    return change
 
 
 def _beside(course: Computed, count: int) -> float:

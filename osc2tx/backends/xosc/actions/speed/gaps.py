@@ -16,21 +16,20 @@ from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.lateral.lanes import lateral
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
-from osc2tx.backends.xosc.actions.speed.speed_elements import longitudinal, relative_speed
-from osc2tx.backends.xosc.actions.speed.speed_notes import steady_speed
+from osc2tx.backends.xosc.actions.speed.speed_elements import longitudinal, speed_action, speed_of
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres, Remedy
-from osc2tx.backends.xosc.state import LATERAL, LONGITUDINAL
+from osc2tx.backends.xosc.state import LATERAL
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import LateralDisplacement, LongitudinalDisplacement
 from osc2tx_shared.classes import dataclass, replace
 
-HOW = "how it closes the gap, and when it is there, is up to the tool"
-"""What reports say about gaps: the standard has no law for their control."""
-
 SURE = 1e-6
 """Metres by which a gap may be another one and still counts as there."""
+
+LATERAL_SPEED = 3.0
+"""m/s across the road; the DSL says none."""
 
 ALONG: Mapping[str, LongitudinalDisplacement] = {
     "ahead": "leadingReferencedEntity",
@@ -40,7 +39,7 @@ ACROSS: Mapping[str, LateralDisplacement] = {
     "left": "leftToReferencedEntity",
     "right": "rightToReferencedEntity",
 }
-
+OPPOSITE = {"ahead": "behind", "behind": "ahead", "left": "right", "right": "left"}
 
 Between: TypeAlias = Literal["ends", "fronts", "points"]
 
@@ -66,7 +65,20 @@ class Gap:
     @property
     def is_lateral(self) -> bool:
         """Whether it counts across the road."""
-        return self.side in ("left", "right")
+        return self.side in ACROSS
+
+    def beyond_points(self, member: CastMember) -> float:
+        """Return by how much (m) a gap of an actor is larger than between reference points."""
+        behind, ahead = member.shape, self.reference.shape
+        if self.side == "ahead":
+            behind, ahead = ahead, behind
+        match self.between:
+            case "points":
+                return 0.0
+            case "fronts":
+                return ahead.front - behind.front
+            case "ends":
+                return -ahead.rear - behind.front
 
 
 ARRIVING = Remedy(
@@ -86,7 +98,8 @@ def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) ->
         return _reach_sideways(leaf, gap, keeps=keeps, missing=missing)
     size, freespace = _measured(leaf, gap)
     if missing is None and not gap.is_time:
-        missing = _missing_at_start(leaf, gap, size, freespace=freespace)
+        present = _present_gap(leaf, gap)
+        missing = None if present is None else abs(present - gap.size)
     controls_gaps = "LongitudinalDistanceAction" not in leaf.ctx.profile.unsupported
     if not controls_gaps and not gap.is_time and _is_there(missing, keeps=keeps):
         return _keep_speed_of(leaf, gap.reference.name)
@@ -110,26 +123,50 @@ def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) ->
         displacement=ALONG[gap.side] if newer else None,
         coordinateSystem="lane" if newer else None,
     )
-    if is_rigid and gap.is_time and steady_speed(leaf, gap.reference) is None:
+    if is_rigid and gap.is_time and leaf.state_of(gap.reference, always=True).known_speed is None:
         leaf.approximate(
             "a time gap without limits follows each change of a speed at once",
             "while the other one changes its speed, by what it covers in the lag of a driver",
         )
-    # Tools reach a gap at some speed; what follows has to say which one it wants.
-    during = replace(leaf.state, speed=None).finished(LONGITUDINAL)
-    length = inf if keeps else None
-    return Change(LONGITUDINAL, (longitudinal(action),), length, during, during)
+    return leaf.at_open_speed(longitudinal(action), inf if keeps else None)
 
 
-def _missing_at_start(leaf: Leaf, gap: Gap, distance: float, *, freespace: bool) -> float | None:
-    """Return by how much (m) a distance is another one at the start of the run, if that is now."""
+def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> Change:
+    if gap.is_time:
+        raise Inexpressible("there is no time across the road in OpenSCENARIO XML", leaf.node.span)
+    _require_side(leaf, gap)
+    newer = leaf.ctx.version >= "1.1"
+    if not newer:
+        leaf.approximate(
+            "OpenSCENARIO XML 1.0 counts a lateral distance across the actor, not across the road",
+            "off while it looks aside, by the sine of that angle times the way between both",
+            Remedy(version="1.1"),
+        )
+    most = leaf.limits.lateral
+    # Between reference points: the free space of the XML shrinks where boxes turn.
+    sides = 0.5 * (leaf.member.shape.width + gap.reference.shape.width)
+    constraints = xml.DynamicConstraints(
+        maxAcceleration=most, maxDeceleration=most, maxSpeed=LATERAL_SPEED
+    )
+    action = xml.LateralDistanceAction(
+        None if _is_rigid(leaf, gap, keeps=keeps, missing=missing) else constraints,
+        entityRef=gap.reference.name,
+        distance=round(gap.size + sides, 6),
+        freespace=False,
+        continuous=keeps,
+        displacement=ACROSS[gap.side] if newer else None,
+        coordinateSystem="road" if newer else None,
+    )
+    after = replace(leaf.state, offset=None, lane=None).finished(LATERAL)
+    return Change(LATERAL, (lateral(action),), inf if keeps else None, after, after)
+
+
+def _present_gap(leaf: Leaf, gap: Gap) -> float | None:
+    """Return how far (m) an actor starts from another one, if that is now, counted as a gap."""
     apart = leaf.starts_behind(gap.reference)
     if apart is None:
         return None
-    me, other = leaf.member.shape, gap.reference.shape
-    if gap.side == "ahead":
-        apart, me, other = -apart, other, me
-    return abs(apart - distance - (me.front - other.rear if freespace else 0.0))
+    return (apart if gap.side == "behind" else -apart) + gap.beyond_points(leaf.member)
 
 
 def _is_there(missing: float | None, *, keeps: bool) -> bool:
@@ -144,9 +181,7 @@ def _keep_speed_of(leaf: Leaf, reference: str) -> Change:
         GENERIC,
     )
     leaf.ctx.followed.setdefault(leaf.member.name, set()).add(reference)
-    action = relative_speed(reference, continuous=True)
-    during = replace(leaf.state, speed=None).finished(LONGITUDINAL)
-    return Change(LONGITUDINAL, (action,), inf, during, during)
+    return leaf.at_open_speed(speed_action(speed_of(reference)), inf)
 
 
 def _is_rigid(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> bool:
@@ -163,26 +198,25 @@ def _is_rigid(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> bo
     bound: Metres | str = "until it is there, at most by what was missing at its start"
     if missing is not None:
         bound = Metres(missing, "until it is there")
-    leaf.approximate(HOW, bound, ARRIVING)
+    # The standard has no law for the control of gaps.
+    how = "how it closes the gap, and when it is there, is up to the tool"
+    leaf.approximate(how, bound, ARRIVING)
     return False
 
 
 def _measured(leaf: Leaf, gap: Gap) -> tuple[float, bool]:
     """Return the size as the XML counts it, and whether it counts between the facing ends."""
-    if gap.between == "points":
-        return gap.size, False
     if gap.between == "ends":
         return round(gap.size, 6), True
-    behind, ahead = leaf.member.shape, gap.reference.shape
-    if gap.side == "ahead":
-        behind, ahead = ahead, behind
-    overhang = behind.front - ahead.front  # from fronts to reference points
+    if gap.between == "points":
+        return gap.size, False
+    beyond = gap.beyond_points(leaf.member)
     if not gap.is_time:
-        return round(gap.size + overhang, 6), False
-    if abs(overhang) > 1e-6:
+        return round(gap.size - beyond, 6), False
+    if abs(beyond) > SURE:
         leaf.approximate(
             "a time in the XML counts between reference points, not between fronts",
-            f"off by the time for {abs(overhang):.2g} m",
+            f"off by the time for {abs(beyond):.2g} m",
         )
     return round(gap.size, 6), False
 
@@ -191,64 +225,27 @@ def _require_side(leaf: Leaf, gap: Gap) -> None:
     """See to it that 1.0, which cannot say on which side a gap is, does not have to."""
     if leaf.ctx.version >= "1.1":
         return
-    known_side, newer = _side_at_start(leaf, gap), Remedy(version="1.1")
-    reason = "OpenSCENARIO XML 1.0 does not say on which side a distance is kept"
-    if known_side == gap.side:
+    before = ir.predecessor(leaf.ctx.scenario.body, leaf.node)
+    apart = None if gap.is_lateral else leaf.starts_behind(gap.reference)
+    side = None if apart is None else _side(apart)  # unless something has changed it since then
+    if before is not None and _changes_gap(before):
+        side = gap.side if leaf.node.action.startswith("keep_") else None
+    if side == gap.side:
         return
-    if known_side is not None:
+    reason = "OpenSCENARIO XML 1.0 does not say on which side a distance is kept"
+    newer = Remedy(version="1.1")
+    if side is not None:
         raise Inexpressible(reason, leaf.node.span, newer)
     bound = f"differs only if it is not on the side `{gap.side}` when it begins"
     leaf.approximate(reason, bound, newer)
 
 
-def _side_at_start(leaf: Leaf, gap: Gap) -> str | None:
-    """Return the side on which an actor is, where nothing has changed it since the start."""
-    before = ir.predecessor(leaf.ctx.scenario.body, leaf.node)
-    if before is not None and before.action.startswith(("change_space_", "change_time_")):
-        return gap.side if leaf.node.action.startswith("keep_") else None
-    apart = None if gap.is_lateral else leaf.starts_behind(gap.reference)
-    return apart if apart is None else _side(apart)
+def _changes_gap(node: ir.Invoke) -> bool:
+    return node.action.startswith(("change_space_", "change_time_"))
 
 
 def _side(apart: float) -> str:
     return "behind" if apart > 0.0 else "ahead"
-
-
-def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> Change:
-    if gap.is_time:
-        raise Inexpressible("there is no time across the road in OpenSCENARIO XML", leaf.node.span)
-    _require_side(leaf, gap)
-    newer = leaf.ctx.version >= "1.1"
-    if not newer:
-        leaf.approximate(
-            "OpenSCENARIO XML 1.0 counts a lateral distance across the actor, not across the road",
-            "off while it looks aside, by the sine of that angle times the way between both",
-            Remedy(version="1.1"),
-        )
-    limits = leaf.limits
-    # Between reference points: the free space of the XML shrinks where boxes turn.
-    sides = 0.5 * (leaf.member.shape.width + gap.reference.shape.width)
-    constraints = xml.DynamicConstraints(
-        maxAcceleration=limits.lateral, maxDeceleration=limits.lateral, maxSpeed=LATERAL_SPEED
-    )
-    action = xml.LateralDistanceAction(
-        None if _is_rigid(leaf, gap, keeps=keeps, missing=missing) else constraints,
-        entityRef=gap.reference.name,
-        distance=round(gap.size + sides, 6),
-        freespace=False,
-        continuous=keeps,
-        displacement=ACROSS[gap.side] if newer else None,
-        coordinateSystem="road" if newer else None,
-    )
-    after = replace(leaf.state, offset=None, lane=None).finished(LATERAL)
-    return Change(LATERAL, (lateral(action),), inf if keeps else None, after, after)
-
-
-LATERAL_SPEED = 3.0
-"""m/s across the road; the DSL says none."""
-
-
-OPPOSITE = {"ahead": "behind", "behind": "ahead", "left": "right", "right": "left"}
 
 
 @action("change_space_gap", "change_time_gap", "change_space_headway", "change_time_headway")
@@ -300,12 +297,10 @@ def _counted(node: ir.Invoke) -> tuple[bool, Between]:
 
 
 def _reached_before(leaf: Leaf, reference: CastMember, direction: str) -> Gap | None:
-    """Return the gap that the invocation before has made."""
+    """Return the gap that the invocation before has made, counted as this one counts."""
     is_time, between = _counted(leaf.node)
     before = ir.predecessor(leaf.ctx.scenario.body, leaf.node)
-    if before is None or not before.action.startswith(("change_space_", "change_time_")):
-        return None
-    if before.until or before.actor is None:
+    if before is None or not _changes_gap(before) or before.until or before.actor is None:
         return None
     if leaf.ctx.values.actor(before.actor) != leaf.member.actor.name:
         return None
@@ -317,25 +312,22 @@ def _reached_before(leaf: Leaf, reference: CastMember, direction: str) -> Gap | 
         return gap
     if is_time:
         return None
-    leading = (reference if gap.side == "behind" else leaf.member).shape.length
-    size = gap.size + leading if between == "fronts" else gap.size - leading
-    return replace(gap, size=size, between=between)
+    wanted = replace(gap, between=between)
+    size = gap.size - gap.beyond_points(leaf.member) + wanted.beyond_points(leaf.member)
+    return replace(wanted, size=size)
 
 
 def _at_start(leaf: Leaf, reference: CastMember) -> Gap | None:
     """Return the gap of the initial placement."""
-    is_time, between = _counted(leaf.node)
     apart = leaf.starts_behind(reference)
     if apart is None:
         return None
-    me, other = leaf.member.shape, reference.shape
-    side = _side(apart)
-    behind, ahead = (me, other) if side == "behind" else (other, me)
-    size = abs(apart) - behind.front + (ahead.front if between == "fronts" else -ahead.rear)
-    if is_time:
-        trailing = leaf.state if side == "behind" else leaf.ctx.at_start[reference.name]
-        speed = trailing.known_speed
-        if speed is None or speed <= 0.0:
+    gap = Gap(reference, _side(apart), 0.0, *_counted(leaf.node))
+    size = _present_gap(leaf, gap)
+    assert size is not None
+    if gap.is_time:
+        trailing = leaf.state if gap.side == "behind" else leaf.ctx.at_start[reference.name]
+        if not trailing.known_speed or trailing.known_speed < 0.0:
             return None
-        size /= speed
-    return Gap(reference, side, max(size, 0.0), is_time, between)
+        size /= trailing.known_speed
+    return replace(gap, size=max(size, 0.0))

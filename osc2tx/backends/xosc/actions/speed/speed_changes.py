@@ -7,15 +7,15 @@ which has the limits of acceleration and jerk, or any course through points. Bef
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from functools import partial
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
+from osc2tx.backends.xosc.actions.speed.courses import through_points
 from osc2tx.backends.xosc.actions.speed.speed_elements import longitudinal, speed_action
 from osc2tx.backends.xosc.actions.speed.speed_notes import (
     PROFILE_ACTION,
     note_acceleration,
     note_even_change,
-    refuse_contradiction,
 )
 from osc2tx.backends.xosc.facts.actors import (
     COMFORT,
@@ -23,7 +23,6 @@ from osc2tx.backends.xosc.facts.actors import (
     GENTLE,
     TOP_SPEED,
     Cosine,
-    Course,
     Limits,
     Linear,
     Pace,
@@ -33,17 +32,13 @@ from osc2tx.backends.xosc.facts.actors import (
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, Demand, Interval, known
 from osc2tx.xosc import elements as xml
-from osc2tx.xosc.expressions import Symbol
 from osc2tx.xosc.literals import DynamicsShape
 from osc2tx_shared.classes import replace
 
-POINTS = 12
-"""Points of a smooth course; the way it covers is within 2 cm for changes of 30 m/s."""
+STEP = 0.05
+"""Seconds of a step of the run, unless it says otherwise."""
 
 RATE = "SpeedActionDynamics/rate"
-
-STRAIGHT = 1e-5
-"""m/s^2 by which accelerations before and after a point may differ on a straight line."""
 
 
 def may_jump(leaf: Leaf) -> bool:
@@ -68,17 +63,24 @@ def change_speed(leaf: Leaf, target: float, pace: Pace) -> Change:
     if state.speed == known(target) and not state.is_changing_speed:
         return Change(LONGITUDINAL, (), 0.0, after, after)
     passed = None if state.speed is None else state.speed.over(known(target))
-    pending = _accelerations(leaf, target, pace)
+    up, down = _rates(leaf.limits, pace)  # with which it may be cut short
+    pending = Interval(
+        -down if state.speed is None or state.speed.high > target else 0.0,
+        up if state.speed is None or state.speed.low < target else 0.0,
+    )
     during = replace(after, speed=passed, aim=target, rate=None, pending=pending)
     start = state.known_speed
     if start is not None:
+        planned = partial(course_of_speed, start, target, limits=leaf.limits)
         if pace.peak is not None and pace.duration is not None:
-            own = course_of_speed(start, target, pace._replace(duration=None), leaf.limits)
-            refuse_contradiction(leaf, pace.peak, own.duration, pace.duration)
-        course = course_of_speed(start, target, pace, leaf.limits)
-        limited = leaf.within_limit(pace, course.duration)
-        if limited is not pace:
-            pace, course = limited, course_of_speed(start, target, limited, leaf.limits)
+            own = planned(pace._replace(duration=None)).duration
+            if abs(own - pace.duration) > STEP:
+                raise Inexpressible(
+                    f"with rate_peak {pace.peak:g} m/s^2 it takes {own:.2f} s, not"
+                    f" {pace.duration:g} s: every run fails",
+                    leaf.node.span,
+                )
+        pace, course = leaf.within_limit(pace, planned)
         leaf.course = course
         action = _from_known(leaf, course, target, pace)
         return Change(LONGITUDINAL, (action,), course.duration, during, after)
@@ -86,16 +88,11 @@ def change_speed(leaf: Leaf, target: float, pace: Pace) -> Change:
         slowest, fastest = state.speed or (0.0, TOP_SPEED)
         leaf.demand(pace.peak if slowest < target else 0.0, pace.peak if fastest > target else 0.0)
     elif pace.duration is not None and pace.profile != "asap":
-        leaf.demand(*_steepest(leaf, target, pace.duration))
+        slowest, fastest = leaf.state.speed or (0.0, TOP_SPEED)  # any of which it may start with
+        ways = max(target - slowest, 0.0), max(fastest - target, 0.0)
+        leaf.demand(*(COSINE_PEAK * way / pace.duration for way in ways))
     action = _from_unknown(leaf, target, pace)
     return Change(LONGITUDINAL, (action,), pace.duration, during, after)
-
-
-def _steepest(leaf: Leaf, target: float, duration: float) -> tuple[float, float]:
-    """Return the greatest acceleration and deceleration of a change in a time, from any speed."""
-    slowest, fastest = leaf.state.speed or (0.0, TOP_SPEED)
-    faster, slower = max(target - slowest, 0.0), max(fastest - target, 0.0)
-    return COSINE_PEAK * faster / duration, COSINE_PEAK * slower / duration
 
 
 def jump_to(leaf: Leaf, target: float) -> Change:
@@ -104,7 +101,7 @@ def jump_to(leaf: Leaf, target: float) -> Change:
     after = replace(leaf.state, speed=known(target)).finished(LONGITUDINAL)
     after = replace(after, jumped=jumps)
     leaf.ctx.demand(leaf.member.name, Demand(jumps=jumps))
-    return Change(LONGITUDINAL, (speed_action(target, "step", "time", 0.0),), 0.0, after, after)
+    return Change(LONGITUDINAL, (speed_action(target),), 0.0, after, after)
 
 
 def _from_known(leaf: Leaf, course: Profile, target: float, pace: Pace) -> xml.PrivateAction:
@@ -127,15 +124,6 @@ def _from_known(leaf: Leaf, course: Profile, target: float, pace: Pace) -> xml.P
     return speed_action(even.end, "linear", "time", length)
 
 
-def _accelerations(leaf: Leaf, target: float, pace: Pace) -> Interval:
-    """Return between which accelerations (m/s^2) a change to a target may be cut short."""
-    limits, speed = leaf.limits, leaf.state.speed
-    up, down = _rates(limits, pace)
-    faster = up if speed is None or speed.low < target else 0.0
-    slower = down if speed is None or speed.high > target else 0.0
-    return Interval(-slower, faster)
-
-
 def _from_unknown(leaf: Leaf, target: float, pace: Pace) -> xml.PrivateAction:
     profile = pace.profile
     if pace.duration is not None and profile != "asap":
@@ -151,18 +139,14 @@ def _from_unknown(leaf: Leaf, target: float, pace: Pace) -> xml.PrivateAction:
     curve: DynamicsShape = "sinusoidal" if profile == "smooth" else "linear"
     if leaf.ctx.can(RATE, "1.0"):
         if profile in ("none", "asap"):
-            note_even_change(leaf, _even_courses(leaf, target, pace, rate), None)
+            courses = (
+                (course_of_speed(v, target, pace._replace(duration=None), leaf.limits), v)
+                for v in leaf.state.speed or (0.0, TOP_SPEED)  # with which it may begin
+            )
+            evens = [(own, Linear(v, target, abs(target - v) / rate)) for own, v in courses]
+            note_even_change(leaf, evens, None)
         return speed_action(target, curve, "rate", rate)  # which is the peak of the shape
     return speed_action(target, "linear", "time", _longest(leaf, target, profile, rate))
-
-
-def _even_courses(
-    leaf: Leaf, target: float, pace: Pace, rate: float
-) -> Iterator[tuple[Profile, Linear]]:
-    """Yield the courses of a change from the speeds that it may begin with, and the even ones."""
-    for speed in leaf.state.speed or (0.0, TOP_SPEED):
-        even = Linear(speed, target, abs(target - speed) / rate)
-        yield course_of_speed(speed, target, pace._replace(duration=None), leaf.limits), even
 
 
 def _longest(leaf: Leaf, target: float, profile: str, rate: float) -> float:
@@ -232,29 +216,3 @@ def within_limits(target: float, limits: Limits, pace: Pace) -> xml.PrivateActio
     )
     entry = xml.SpeedProfileEntry(speed=target)
     return longitudinal(xml.SpeedProfileAction(constraints, entry, followingMode="follow"))
-
-
-def through_points(course: Course, count: int = POINTS) -> xml.PrivateAction:
-    """Return a course through points, with times since the point before.
-
-    Points on the straight line between others are left out: esmini does so too, and then waits for
-    as many as there are entries.
-    """
-    step = course.duration / count
-    speeds = [course.value(index * step) for index in range(count + 1)]
-    entries, last = [], 0
-    for index in range(1, count + 1):
-        if index < count and _is_straight(speeds[index - 1 : index + 2], step):
-            continue
-        time, speed = round((index - last) * step, 9), round(speeds[index], 9)
-        entries.append(xml.SpeedProfileEntry(time=time, speed=speed))
-        last = index
-    return longitudinal(xml.SpeedProfileAction(*entries, followingMode="position"))
-
-
-def _is_straight(speeds: Sequence[float], step: float) -> bool:
-    """Whether three speeds, a step (s) apart, lie on a line for all values of open parameters."""
-    before, here, after = speeds
-    if any(isinstance(speed, Symbol) for speed in speeds):
-        return False
-    return abs(before - 2.0 * here + after) < STRAIGHT * step

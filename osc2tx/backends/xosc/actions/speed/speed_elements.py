@@ -14,54 +14,48 @@ from osc2tx.xosc.literals import DynamicsDimension, DynamicsShape
 
 
 def speed_action(
-    target: float, shape: DynamicsShape, dimension: DynamicsDimension, value: float
-) -> xml.PrivateAction:
-    """Return a `SpeedAction` to an absolute speed."""
-    return _speed_action(xml.AbsoluteTargetSpeed(value=target), shape, dimension, value)
-
-
-def ends_evenly(change: Change) -> bool:
-    """Whether a change of the speed keeps its acceleration up to its end."""
-    dynamics = (each for action in change.actions for each in action.below(xml.SpeedActionDynamics))
-    return any(each.dynamicsShape == "linear" for each in dynamics)
-
-
-def relative_speed(
-    reference: str,
-    value: float = 0.0,
-    kind: Literal["delta", "factor"] = "delta",
-    *,
-    continuous: bool,
+    target: float | xml.RelativeTargetSpeed,
     shape: DynamicsShape = "step",
     dimension: DynamicsDimension = "time",
-    length: float = 0.0,
+    value: float = 0.0,
 ) -> xml.PrivateAction:
-    """Return the action that gives an actor a speed relative to that of another one.
-
-    It is faster by the value (m/s), or by a factor; if it is continuous, at every moment from then
-    on. The change to it has a length in seconds, or in m/s^2 for a rate.
-    """
-    goal = xml.RelativeTargetSpeed(
-        entityRef=reference, value=value, speedTargetValueType=kind, continuous=continuous
+    """Return a `SpeedAction` to a speed; the change to it lasts so long, or has such a rate."""
+    goal: xml.SpeedActionTargetPart = (
+        target
+        if isinstance(target, xml.RelativeTargetSpeed)
+        else xml.AbsoluteTargetSpeed(value=target)
     )
-    return _speed_action(goal, shape, dimension, length)
-
-
-def _speed_action(
-    goal: xml.SpeedActionTargetPart,
-    shape: DynamicsShape,
-    dimension: DynamicsDimension,
-    value: float,
-) -> xml.PrivateAction:
     dynamics = xml.SpeedActionDynamics(
         dynamicsShape=shape, dynamicsDimension=dimension, value=value
     )
     return longitudinal(xml.SpeedAction(dynamics, xml.SpeedActionTarget(goal)))
 
 
+def speed_of(
+    reference: str,
+    value: float = 0.0,
+    kind: Literal["delta", "factor"] = "delta",
+    *,
+    continuous: bool = True,
+) -> xml.RelativeTargetSpeed:
+    """Return the speed of another actor, plus a value (m/s) or times a factor.
+
+    If it is continuous, it is so at every moment from then on.
+    """
+    return xml.RelativeTargetSpeed(
+        entityRef=reference, value=value, speedTargetValueType=kind, continuous=continuous
+    )
+
+
 def hold_speed(entity: str) -> xml.PrivateAction:
     """Return the action that ends a change of the speed where it is."""
-    return relative_speed(entity, continuous=False)
+    return speed_action(speed_of(entity, continuous=False))
+
+
+def ends_evenly(change: Change) -> bool:
+    """Whether a change of the speed keeps its acceleration up to its end."""
+    dynamics = (each for action in change.actions for each in action.below(xml.SpeedActionDynamics))
+    return any(each.dynamicsShape == "linear" for each in dynamics)
 
 
 def longitudinal(action: xml.LongitudinalActionPart) -> xml.PrivateAction:
@@ -104,4 +98,4 @@ def in_steps(leaf: Leaf, performance: Performance) -> tuple[xml.ActionPart, ...]
     middles = [round(course.value((step + 0.5) * length), 6) for step in range(count)]
     lasting = round(length - 0.5 * TICK, 6)
     steps = (speed_action(speed, "linear", "time", lasting) for speed in middles)
-    return (*steps, speed_action(end, "step", "time", 0.0))
+    return (*steps, speed_action(end))

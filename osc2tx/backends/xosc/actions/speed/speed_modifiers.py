@@ -4,21 +4,19 @@ from __future__ import annotations
 
 from math import inf
 
-from osc2tx import ir
-from osc2tx.backends.xosc.actions.arguments import Call
+from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import UNKNOWN_SPEED, Change, Changes, Leaf
 from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed.acceleration import speed_by, user_shape
+from osc2tx.backends.xosc.actions.speed.courses import follow_course
 from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to, may_jump
-from osc2tx.backends.xosc.actions.speed.speed_elements import relative_speed, speed_action
-from osc2tx.backends.xosc.actions.speed.speed_notes import speed_then
+from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action, speed_of
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.facts.actors import COMFORT, FASTEST, Course, Pace
+from osc2tx.backends.xosc.facts.actors import COMFORT, FASTEST, Course, Linear, Pace
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, Demand, known
 from osc2tx.backends.xosc.values.constants import Bounds
 from osc2tx.xosc.literals import DynamicsDimension, DynamicsShape
-from osc2tx_shared.classes import replace
 
 SAME = 1e-6
 """m/s between speeds that count as one."""
@@ -35,13 +33,13 @@ ABSOLUTE = Remedy(instead="`speed` with the speed itself is exact", asks=("Speed
 
 
 @modifier("physical_movement")
-def _physical(leaf: Leaf, call: Call) -> Changes:
+def _physical(leaf: Leaf, call: Arguments) -> Changes:
     call.member("option", "must_be_physical")
     return ()  # steps are written for changes that may jump, courses for all others
 
 
 @modifier("avoid_collisions", takes=())
-def _avoid(leaf: Leaf, call: Call) -> Changes:
+def _avoid(leaf: Leaf, call: Arguments) -> Changes:
     if call.get("avoid") is not False:
         call.approximate(
             "the XML cannot ask for caution; only controllers of the tool may have it",
@@ -56,19 +54,19 @@ def _avoid(leaf: Leaf, call: Call) -> Changes:
 
 
 @modifier("keep_speed", "keep_lane", takes=())
-def _keep(leaf: Leaf, call: Call) -> Changes:
+def _keep(leaf: Leaf, call: Arguments) -> Changes:
     return ()
 
 
 @modifier("keep_position", takes=(LONGITUDINAL,))
-def _keep_position(leaf: Leaf, call: Call) -> Changes:
+def _keep_position(leaf: Leaf, call: Arguments) -> Changes:
     if leaf.state.speed == known(0.0):
         return ()
     return (change_speed(leaf, 0.0, FASTEST),)
 
 
 @modifier("speed")
-def _speed(leaf: Leaf, call: Call) -> Changes:
+def _speed(leaf: Leaf, call: Arguments) -> Changes:
     if call.member("direction", "longitudinal") != "longitudinal":
         instead = "`change_lane` or `lateral(…)` with a duration moves across the road exactly"
         remedy = Remedy(instead=instead, asks=("LaneChangeActionDynamics",))
@@ -85,7 +83,10 @@ def _speed(leaf: Leaf, call: Call) -> Changes:
     if isinstance(allowed, Bounds):
         if any(other.name == "acceleration" for other in leaf.node.modifiers):
             raise Inexpressible("the XML has no acceleration within a range of speeds")
-        target = _nearest(leaf, allowed)
+        speed = leaf.state.known_speed
+        target = 0.5 * (allowed.lower + allowed.upper)  # if the nearest one is not known
+        if speed is not None:
+            target = min(max(speed, allowed.lower), allowed.upper)
     reference = next((name for name in RELATIVE if name in call), None)
     if reference is not None:
         return (_relative(leaf, call, reference, target or 0.0),)
@@ -107,14 +108,6 @@ def _holds(leaf: Leaf, target: float) -> Changes:
     raise Inexpressible("the speed at the start is another one, and must not jump")
 
 
-def _nearest(leaf: Leaf, allowed: Bounds) -> float:
-    """Return the allowed speed nearest to the present one; the middle if that is unknown."""
-    speed = leaf.state.known_speed
-    if speed is None:
-        return 0.5 * (allowed.lower + allowed.upper)
-    return min(max(speed, allowed.lower), allowed.upper)
-
-
 def _rate_beside(leaf: Leaf) -> float | None:
     """Return the acceleration (m/s^2) that another modifier gives the change of the speed."""
     call = leaf.modifier("acceleration")
@@ -127,7 +120,7 @@ def _rate_beside(leaf: Leaf) -> float | None:
     return None if rate is None else abs(rate)
 
 
-def _relative(leaf: Leaf, call: Call, name: str, difference: float) -> Change:
+def _relative(leaf: Leaf, call: Arguments, name: str, difference: float) -> Change:
     """Return the change to a speed relative to that of another actor."""
     reference = call.entity(name)
     factor = call.number("factor")
@@ -152,21 +145,14 @@ def _relative(leaf: Leaf, call: Call, name: str, difference: float) -> Change:
         shape, dimension, length = "step", "time", 0.0
         at_once = f"{leaf.ctx.profile.name} takes up such a speed at once"
         call.approximate(at_once, UNTIL_REACHED, GENERIC)
-    action = relative_speed(
-        reference.name,
-        difference if factor is None else factor,
-        "delta" if factor is None else "factor",
-        continuous=True,
-        shape=shape,
-        dimension=dimension,
-        length=length,
-    )
-    after = replace(leaf.state, speed=None).finished(LONGITUDINAL)
-    return Change(LONGITUDINAL, (action,), inf, after, after)
+    goal = speed_of(reference.name, difference)
+    if factor is not None:
+        goal = speed_of(reference.name, factor, "factor")
+    return leaf.at_open_speed(speed_action(goal, shape, dimension, length), inf)
 
 
 def _rate_towards(
-    leaf: Leaf, call: Call, reference: CastMember, factor: float | None, more: float
+    leaf: Leaf, call: Arguments, reference: CastMember, factor: float | None, more: float
 ) -> float:
     """Return the rate (m/s^2) of the way to a speed relative to another one.
 
@@ -175,7 +161,7 @@ def _rate_towards(
     """
     limits, mine = leaf.limits, leaf.state.known_speed
     faster, slower = COMFORT * limits.acceleration, COMFORT * limits.deceleration
-    theirs = speed_then(leaf, reference)
+    theirs = leaf.state_of(reference).known_speed
     if mine is None or theirs is None:
         bound = UNTIL_REACHED
     else:
@@ -203,7 +189,7 @@ def _rate_towards(
 
 
 @modifier("change_speed")
-def _change_speed(leaf: Leaf, call: Call) -> Changes:
+def _change_speed(leaf: Leaf, call: Arguments) -> Changes:
     pace, target = call.shape()
     given = call.number("speed")
     difference = given if given is not None else target
@@ -226,7 +212,7 @@ def _change_speed(leaf: Leaf, call: Call) -> Changes:
 
 
 @modifier("distance", takes=())
-def _distance(leaf: Leaf, call: Call) -> Changes:
+def _distance(leaf: Leaf, call: Arguments) -> Changes:
     distance = call.required("distance")
     if leaf.duration is not None:
         return (cover_in_time(leaf, call, distance, leaf.duration),)
@@ -235,7 +221,7 @@ def _distance(leaf: Leaf, call: Call) -> Changes:
     return ()
 
 
-def cover_in_time(leaf: Leaf, call: Call, distance: float, time: float) -> Change:
+def cover_in_time(leaf: Leaf, call: Arguments, distance: float, time: float) -> Change:
     """Return the even change of the speed that covers a distance (m) in a time (s).
 
     Raises:
@@ -248,26 +234,17 @@ def cover_in_time(leaf: Leaf, call: Call, distance: float, time: float) -> Chang
     end = 2.0 * distance / time - start
     if end < 0.0:
         raise Inexpressible("it would stop before its time is over")
-    rate = (end - start) / time
-    leaf.demand(max(rate, 0.0), max(-rate, 0.0))
-    left = rate if end > 0.0 else 0.0
-    after = replace(leaf.state.finished(LONGITUDINAL), speed=known(end), rate=left)
-    during = replace(after, speed=known(start).over(known(end)))
-    action = speed_action(end, "linear", "time", time)
-    return Change(LONGITUDINAL, (action,), time, during, after)
+    return follow_course(
+        leaf, Linear(start, end, time), rate=(end - start) / time if end > 0.0 else 0.0
+    )
 
 
-def _check_end_is_free(leaf: Leaf, call: Call) -> None:
-    others = [other for other in leaf.node.modifiers if other is not call.node]
-    if any(_has_to_fit(leaf, other) for other in others):
+def _check_end_is_free(leaf: Leaf, call: Arguments) -> None:
+    ends = [m.name for m in leaf.node.modifiers if m is not call.source and m.at == "end"]
+    across = () if leaf.duration is None else ("lane", "lateral", "change_lane")
+    if any(name not in across for name in ends):
         reason = f"what has to hold at the end of its {call.name} decides how it gets there"
         raise Inexpressible(reason)
-
-
-def _has_to_fit(leaf: Leaf, call: ir.ModifierCall) -> bool:
-    """Return whether a modifier beside a distance has to hold when that is covered."""
-    across = call.name in ("lane", "lateral", "change_lane")
-    return call.at == "end" and not (across and leaf.duration is not None)
 
 
 def time_to_cover(leaf: Leaf) -> float | None:

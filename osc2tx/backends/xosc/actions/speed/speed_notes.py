@@ -9,10 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import Leaf, Uneven
-from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import (
     SIDEWAYS,
     TOP_SPEED,
@@ -25,24 +22,15 @@ from osc2tx.backends.xosc.facts.actors import (
     way_between,
     way_by_acceleration,
 )
-from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres, Remedy
+from osc2tx.backends.xosc.report import Metres, Remedy
 from osc2tx.backends.xosc.state import STEADY, known
-from osc2tx.catalogue import catalogue
 
 PROFILE_ACTION = "SpeedProfileAction"
 
 SINCE_PROFILES = Remedy(version="1.2")
 
-STEP = 0.05
-"""Seconds of a step of the run, unless it says otherwise."""
-
 NEAR = 0.05
 """Metres along the road that count as the same place."""
-
-
-def with_profiles(ctx: Context) -> Remedy:
-    """Return what has `SpeedProfileAction`, where a document may not use it."""
-    return SINCE_PROFILES if ctx.version < "1.2" else GENERIC
 
 
 def note_acceleration(leaf: Leaf, target: float, pace: Pace) -> None:
@@ -102,20 +90,6 @@ def note_cut(leaf: Leaf, *, is_by_duration: bool) -> None:
     )
 
 
-def refuse_contradiction(leaf: Leaf, peak: float, own: float, duration: float) -> None:
-    """Refuse a peak that does not go with the duration.
-
-    Raises:
-        Inexpressible: They are more than a step of the run apart.
-    """
-    if abs(own - duration) > STEP:
-        raise Inexpressible(
-            f"with rate_peak {peak:g} m/s^2 it takes {own:.2f} s, not {duration:g} s: every run"
-            " fails",
-            leaf.node.span,
-        )
-
-
 # --- speeds that stay -----------------------------------------------------------------------------
 
 _BESIDE_SPEED = ("keep_lane", "lane", "lateral", "change_lane")
@@ -141,64 +115,7 @@ def note_open_speed(leaf: Leaf) -> None:
         )
 
 
-def speed_then(leaf: Leaf, other: CastMember) -> float | None:
-    """Return the speed (m/s) of another actor at the start of an action; `None` if not known.
-
-    Members beside one another are written down one after the other: the state of an actor that acts
-    in one of them may be that before or after it.
-    """
-    if leaf.is_start:
-        return leaf.ctx.at_start[other.name].known_speed
-    body = leaf.ctx.scope.scenario.body
-    beside = list(ir.runs_beside(body, leaf.node))
-    may_act = any(_acts(member, other.actor.name) for member in beside)
-    if may_act or not ir.holds(leaf.ctx.scenario.body, leaf.node):
-        return steady_speed(leaf, other)
-    return leaf.ctx.states[other.name].known_speed
-
-
-def _acts(member: ir.Behavior, actor: str) -> bool:
-    """Whether an actor may act in a member."""
-    nodes = ir.walk_behaviors(member)
-    return actor in ir.actors_of(member) or any(isinstance(n, ir.InvokeScenario) for n in nodes)
-
-
-def steady_speed(leaf: Leaf, actor: CastMember) -> float | None:
-    """Return the speed (m/s) that an actor has all the time; `None` if it may change."""
-    start = leaf.ctx.at_start[actor.name].known_speed
-    if start is None:
-        return None
-    for node in ir.walk_behaviors(leaf.ctx.scenario.body):
-        if isinstance(node, ir.InvokeScenario):
-            return None
-        if not isinstance(node, ir.Invoke) or node.actor_name != actor.actor.name:
-            continue
-        if not _leaves_speed(leaf, node, start):
-            return None
-    return start
-
-
-def _leaves_speed(leaf: Leaf, node: ir.Invoke, speed: float) -> bool:
-    entry = catalogue().actions.get(node.qualified_name)
-    if entry is None or (entry.paces and node.action != "keep_speed"):
-        return False
-    for call in node.modifiers:
-        if call.name in _BESIDE_SPEED or call.name == "keep_speed":
-            continue
-        if call.name != "speed":
-            return False
-        arguments = Arguments(leaf.ctx, call)
-        if any(name in arguments for name in ("faster_than", "slower_than", "same_as")):
-            return False
-        if arguments.number("speed") != speed:
-            return False
-    return True
-
-
 # --- changes across the road by who may be too slow for them --------------------------------------
-
-PACING = ("assign_speed", "change_speed", "drive", "move", "remain_stationary")
-"""Actions that say a speed."""
 
 
 def note_slow(leaf: Leaf, way: float, course: Profile) -> None:
@@ -206,7 +123,7 @@ def note_slow(leaf: Leaf, way: float, course: Profile) -> None:
     if way == 0.0 or leaf.member.walks:
         return
     needed = fastest(course) / SIDEWAYS
-    goals = list(_beside(leaf))
+    goals = list(_goals_beside(leaf))
     low, high = leaf.state.speed or (0.0, TOP_SPEED)
     slowest = max(low, -high, 0.0)
     if min([slowest, *goals]) >= needed:
@@ -223,28 +140,10 @@ def note_slow(leaf: Leaf, way: float, course: Profile) -> None:
     leaf.approximate(reason, late)
 
 
-def _beside(leaf: Leaf) -> Iterator[float]:
-    """Yield the speeds (m/s) that it is told meanwhile, without signs."""
-    name = leaf.node.actor_name
-    if name is None:
-        return
+def _goals_beside(leaf: Leaf) -> Iterator[float]:
+    """Yield the speeds (m/s) to which it changes meanwhile, without signs."""
     for member in ir.runs_beside(leaf.ctx.scope.scenario.body, leaf.node, (ir.Parallel,)):
         for node in ir.invocations(member):
-            if node.actor_name == name and node.action in PACING:
-                yield from _goals(leaf, node)
-                for modifier in node.modifiers:
-                    yield from _goals(leaf, modifier)
-
-
-def _goals(leaf: Leaf, source: ir.Invoke | ir.ModifierCall) -> Iterator[float]:
-    if isinstance(source, ir.Invoke) and source.action == "remain_stationary":
-        yield 0.0
-    arguments = Arguments(leaf.ctx, source)
-    for name in ("speed", "target"):
-        if name in arguments:
-            try:
-                value = arguments.number(name)
-            except Inexpressible:  # a lane as target, or a speed that only the run shows
-                continue
-            if value is not None:
-                yield abs(value)
+            move = (leaf.ctx.moves_of(leaf.member.name) or {}).get(id(node))
+            if move is not None and move.after.known_speed is not None:
+                yield abs(move.after.known_speed)
