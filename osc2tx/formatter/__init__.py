@@ -6,7 +6,8 @@ laid out anew; nothing is renamed, reordered or dropped.
 Stages, in order:
 
 1. `read_lines` (`lines`): tokens and the text between them to logical lines.
-2. `lay_out` (`layout`): a logical line to one or several physical lines.
+2. `lay_out` (`layout`): a logical line to one or several physical lines, with the blanks of
+   `spacing`.
 3. `join_lines`: indentation and blank lines between them.
 
 Invariants: formatting a formatted text changes nothing; its tokens and comments are those

@@ -5,23 +5,24 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from osc2tx.formatter.lines import LogicalLine, Piece
-from osc2tx.syntax.tokens import ID, KEYWORDS, LITERALS, NAMESPACE_STAR, PUNCTUATION
+from osc2tx.formatter.spacing import CLOSERS, OPENERS, SIGNS, blanks_before, is_sign
+from osc2tx.syntax.tokens import KEYWORDS, PUNCTUATION
 
 LINE_LENGTH = 100
 INDENT_WIDTH = 4
 
-_OPENERS = frozenset(PUNCTUATION[symbol] for symbol in "([")
-_CLOSERS = frozenset(PUNCTUATION[symbol] for symbol in ")]")
 _COMMA = PUNCTUATION[","]
-_BREAKABLE = frozenset({KEYWORDS["and"], KEYWORDS["or"], PUNCTUATION["=>"]})
+_LOGIC = frozenset({KEYWORDS["and"], KEYWORDS["or"], PUNCTUATION["=>"]})
+_COMPARISONS = frozenset(PUNCTUATION[sign] for sign in ("==", "!=", "<", "<=", ">", ">="))
 
 
 def lay_out(line: LogicalLine) -> list[str]:
     """Return the physical lines of a logical line that has tokens, comments included.
 
-    What fits stands on one line. What does not is broken inside of brackets, the last ones first:
-    one argument a line, or one operand of `and`, `or`, `=>`. Outside of brackets only the author's
-    own backslashes break a line that is too long.
+    What fits stands on one line. What does not is broken inside of brackets, the last ones first.
+    Their content goes on a line of its own; if it does not fit there, one argument a line, or one
+    operand. Of brackets around a call or a list with nothing behind it, the inner ones are broken.
+    Outside of brackets only the author's own backslashes break a line that is too long.
     """
     width = INDENT_WIDTH * line.depth
     lines = _Layout(line.pieces).write_all(width)
@@ -38,6 +39,7 @@ class _Layout:
         self._pieces = pieces
         self._blanks = blanks_before(pieces)
         self._closers = _match_brackets(pieces)
+        self._openers = {closer: opener for opener, closer in self._closers.items()}
         self._lines: list[str] = []
         self._current = ""
         self._written = 0  # tokens whose comments are written
@@ -68,9 +70,16 @@ class _Layout:
         self._current += (self._blanks[index] if spaced else "") + self._pieces[index].text
 
     def _explode(self, opener: int, width: int) -> None:
-        """Write the content of brackets, each part on lines of its own, and the closing bracket."""
+        """Write the content of brackets on lines of its own, and the closing bracket."""
         inner, closer = width + INDENT_WIDTH, self._closers[opener]
-        for first, last in self._parts(opener, closer):
+        parts = self._parts(opener + 1, closer, inner)
+        if not parts and (last := self._last_group(opener + 1, closer)) is not None:
+            for index in range(opener + 1, last + 1):
+                self._write_token(index, width, spaced=index > opener + 1)
+            self._explode(last, width)
+            self._write_token(closer, width, spaced=False)
+            return
+        for first, last in parts or self._operands(opener + 1, closer, inner):
             self._break(first, inner)
             comma = last < closer and self._pieces[last].kind == _COMMA
             self._write(first, last, inner, after=comma)
@@ -133,16 +142,49 @@ class _Layout:
             index += 1
 
     def _has_comments(self, opener: int) -> bool:
-        inside = self._pieces[opener + 1 : self._closers[opener] + 1]
-        return any(not each.is_block for piece in inside for each in piece.comments)
+        return self._are_commented(opener + 1, self._closers[opener] + 1)
 
-    def _parts(self, opener: int, closer: int) -> list[tuple[int, int]]:
-        """Ranges of tokens between commas; without commas, between operators of logic."""
-        return (
-            self._split(opener + 1, closer, frozenset({_COMMA}), skip=1)
-            or self._split(opener + 1, closer, _BREAKABLE, skip=0)
-            or ([(opener + 1, closer)] if closer > opener + 1 else [])
+    def _are_commented(self, first: int, last: int) -> bool:
+        """Whether comments that end their lines stand before some tokens."""
+        pieces = self._pieces[first:last]
+        return any(not each.is_block for piece in pieces for each in piece.comments)
+
+    def _is_short(self, first: int, last: int, column: int) -> bool:
+        """Whether tokens fit on a line, from a column on."""
+        width = sum(
+            len(self._blanks[at] * (at > first) + self._pieces[at].text)
+            for at in range(first, last)
         )
+        return column + width <= LINE_LENGTH and not self._are_commented(first, last)
+
+    def _parts(self, first: int, closer: int, column: int) -> list[tuple[int, int]]:
+        """Return what of the content of brackets stands on a line each; nothing if there is none.
+
+        All of it if that fits, else what is between commas, else between operators of logic.
+        """
+        if self._is_short(first, closer, column) and not self._are_commented(closer, closer + 1):
+            return [(first, closer)]
+        return self._split(first, closer, frozenset({_COMMA}), skip=1) or self._split(
+            first, closer, _LOGIC, skip=0
+        )
+
+    def _last_group(self, first: int, closer: int) -> int | None:
+        """Return the opening bracket of what ends the content of brackets, to break it instead.
+
+        `None`: nothing does, or comments are in the way.
+        """
+        last = self._openers.get(closer - 1)
+        if last is None or last < first or self._are_commented(closer, closer + 1):
+            return None
+        return last if self._is_short(first, last + 1, len(self._current)) else None
+
+    def _operands(self, first: int, closer: int, column: int) -> list[tuple[int, int]]:
+        """Return the operands of a comparison, else of a sum, if each fits on a line; else all."""
+        for signs in (_COMPARISONS, SIGNS):
+            found = self._split(first, closer, signs, skip=0)
+            if found and all(self._is_short(*each, column) for each in found):
+                return found
+        return [(first, closer)] if closer > first else []
 
     def _split(
         self, first: int, last: int, separators: frozenset[int], *, skip: int
@@ -151,7 +193,7 @@ class _Layout:
         parts: list[tuple[int, int]] = []
         start = index = first
         while index < last:
-            if self._pieces[index].kind in separators:
+            if self._pieces[index].kind in separators and not is_sign(self._pieces, index):
                 parts.append((start, index))
                 start = index + skip
             index = self._closers.get(index, index) + 1
@@ -163,9 +205,9 @@ def _match_brackets(pieces: Sequence[Piece]) -> dict[int, int]:
     closers: dict[int, int] = {}
     opened: list[int] = []
     for index, piece in enumerate(pieces):
-        if piece.kind in _OPENERS:
+        if piece.kind in OPENERS:
             opened.append(index)
-        elif piece.kind in _CLOSERS and opened:
+        elif piece.kind in CLOSERS and opened:
             closers[opened.pop()] = index
     return closers
 
@@ -179,64 +221,3 @@ def _broken_by_backslashes(pieces: Sequence[Piece], width: int) -> list[str]:
             blank = ""
         lines[-1] += blank + piece.text
     return lines
-
-
-_CALLS = frozenset(
-    KEYWORDS[word]
-    for word in (
-        "keep", "remove_default", "cover", "record", "sample", "serial", "parallel", "one_of"
-    )
-)  # fmt: skip
-_CASTS = frozenset({KEYWORDS["as"], KEYWORDS["is"]})  # after a dot, they are called like methods
-_OPENERS = frozenset(PUNCTUATION[symbol] for symbol in "([")
-_CLOSERS = frozenset(PUNCTUATION[symbol] for symbol in ")]")
-_TIGHT = frozenset(PUNCTUATION[symbol] for symbol in (".", "..", "!", "::"))
-_SIGNS = frozenset(PUNCTUATION[symbol] for symbol in "+-")
-_AT, _COLON, _COMMA, _DOT, _QUESTION = (PUNCTUATION[symbol] for symbol in "@:,.?")
-_OPERAND_ENDS = _CLOSERS | LITERALS | {ID, NAMESPACE_STAR}
-
-
-def blanks_before(pieces: Sequence[Piece]) -> list[str]:
-    """Return what to write before each token when all stand on one line: a blank or nothing."""
-    blanks: list[str] = []
-    questions = [0]  # open conditional expressions in each bracket
-    for index, piece in enumerate(pieces):
-        blanks.append(" " if index and _is_apart(pieces, index, questions[-1]) else "")
-        if piece.kind in _OPENERS:
-            questions.append(0)
-        elif piece.kind in _CLOSERS:
-            questions = questions[:-1] or [0]
-        elif piece.kind == _QUESTION:
-            questions[-1] += 1
-        elif piece.kind == _COLON and questions[-1]:
-            questions[-1] -= 1
-    return blanks
-
-
-def _is_apart(pieces: Sequence[Piece], index: int, questions: int) -> bool:
-    """Whether a blank separates a token from the one before it."""
-    before, kind = pieces[index - 1].kind, pieces[index].kind
-    if before in _TIGHT or before in _OPENERS or before == _AT:
-        return False
-    if kind in _TIGHT or kind in _CLOSERS or kind == _COMMA:
-        return False
-    if kind == _COLON:
-        return bool(questions)  # that of `condition ? one : other`
-    if kind in _OPENERS:
-        return not (_is_called(pieces, index - 1) or _is_sign(pieces, index - 1))
-    return not _is_sign(pieces, index - 1)
-
-
-def _is_called(pieces: Sequence[Piece], index: int) -> bool:
-    """Whether a bracket behind this token belongs to it: a call or an index."""
-    kind = pieces[index].kind
-    if kind in _CASTS:
-        return index > 0 and pieces[index - 1].kind == _DOT
-    return kind in _OPERAND_ENDS or kind in _CALLS
-
-
-def _is_sign(pieces: Sequence[Piece], index: int) -> bool:
-    """Whether a token is the sign of what follows."""
-    if pieces[index].kind not in _SIGNS:
-        return False
-    return index == 0 or pieces[index - 1].kind not in _OPERAND_ENDS

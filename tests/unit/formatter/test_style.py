@@ -112,27 +112,88 @@ def test_what_fits_stands_on_one_line() -> None:
     assert formatted("scenario s:\n  keep(a \\\n    == 1)\n") == "scenario s:\n    keep(a == 1)\n"
 
 
+def in_a_scenario(line: str) -> list[str]:
+    """Return the lines of a line of a scenario, formatted, without its indentation."""
+    first, *others = formatted(f"scenario s:\n  {line}\n").splitlines()
+    assert first == "scenario s:"
+    return [each.removeprefix("    ") for each in others]
+
+
+def parameters(number: int) -> list[str]:
+    return [f"parameter_{n}: {n}m" for n in range(number)]
+
+
 def test_long_lines_are_broken_in_the_last_brackets_first() -> None:
-    names = ", ".join(f"parameter_{n}: {n}m" for n in range(3))
-    action = f"some_actor.some_action({names}, another: call(a, b))"
-    before = f"scenario s:\n  do serial(duration: 10s):\n    {action}\n"
-    assert formatted(before) == (
-        "scenario s:\n"
-        "    do serial(duration: 10s):\n"
-        "        some_actor.some_action(\n"
-        "            parameter_0: 0m,\n"
-        "            parameter_1: 1m,\n"
-        "            parameter_2: 2m,\n"
-        "            another: call(a, b)\n"
-        "        )\n"
-    )
+    first = f"f({', '.join(f'argument_{n}' for n in range(5))})"
+    assert in_a_scenario(f"x: length = {first} + g(another_name, one_more_name)") == [
+        f"x: length = {first} + g(",
+        "    another_name, one_more_name",
+        ")",
+    ]
+
+
+def test_arguments_share_a_line_of_their_own_if_they_fit() -> None:
+    names = ", ".join(parameters(5))
+    assert in_a_scenario(f"do some_actor.some_action({names})") == [
+        "do some_actor.some_action(",
+        f"    {names}",
+        ")",
+    ]
+
+
+def test_otherwise_each_argument_has_a_line() -> None:
+    names = [*parameters(6), f"another: call({', '.join(parameters(5))})"]
+    assert in_a_scenario(f"do some_actor.some_action({', '.join(names)})") == [
+        "do some_actor.some_action(",
+        *(f"    {name}," for name in parameters(6)),
+        "    another: call(",
+        f"        {', '.join(parameters(5))}",
+        "    )",
+        ")",
+    ]
+
+
+def test_a_single_argument_is_broken_inside() -> None:
+    names = [f"point_{n}_of_the_path" for n in range(7)]
+    assert in_a_scenario(f"do actor.move(along: road.path(points: [{', '.join(names)}]))") == [
+        "do actor.move(along: road.path(points: [",
+        *(f"    {name}," for name in names[:-1]),
+        f"    {names[-1]}",
+        "]))",
+    ]
 
 
 def test_long_conditions_are_broken_before_operators() -> None:
     terms = [f"a_rather_long_name_{n} == {n}m" for n in range(4)]
-    assert formatted(f"scenario s:\n  keep({' and '.join(terms)})\n") == (
-        "scenario s:\n    keep(\n        " + "\n        and ".join(terms) + "\n    )\n"
-    )
+    whole, short = " and ".join(terms), "some_name == 1m and another == 2m or other == 3m"
+    assert in_a_scenario(f"keep(not ({short}) or not ({short}))") == [
+        "keep(",
+        f"    not ({short})",
+        f"    or not ({short})",
+        ")",
+    ]
+    assert in_a_scenario(f"keep({whole})") == [
+        "keep(",
+        f"    {terms[0]}",
+        *(f"    and {term}" for term in terms[1:]),
+        ")",
+    ]
+
+
+def test_long_comparisons_and_sums_are_broken_before_operators() -> None:
+    left, right = (" * ".join(f"{side}_{n}_of_several" for n in range(5)) for side in ("a", "b"))
+    assert in_a_scenario(f"do wait rise({left} <= -{right})") == [
+        "do wait rise(",
+        f"    {left}",
+        f"    <= -{right}",
+        ")",
+    ]
+    assert in_a_scenario(f"x: length = f(-{left} - {right})") == [
+        "x: length = f(",
+        f"    -{left}",
+        f"    - {right}",
+        ")",
+    ]
 
 
 def test_comments_in_brackets_keep_their_places() -> None:
