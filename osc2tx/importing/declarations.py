@@ -12,7 +12,7 @@ from osc2tx.importing.distributions import Open, meets
 from osc2tx.importing.document import Document
 from osc2tx.importing.expressions import Untyped
 from osc2tx.importing.parameters import Parameter
-from osc2tx.importing.program import comment_lines, declaration
+from osc2tx.importing.program import declaration, with_comments
 from osc2tx.importing.report import ImportReport
 from osc2tx.importing.values import Values
 from osc2tx.xosc import Element
@@ -121,8 +121,8 @@ class Declarations:
                 constraints.insert(0, varied)
             elif varied:
                 value = varied
-        lines = list(comment_lines(self._comments_of(node.element)))
-        return lines + declaration(parameter.name, kind, constraints, value)
+        lines = declaration(parameter.name, kind, constraints, value)
+        return with_comments(lines, self._comments_of(node.element))
 
     def _varied(self, node: Node, open_: Open, parameter: Parameter) -> str:
         """Return the range of a parameter, or its only value; nothing, with a finding, if none."""

@@ -123,13 +123,15 @@ class _Parser:
 
 
 def _operation(sign: str, left: Expression, right: Expression) -> Expression:
-    """Return an operation, computed if both operands are numbers."""
+    """Return an operation, computed if both operands are numbers; `-1 * x` is `-x`."""
     if isinstance(left, Number) and isinstance(right, Number):
         a, b = left.value, right.value
         if sign == "/" and b == 0.0:
             raise Untyped("division by zero")
         computed = {"+": a + b, "-": a - b, "*": a * b}.get(sign)
         return Number(a / b if computed is None else computed)
+    if sign == "*" and left == Number(-1.0):
+        return Operation("-", Number(0.0), right)
     return Operation(sign, left, right)
 
 

@@ -187,6 +187,10 @@ class _Import:
         program.declarations = self._declarations(places, actions, structure, program.text)
         program.imports = sorted(self._cast.imports)
         self._report.under_test = [each.name for each in actors.values() if each.is_under_test]
+        for step in board.steps:
+            if step.effects and structure.references[step.label] < 1:
+                self._report.names.pop(f"event {step.node.element.get('name')}", None)
+                step.node.idle("nothing refers to it by its name", "name")
         self._close()
         parameters = self._values.parameters
         return Imported(
@@ -264,12 +268,10 @@ class _Import:
         lines += declared.parameters()
         words = set(re.findall(r"\w+", written))
         points = [line for line in places.points.lines if _is_read(line, words)]
-        if points:
-            lines += ["", *points]
         events = [f"event {name}" for name in self._marks.values() if name in words]
         events += [line for line in structure.lines if _is_read(line, words)]
-        if events:
-            lines += ["", *events]
+        if points or events:
+            lines += ["", *points, *events]
         return lines
 
     def _close(self) -> None:

@@ -21,6 +21,7 @@ from osc2tx.importing.expressions import (
     is_per_hour,
     parsed,
     substituted,
+    without_sign,
 )
 from osc2tx.importing.inference import Votes, uses_in, vote
 from osc2tx.importing.names import Names, snake
@@ -111,7 +112,7 @@ class Parameters:
                 vote(parameter.expression, parameter.dimension, parameter.is_hourly, votes)
 
     def _find_aliases(self) -> None:
-        """Find the parameters that only say others once more, in the unit of the document."""
+        """Find the parameters that only say others once more, in another unit or with a sign."""
         declared = {
             each.get("name") or "": each
             for node in self._document.root.children
@@ -123,6 +124,7 @@ class Parameters:
                 continue
             node = substituted(node, self.aliases)
             inner = node.left if is_per_hour(node) and isinstance(node, Operation) else node
+            inner = without_sign(inner) or inner
             other = self.by_name.get(inner.name) if isinstance(inner, Name) else None
             if other is None or other.kind != parameter.kind:
                 continue

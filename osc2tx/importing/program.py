@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import field, replace
+from itertools import pairwise
 from textwrap import wrap
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, cast
 
 from osc2tx_shared.classes import dataclass
 
@@ -14,6 +15,8 @@ Kind: TypeAlias = Literal["serial", "parallel", "one_of"]
 WIDTH = 92
 INDENT = "    "
 KEPT = WIDTH - len("keep()")
+BESIDE = 94
+"""Characters of a declaration and a comment that share a line of a scenario."""
 
 
 @dataclass
@@ -62,9 +65,39 @@ def composed(kind: Kind, members: Sequence[Statement]) -> Statement:
             flat += member.members or ()
         else:
             flat.append(member)
+    if kind == "serial":
+        pairs = pairwise([*flat, Statement("")])
+        flat = [each for each, following in pairs if not _goes_on_as(each, following)]
     if len(flat) == 1:
         return flat[0]
     return Statement(kind, members=flat, length=_length(kind, flat))
+
+
+def _goes_on_as(statement: Statement, following: Statement) -> bool:
+    """Whether an actor that keeps its speed for a time goes on with that, without an end."""
+    is_plain = not (statement.label or statement.modifiers or statement.comments)
+    is_held = following.text.endswith(".keep_speed()") and not following.label
+    return is_plain and is_held and statement.text.startswith(f"{following.text[:-1]}duration: ")
+
+
+def without_labels(statement: Statement, kept: Container[str]) -> Statement:
+    """Return a statement without the labels that nothing refers to, with fewer compositions."""
+    label = statement.label if statement.label in kept else ""
+    if statement.members is None:
+        return statement if label == statement.label else replace(statement, label=label)
+    members = [without_labels(each, kept) for each in statement.members]
+    found = composed(cast(Kind, statement.text), members)
+    if not (label or statement.modifiers or statement.comments):
+        return found
+    if found.label or found.modifiers or found.comments:
+        found = replace(statement, members=members)
+    return replace(
+        found,
+        label=label,
+        modifiers=statement.modifiers,
+        comments=statement.comments,
+        length=statement.length,
+    )
 
 
 def settled(members: Sequence[Statement]) -> list[Statement]:
@@ -114,11 +147,20 @@ def wait(text: str) -> Statement:
 
 
 def comment_lines(comments: Iterable[str]) -> Iterator[str]:
-    """Yield comments as lines of a text."""
+    """Yield comments as lines of a text; one with a line that is too long is a paragraph."""
     for comment in comments:
-        for line in comment.splitlines():
-            words = " ".join(line.split())
-            yield from (f"# {part}" for part in wrap(words, WIDTH, break_on_hyphens=False))
+        lines = [" ".join(line.split()) for line in comment.splitlines()]
+        if any(len(line) > WIDTH for line in lines):
+            lines = wrap(" ".join(lines), WIDTH, break_on_hyphens=False)
+        yield from (f"# {line}" for line in lines if line)
+
+
+def with_comments(lines: Sequence[str], comments: Iterable[str]) -> list[str]:
+    """Return a declaration with its comments: behind it if they fit there, else above it."""
+    told = list(comment_lines(comments))
+    if len(told) == 1 and len(lines[0]) + len(told[0]) <= BESIDE:
+        return [f"{lines[0]}  {told[0]}", *lines[1:]]
+    return [*told, *lines]
 
 
 @dataclass

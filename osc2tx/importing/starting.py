@@ -10,7 +10,7 @@ from osc2tx.xosc.player.bodies import Body
 from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 
 STRAIGHT = 1e-4  # rad
-LOOK, MOST_LOOKS = 10.0, 300  # m: how a lane is looked along
+LOOK, MOST_LOOKS = 10.0, 300  # m: how a lane is looked along where it is not even
 
 
 def privates(root: Element) -> list[Element]:
@@ -82,13 +82,17 @@ def is_straight_ahead(road_map: RoadMap | None, body: Body | None, *, beside: bo
 
 
 def _is_straight(road_map: RoadMap, place: LanePosition, body: Body) -> bool:
-    heading = road_map.pose(place).h
+    heading, cursor = road_map.pose(place).h, road_map.cursor()
     for _ in range(MOST_LOOKS):
-        ahead = road_map.advance(place, LOOK * body.along)
+        look, even = LOOK, cursor.stretch(place._replace(offset=0.0))
+        if even is not None and even.curvature == 0.0:
+            is_along_s = even.direction * body.along > 0
+            look = max(LOOK, even.end - place.s if is_along_s else place.s - even.begin)
+        ahead = road_map.advance(place, look * body.along)
         place = ahead.position
         if abs(wrapped(road_map.pose(place).h - heading)) > STRAIGHT:
             return False
-        if abs(ahead.travelled) < LOOK:
+        if abs(ahead.travelled) < look:
             return True
     return False
 

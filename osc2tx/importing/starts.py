@@ -113,11 +113,6 @@ class Starts:
             modifiers.append(f"speed({value})")
         return modifiers
 
-    @property
-    def has_relations(self) -> bool:
-        """Whether an actor begins at a place beside another one."""
-        return any(spot.modifiers for spot, _ in self._spots.values())
-
     def places(self, said: str) -> bool:
         """Whether an entity is put anywhere, or does anything."""
         return said in self._spots or said in self._paths or bool(self._others.get(said))
@@ -207,6 +202,10 @@ class Starts:
         found = composed("serial", [*others, *last])
         found.length = math.inf if last else found.length
         return [found]
+
+    def moves(self, said: str) -> bool:
+        """Whether an entity has a speed at the start."""
+        return said in self._speeds or self.has_way(said)
 
     def going(self, said: str) -> list[Statement]:
         """Return what lets an entity go on as it does where it would not do so by itself."""

@@ -43,6 +43,7 @@ class Structure:
 
     Attributes:
         lines: Declarations that the order needs: events, overrides.
+        references: How often the scenario refers to statements, by their labels.
     """
 
     def __init__(
@@ -59,6 +60,7 @@ class Structure:
         self._waiting = Waiting(board, name_event)
         self.lines = self._waiting.lines
         self.waits = self._waiting.waits
+        self.references = self._waiting.references
         self._predecessor = self._waiting.predecessor
         for step in board.steps:
             step.triggers = (step.triggers[0], self._of_others(step, step.triggers[1]))
@@ -251,12 +253,11 @@ class Structure:
             for other in branches[index + 1 :]:
                 for a in one.steps:
                     for b in other.steps:
-                        if a.effects and b.effects:
-                            self.lines += [
-                                f"override({ended.label}, {by.label})"
-                                for ended, by in ((a, b), (b, a))
-                                if _ends(by, ended)
-                            ]
+                        pairs = ((a, b), (b, a)) if a.effects and b.effects else ()
+                        for ended, by in pairs:
+                            if _ends(by, ended):
+                                self.lines.append(f"override({ended.label}, {by.label})")
+                                self.references.update((ended.label, by.label))
 
     def _stopped(self, number: int, trigger: Trigger, branches: list[Branch]) -> list[Branch]:
         """Return the branches with those of an act up to what stops it."""

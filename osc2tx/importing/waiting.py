@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 
 from osc2tx.importing.conditions import Condition, Trigger
@@ -23,6 +24,7 @@ class Waiting:
         lines: Declarations that the order needs: events, overrides.
         predecessor: Steps by those behind them.
         stopped: Names of the compositions of acts that are stopped, by the numbers of the acts.
+        references: How often the scenario refers to statements, by their labels.
     """
 
     def __init__(self, board: Board, name_event: Callable[[str], str]) -> None:
@@ -36,6 +38,7 @@ class Waiting:
         self.lines: list[str] = []
         self.predecessor: dict[Step, Step] = {}
         self.stopped: dict[int, str] = {}
+        self.references: Counter[str] = Counter()
         self._declared: dict[str, str] = {}
 
     def steps_of(self, condition: Condition) -> list[Step]:
@@ -136,6 +139,7 @@ class Waiting:
         steps = self.steps_of(condition)
         label = self.stopped_act(condition)
         if label is not None:
+            self.references[label] += 1
             yield f"@{label}.end"
             return
         if not steps:
@@ -154,6 +158,7 @@ class Waiting:
             if not step.effects:
                 yield f"@{step.label}"
             else:
+                self.references[step.label] += 1
                 yield f"@{step.label}.{'start' if condition.state in STARTS else 'end'}"
 
     def stopped_act(self, condition: Condition) -> str | None:

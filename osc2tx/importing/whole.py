@@ -19,7 +19,7 @@ from osc2tx.importing.endings import (
     without_events,
 )
 from osc2tx.importing.names import Names
-from osc2tx.importing.program import Statement, composed, ended, wait
+from osc2tx.importing.program import Statement, composed, ended, wait, without_labels
 from osc2tx.importing.report import ImportReport
 from osc2tx.importing.starts import Starts
 from osc2tx.importing.structure import Branch, Structure
@@ -43,7 +43,8 @@ class Whole:
         members = _Members(self._cast, inits, branches)
         begun = [*members.begin(), *inits.ways()]
         course = self._composed(structure, begun, members, endings)
-        return composed("serial", [*members.leading, *course])
+        kept = {label for label, count in structure.references.items() if count > 0}
+        return without_labels(composed("serial", [*members.leading, *course]), kept)
 
     def _endings(self, structure: Structure, end: Trigger) -> list[Waits]:
         """Return what ends the scenario, each way of it as what is waited for."""
@@ -75,6 +76,7 @@ class Whole:
             rest = ends_with(branch, waits)
             others = [lasting[id(each)] for each in branches if each is not branch]
             if rest is not None and None not in others:
+                structure.references[branch.members[-1].label] -= 1
                 content = [*members.content(branch), *held_for(members.going(branch), rest)]
                 lasting[id(branch)] = composed("serial", content)
                 side_by_side = [*begun, *filter(None, lasting.values())]
@@ -89,20 +91,13 @@ class Whole:
         self, structure: Structure, members: list[Statement], endings: Sequence[Waits]
     ) -> Statement:
         """Return members side by side, some of which last longer or shorter than the scenario."""
-        texts = [each[0].text.removeprefix("wait ") for each in endings]
-        if any(len(each) > 1 or not each[0].text.startswith("wait ") for each in endings):
-            name = self._names.new("", kind="event", base="finished")
-            structure.lines.append(f"event {name}")
-            members.append(composed("serial", [*first_of(endings), Statement(f"emit {name}")]))
-            texts = [f"@{name}"]
-        elif len(texts) > 1:
-            structure.lines.append("event forever")
-            members.append(wait("@forever"))
-        else:
-            members.append(wait(texts[0]))
-        whole = Statement("parallel", members=members)
-        whole.modifiers = [f"until {each}" for each in texts]
-        return whole
+        end = composed("serial", first_of(endings))
+        until = end.text.removeprefix("wait ")
+        if end.members is not None:
+            end.label = self._names.new("", kind="event", base="finished")
+            structure.references[end.label] += 1
+            until = f"@{end.label}.end"
+        return Statement("parallel", members=[*members, end], modifiers=[f"until {until}"])
 
 
 class _Members:
@@ -126,16 +121,13 @@ class _Members:
         self._lead()
 
     def _lead(self) -> None:
-        """Put the actors in their places that others refer to, or several branches move."""
+        """Put the actors in their places, but those that turn by themselves."""
         single = {id(b) for b in self.branches if len(b.actors) == 1}
-        shared = any(len(mine) > 1 for mine in self._of.values())
-        together = shared or self._inits.has_relations
         for said in self._order:
             actor = self._actors[said]
             mine = self._of[actor.name]
             is_alone = not mine or (len(mine) == 1 and id(mine[0]) in single)
-            own_turn = not together or self._inits.turns_alone(said)
-            stays = is_alone and not self._inits.has_way(said) and own_turn
+            stays = is_alone and not self._inits.has_way(said) and self._inits.turns_alone(said)
             if actor.kind == "movable_object" or not stays:
                 self.leading += self._inits.statements(said)
                 self._placed.add(said)
@@ -149,7 +141,9 @@ class _Members:
             if is_moved or not self._inits.places(said):
                 continue
             if said in self._placed:
-                found += self._inits.lasting(said) or self._inits.going(said)
+                found += self._inits.lasting(said)
+                if not self._inits.lasting(said) and self._inits.moves(said):
+                    found += self._inits.going(said)
             elif going_on := self._inits.going_on(said):
                 if all(each.length == 0.0 for each in going_on):
                     self.leading += going_on

@@ -57,10 +57,8 @@ def test_an_event_behind_another_one_follows_it() -> None:
     assert found.report.grade == "exact"
     assert not faults(found)
     lines = [line.strip() for line in found.text.splitlines()]
-    start = lines.index(
-        "faster: other.change_speed(target: 20mps, rate_profile: constant, duration: 4s)"
-    )
-    assert lines[start + 1] == "change_lane: other.change_lane(side: right, duration: 3s)"
+    start = lines.index("other.change_speed(target: 20mps, rate_profile: constant, duration: 4s)")
+    assert lines[start + 1] == "other.change_lane(side: right, duration: 3s)"
     assert "override" not in found.text
     assert apart(found) < 0.1
 
@@ -152,8 +150,7 @@ def test_an_act_that_is_stopped_ends_its_events() -> None:
     found = imported(text.replace("</Act>", stop))
     assert not faults(found)
     assert "until elapsed(5s)" in found.text
-    assert "act:" in found.text
-    assert "event finished" not in found.text  # the scenario is over with its last composition
+    assert "finished" not in found.text  # the scenario is over with its last action
     assert apart(found) < 0.1
 
 
