@@ -115,9 +115,14 @@ class _Layout:
             for opener in reversed(groups)
             if opener not in chosen and self._closers[opener] > opener + 2
         ]
-        while optional and not self._fits(first, last, width, after, chosen):
-            chosen.add(optional.pop(0))
-        return chosen
+        needed: list[int] = []
+        while optional and not self._fits(first, last, width, after, chosen.union(needed)):
+            needed.append(optional.pop(0))
+        for opener in needed[:-1]:
+            others = chosen.union(needed) - {opener}
+            if self._fits(first, last, width, after, others):
+                needed.remove(opener)
+        return chosen.union(needed)
 
     def _fits(self, first: int, last: int, width: int, after: int, exploded: set[int]) -> bool:
         """Whether what stands outside of the exploded brackets fits on its lines."""

@@ -270,9 +270,7 @@ class _Import:
         points = [line for line in places.points.lines if _is_read(line, words)]
         events = [f"event {name}" for name in self._marks.values() if name in words]
         events += [line for line in structure.lines if _is_read(line, words)]
-        if points or events:
-            lines += ["", *points, *events]
-        return lines
+        return [*lines, *points, *events]
 
     def _close(self) -> None:
         root = self._document.root

@@ -15,8 +15,8 @@ Kind: TypeAlias = Literal["serial", "parallel", "one_of"]
 WIDTH = 92
 INDENT = "    "
 KEPT = WIDTH - len("keep()")
-BESIDE = 94
-"""Characters of a declaration and a comment that share a line of a scenario."""
+LINE = 100
+"""Characters of a line."""
 
 
 @dataclass
@@ -42,7 +42,7 @@ class Statement:
     def lines(self, indent: int) -> Iterator[str]:
         """Yield its lines."""
         margin = INDENT * indent
-        yield from (f"{margin}{line}" for line in comment_lines(self.comments))
+        yield from (f"{margin}{line}" for line in comment_lines(self.comments, indent))
         head = f"{self.label}: {self.text}" if self.label else self.text
         if self.members is not None:
             yield f"{margin}{head}:"
@@ -146,20 +146,21 @@ def wait(text: str) -> Statement:
     return Statement(f"wait {text}")
 
 
-def comment_lines(comments: Iterable[str]) -> Iterator[str]:
+def comment_lines(comments: Iterable[str], indent: int = 1) -> Iterator[str]:
     """Yield comments as lines of a text; one with a line that is too long is a paragraph."""
+    width = LINE - len(INDENT) * indent - len("# ")
     for comment in comments:
         lines = [" ".join(line.split()) for line in comment.splitlines()]
-        if any(len(line) > WIDTH for line in lines):
-            lines = wrap(" ".join(lines), WIDTH, break_on_hyphens=False)
+        if any(len(line) > width for line in lines):
+            lines = wrap(" ".join(lines), width, break_on_hyphens=False)
         yield from (f"# {line}" for line in lines if line)
 
 
 def with_comments(lines: Sequence[str], comments: Iterable[str]) -> list[str]:
     """Return a declaration with its comments: behind it if they fit there, else above it."""
     told = list(comment_lines(comments))
-    if len(told) == 1 and len(lines[0]) + len(told[0]) <= BESIDE:
-        return [f"{lines[0]}  {told[0]}", *lines[1:]]
+    if len(told) == 1 and len(beside := f"{lines[0]}  {told[0]}") <= LINE - len(INDENT):
+        return [beside, *lines[1:]]
     return [*told, *lines]
 
 
@@ -186,7 +187,7 @@ class Program:
         """The text of the file."""
         imported = sorted(self.imports)
         lines = [
-            *comment_lines(self.header),
+            *comment_lines(self.header, 0),
             "import osc.standard.all",
             *(f"import {name}" for name in imported),
             "",
@@ -209,6 +210,8 @@ def declaration(
 ) -> list[str]:
     """Return the lines of a member with constraints."""
     head = f"{name}: {type_name}" + (f" = {value}" if value else "")
+    if len(head) > LINE - len(INDENT) and not value.endswith(")"):
+        head = f"{name}: {type_name} = ({value})"  # lines break between brackets
     if not constraints:
         return [head]
     return [f"{head} with:", *(f"{INDENT}{each}" for each in keeps(constraints))]

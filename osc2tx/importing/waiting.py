@@ -12,7 +12,7 @@ from osc2tx.importing.names import snake
 from osc2tx.importing.program import Statement, composed, wait
 from osc2tx.importing.steps import ENDS, Board, Step
 
-ON_A_LINE = 70
+ON_A_LINE = 60
 """Characters of a condition that is in brackets if it is longer, between which lines break."""
 STARTS = ("startTransition", "runningState")
 
@@ -84,7 +84,10 @@ class Waiting:
         elif len(edges) == 1:
             name = self._event(_edge(edges[0]), edges[0])
             conjunction = joined_by("and", [each.text for each in levels])
-            found.append(wait(f"@{name} if {conjunction}"))
+            is_long = len(conjunction) > ON_A_LINE
+            found.append(
+                wait(f"@{name} if ({conjunction})" if is_long else f"@{name} if {conjunction}")
+            )
         elif edges:
             edges[0].node.approximate(
                 "edges of several conditions are the edge of their conjunction"

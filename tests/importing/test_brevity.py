@@ -146,3 +146,45 @@ def test_constraints_share_a_line_unless_they_are_alternatives() -> None:
         "keep(it > 0m)",
         "keep(it == 1m or it == 2m)",
     ]
+
+
+def test_a_parameter_with_the_other_sign_is_that_one() -> None:
+    back = TWICE.replace("$Speed_kph / 3.6", "-1 * $Speed_kph / 3.6").replace('"72"', '"-72"')
+    found = imported(document("", parameters=back, ego_speed="$Speed"))
+    assert "ego.assign_speed(-speed)" in found.text
+    assert "speed_2" not in found.text
+    assert apart(found) < 0.1
+
+
+@pytest.mark.parametrize("comment", ["Initial speed", "word " * 40 + "end"])
+def test_a_comment_of_a_parameter_is_behind_it_if_it_fits_there(comment: str) -> None:
+    declared = TWICE.split("/>")[0] + f"><!-- {comment} --></ParameterDeclaration>"
+    found = imported(document("", parameters=declared, ego_speed="${$Speed_kph / 3.6}"))
+    is_short = len(comment) < 60
+    assert (f"speed: speed = 72kph  # {comment}" in found.text) == is_short
+    assert all(len(line) <= 100 for line in found.text.splitlines())
+    assert " ".join(found.text.replace("#", " ").split()).count(comment) == 1
+
+
+def test_an_actor_at_rest_needs_no_action() -> None:
+    text = document("")
+    start = text.index("<PrivateAction><LongitudinalAction>")
+    still = text[:start] + text[text.index("</Private>", start) :]
+    assert "ego.keep_speed" in imported(text).text
+    found = imported(still)
+    assert "ego." not in found.text.replace("ego.assign_position", "")
+    assert apart(found) < 0.1
+
+
+def test_labels_are_only_where_something_refers_to_them() -> None:
+    first, second = event("Faster", change("20"), at_time("1")), event("Slower", change("10"), FAST)
+    assert "faster:" not in imported(document(first)).text
+    assert "override(faster, slower)" in imported(document(first + second)).text
+
+
+def test_comments_of_events_keep_within_their_lines() -> None:
+    comment = f"<!-- {'word ' * 40}-->"
+    text = document(event("Faster", change("20"), at_time("1")))
+    found = imported(text.replace('<Action name="Faster', f'{comment}<Action name="Faster')).text
+    assert all(len(line) <= 100 for line in found.splitlines())
+    assert found.count("word") == 40
