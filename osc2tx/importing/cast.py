@@ -151,7 +151,7 @@ class Cast:
 
     Attributes:
         actors: By their names in the document.
-        lines: Their declarations.
+        lines: Their declarations, by their names in the document.
         imports: The libraries that they need.
     """
 
@@ -164,7 +164,7 @@ class Cast:
         libraries: Libraries,
     ) -> None:
         self.actors: dict[str, Actor] = {}
-        self.lines: list[str] = []
+        self.lines: dict[str, list[str]] = {}
         self.imports: set[str] = set()
         self._document, self._values, self._ledger = document, values, ledger
         self._names, self._libraries = names, libraries
@@ -182,20 +182,21 @@ class Cast:
             note_controllers(each, self._document)
         for child in node.children(*KINDS):
             kind, constraints = facts(child, self._document)
-            self.lines += declaration(name, kind, [f"it.{each}" for each in constraints])
+            self.lines[said] = declaration(name, kind, [f"it.{each}" for each in constraints])
             self.actors[said] = Actor(name, kind, bool(controllers))
             return
         reference = node.find("CatalogReference")
         if reference is None:
             for child in node.children("ExternalObjectReference"):
                 child.leave_out("what it is stands in another document")
-            kind = "vehicle"
-            self.lines.append(f"{name}: {kind}")
+            type_name = kind = "vehicle"
         else:
-            kind = self._of_catalog(reference, name)
+            type_name, kind = self._of_catalog(reference)
+        self.lines[said] = [f"{name}: {type_name}"]
         self.actors[said] = Actor(name, kind, bool(controllers))
 
-    def _of_catalog(self, reference: Node, name: str) -> str:
+    def _of_catalog(self, reference: Node) -> tuple[str, str]:
+        """Return the type of an entity of a catalog, and of which kind that is."""
         entry_name = self._values.text(reference, "entryName")
         self._values.text(reference, "catalogName")
         for each in reference.children("ParameterAssignments"):
@@ -205,8 +206,7 @@ class Cast:
             reference.approximate(
                 f"there is no entry {entry_name} in the catalogs; it is any vehicle"
             )
-            self.lines.append(f"{name}: vehicle")
-            return "vehicle"
+            return "vehicle", "vehicle"
         entry, path = found
         if path not in self._libraries:
             self._libraries[path] = self._library(path)
@@ -214,9 +214,7 @@ class Cast:
         if entry_name not in library.entries:
             self._add_type(library, self._ledger.track(entry, path.name))
         self.imports.add(library.name)
-        type_name, kind = library.entries[entry_name]
-        self.lines.append(f"{name}: {type_name}")
-        return kind
+        return library.entries[entry_name]
 
     def _library(self, path: Path) -> Library:
         taken = {each.name for each in self._libraries.values()}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import NamedTuple
 
 from osc2tx_shared.classes import dataclass
@@ -80,6 +81,7 @@ class Quantity:
         return f"({self.text})" if is_loose else self.text
 
 
+@lru_cache(maxsize=4096)
 def literal(value: float, dimension: Dimension) -> str:
     """Return a number with the unit in which it is shortest."""
     if abs(value) < 1e-12:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 
@@ -88,6 +88,17 @@ class Document:
             return self.resolved
         return Document(with_values(self.root, values), self.path, (), self._folders).resolved
 
+    @cached_property
+    def _by_tag(self) -> dict[str, list[Element]]:
+        found: dict[str, list[Element]] = {}
+        for node in self.root.walk():
+            found.setdefault(node.tag, []).append(node)
+        return found
+
+    def tagged(self, *tags: str) -> list[Element]:
+        """Return all elements with one of some tags, those of each in the order of the document."""
+        return [node for tag in tags for node in self._by_tag.get(tag, ())]
+
     @property
     def folder(self) -> Path:
         """The folder that relative paths start from."""
@@ -122,7 +133,7 @@ class Document:
         logic = None if network is None else network.find(xml.LogicFile)
         if logic is not None and self.map_file is None:
             found.append((logic, self._problem(logic, "filepath", self._folders.maps)))
-        for node in self.root.below(xml.Directory):
+        for node in self.tagged("Directory"):
             found.append((node, self._problem(node, "path", self._folders.catalogs)))
         return [(node, problem) for node, problem in found if problem]
 
@@ -177,7 +188,7 @@ class Document:
 
     def _catalog_files(self) -> list[Path]:
         folders = list(self._folders.catalogs)
-        for node in self.root.below(xml.Directory):
+        for node in self.tagged("Directory"):
             named = self.text_at(node.get("path") or "").replace("\\", "/")
             if named and not _is_odd(named):
                 folders += [base / named for base in (self.folder, *self._folders.catalogs)]
@@ -201,9 +212,11 @@ class Document:
             found = self.entry(node)
             if found is not None:
                 return self._resolve(found[0])
-        attributes = {name: self.text_at(text) for name, text in node.attributes}
-        children = [self._resolve(child) for child in node.children]
-        return node.with_attributes(attributes).with_children(*children)
+        given = any([text.startswith("$") for _, text in node.attributes])
+        if given:
+            texts = {name: self.text_at(text) for name, text in node.attributes}
+            node = node.with_attributes(texts)
+        return _with_each(node, self._resolve)
 
     # --- the map ----------------------------------------------------------------------------------
 
@@ -264,7 +277,15 @@ def _scoped(node: Element) -> Element:
         }
         kept = [each for each in node.children if each not in own]
         return _scoped(_substituted(node.with_children(*kept), values))
-    return node.with_children(*(_scoped(child) for child in node.children))
+    return _with_each(node, _scoped)
+
+
+def _with_each(node: Element, changed: Callable[[Element], Element]) -> Element:
+    """Return an element with changed children; itself if none of them is another one."""
+    children = [changed(child) for child in node.children]
+    if all([one is other for one, other in zip(children, node.children, strict=True)]):
+        return node
+    return node.with_children(*children)
 
 
 def _substituted(node: Element, values: Mapping[str, str]) -> Element:

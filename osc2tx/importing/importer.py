@@ -17,7 +17,7 @@ from osc2tx.importing.expressions import Untyped
 from osc2tx.importing.names import Names, snake
 from osc2tx.importing.parameters import Parameter
 from osc2tx.importing.places import Places
-from osc2tx.importing.program import Program, comment_lines
+from osc2tx.importing.program import Program, with_comments
 from osc2tx.importing.report import ImportReport
 from osc2tx.importing.starting import is_straight_ahead
 from osc2tx.importing.starts import Starts
@@ -129,8 +129,7 @@ class _Import:
         self._marks: dict[tuple[str, str], str] = {}
         self._measured = {
             node.get("variableRef") or node.get("parameterRef")
-            for kind in (xml.VariableCondition, xml.ParameterCondition)
-            for node in document.root.below(kind)
+            for node in document.tagged("VariableCondition", "ParameterCondition")
             if node.get("rule") != "equalTo"
         }
         self._emitted: set[str] = set()
@@ -162,7 +161,7 @@ class _Import:
             actors,
             self._mark,
             self._document.parameters.get,
-            {node.parameterRef for node in self._document.root.below(xml.ParameterAction)},
+            {node.said("parameterRef") for node in self._document.tagged("ParameterAction")},
         )
         storyboard = self._root.one("Storyboard")
         inits = Starts(storyboard, self._values, places, actions, self._cast)
@@ -260,11 +259,10 @@ class _Import:
         lines = declared.map()
         if actions.needs_environment:
             lines.append("environment_: environment")
-        entities = self._document.root.below(Element) if self._comments else ()
-        for node in entities:
-            if node.tag == "ScenarioObject" and node.get("name") in self._cast.actors:
-                lines += comment_lines(self._comments_of(node))
-        lines += self._cast.lines
+        for node in self._document.tagged("ScenarioObject"):
+            declared_here = self._cast.lines.pop(node.get("name") or "", None)
+            if declared_here is not None:
+                lines += with_comments(declared_here, self._comments_of(node))
         lines += declared.parameters()
         words = set(re.findall(r"\w+", written))
         points = [line for line in places.points.lines if _is_read(line, words)]

@@ -25,7 +25,6 @@ from osc2tx.importing.expressions import (
 )
 from osc2tx.importing.inference import Votes, uses_in, vote
 from osc2tx.importing.names import Names, snake
-from osc2tx.xosc.elements import ParameterDeclaration
 from osc2tx_shared.classes import dataclass
 
 
@@ -142,7 +141,7 @@ class Parameters:
             return {float(each) for each in values} if values else None
         groups = [
             [(each.get("rule"), each.get("value") or "") for each in group.children]
-            for node in self._document.root.below(ParameterDeclaration)
+            for node in self._document.tagged("ParameterDeclaration")
             for group in (node.children if node.get("name") == said else ())
         ]
         try:

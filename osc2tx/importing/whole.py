@@ -74,8 +74,9 @@ class Whole:
         lasting = {id(each): members.lasting(each, seconds(waits)) for each in branches}
         for branch in branches if all(map(is_open, begun)) else ():
             rest = ends_with(branch, waits)
-            others = [lasting[id(each)] for each in branches if each is not branch]
-            if rest is not None and None not in others:
+            if rest is None:
+                continue
+            if all(lasting[id(each)] is not None for each in branches if each is not branch):
                 structure.references[branch.members[-1].label] -= 1
                 content = [*members.content(branch), *held_for(members.going(branch), rest)]
                 lasting[id(branch)] = composed("serial", content)
@@ -111,6 +112,8 @@ class _Members:
     def __init__(self, cast: Cast, inits: Starts, branches: Sequence[Branch]) -> None:
         self._inits, self.branches = inits, branches
         self._actors = cast.actors
+        self._said = {actor.name: said for said, actor in cast.actors.items()}
+        self._at = {said: index for index, said in enumerate(cast.actors)}.__getitem__
         self._of: dict[str, list[Branch]] = {each.name: [] for each in cast.actors.values()}
         for branch in branches:
             for name in sorted(branch.actors & self._of.keys()):
@@ -152,16 +155,17 @@ class _Members:
         return found
 
     def _only_in(self, branch: Branch) -> list[str]:
-        return [said for said, actor in self._actors.items() if self._of[actor.name] == [branch]]
+        return [said for said in self._in(branch) if self._of[self._actors[said].name] == [branch]]
+
+    def _in(self, branch: Branch) -> list[str]:
+        """Return the entities that a branch moves, in the order of the document."""
+        return sorted(
+            (self._said[name] for name in branch.actors if name in self._said), key=self._at
+        )
 
     def content(self, branch: Branch) -> list[Statement]:
         """Return a branch with the starts of its actors, up to its last event."""
-        names = branch.actors
-        own = [
-            said
-            for said, actor in self._actors.items()
-            if actor.name in names and said not in self._placed
-        ]
+        own = [said for said in self._in(branch) if said not in self._placed]
         alone = self._only_in(branch)
         before = [each for said in own for each in self._inits.statements(said, branch.members)]
         content = [*before, *branch.members]

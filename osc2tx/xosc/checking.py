@@ -63,7 +63,7 @@ def problems(root: Element, version: XmlVersion) -> Iterator[Problem]:
     if part is None:
         yield Problem(f"<{root.tag}> below the document", root.place)
         return
-    yield from _of_element(root, part.type, version)
+    yield from _of_element(root, part.type, version, set())
 
 
 def problems_of_entry(entry: Element, version: XmlVersion) -> Iterator[Problem]:
@@ -72,15 +72,34 @@ def problems_of_entry(entry: Element, version: XmlVersion) -> Iterator[Problem]:
     if part is None:
         yield Problem(f"<{entry.tag}> in a catalog", entry.place)
     else:
-        yield from _of_element(entry, part.type, version)
+        yield from _of_element(entry, part.type, version, set())
 
 
-def _of_element(node: Element, type_name: str, version: XmlVersion) -> Iterator[Problem]:
-    yield from _of_attributes(node, type_name, version)
-    yield from _of_children(node, type_name, version)
-    for child in node.children:
-        if child.tag in element_type(type_name).children:
-            yield from _of_element(child, type_below(type_name, child.tag), version)
+def _of_element(
+    node: Element, type_name: str, version: XmlVersion, right: set[tuple[object, ...]]
+) -> Iterator[Problem]:
+    """Yield what is wrong with an element and all below it.
+
+    Args:
+        node: The element.
+        type_name: Its type.
+        version: The version of the document.
+        right: Types with attributes or children in which nothing is wrong; gains those found.
+    """
+    tags = [child.tag for child in node.children]
+    for key, check in (
+        ((type_name, node.attributes), _of_attributes),
+        ((type_name, *tags), _of_children),
+    ):
+        if key not in right:
+            found = list(check(node, type_name, version))
+            yield from found
+            if not found:
+                right.add(key)
+    known = element_type(type_name).children
+    for tag, child in zip(tags, node.children, strict=True):
+        if tag in known:
+            yield from _of_element(child, type_below(type_name, tag), version, right)
 
 
 def _of_children(node: Element, type_name: str, version: XmlVersion) -> Iterator[Problem]:
