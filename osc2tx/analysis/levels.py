@@ -222,7 +222,9 @@ def _open_relations(model: SemanticModel, node: ast.ModifierApplication) -> Iter
         return
     given = {parameter.name: value for parameter, value in binding.arguments}
     entry = catalogue().modifiers.get(binding.callee.name)
-    if entry is not None and entry.orders & given.keys() and not entry.amounts & given.keys():
+    if entry is None or entry.orders.isdisjoint(given):
+        return
+    if entry.amounts.isdisjoint(given):
         text = " ".join(node.span.text.split())
         yield Opening(f"amount of {text}", node.span, Level.ABSTRACT)
 

@@ -89,8 +89,8 @@ class TokenSource:
         while pos < size:
             if self._line is None:
                 pos = self._scan_line_head(pos)
-                if self._line is None:
-                    continue
+            if self._line is None:
+                continue
             pos = self._scan_tokens(pos)
             if pos >= size and self._brackets:
                 pos = self._recover_from_open_bracket()

@@ -8,7 +8,7 @@ from dataclasses import field
 from osc2tx.analysis.constraints.operation_list import Key
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics import symbols as sym
-from osc2tx.semantics.scope import supertypes
+from osc2tx.semantics.scope import is_subtype
 from osc2tx.syntax import ast
 from osc2tx_shared.classes import dataclass
 
@@ -78,9 +78,9 @@ class Place:
         if symbol.owner is None:  # global, or built in: `actor`, `duration`
             is_global = symbol.node is not None
             return (symbol,) if is_global else (*self.prefix, symbol)
-        if self.owner is not None and symbol.owner in supertypes(self.owner):
+        if self.owner is not None and is_subtype(self.owner, symbol.owner):
             return (*self.prefix, symbol)
-        if self.it is not None and self.it_type and symbol.owner in supertypes(self.it_type):
+        if self.it is not None and self.it_type and is_subtype(self.it_type, symbol.owner):
             return (*self.it, symbol)
         return None
 

@@ -203,7 +203,9 @@ class InvocationLowering:
                     f"`{modifier.span.text}` would modify what `{callee.qualified_name}` does",
                     help=instead_of_scenario(callee, modifier.name, modifier.span.text),
                 )
-        duration = next((a.value for a in arguments if a.parameter == "duration"), None)
+        duration: ir.Expression | None = next(
+            (a.value for a in arguments if a.parameter == "duration"), None
+        )
         if duration is not None and leaves_duration_open(self._ctx, callee):
             self._ctx.unsupported(
                 "OSC501",

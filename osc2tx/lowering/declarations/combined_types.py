@@ -9,13 +9,13 @@ from osc2tx.diagnostics import Span
 from osc2tx.lowering.context import LoweringContext
 from osc2tx.lowering.declarations.user_fields import TypeSymbol
 from osc2tx.semantics import symbols as sym
-from osc2tx.semantics.scope import supertypes
+from osc2tx.semantics.scope import is_subtype, supertypes
 
 
 def most_special(types: Iterable[TypeSymbol]) -> tuple[TypeSymbol, ...]:
     """Return the types from which no other one derives, in source order."""
     found = tuple(dict.fromkeys(types))
-    last = [t for t in found if not any(t is not o and t in supertypes(o) for o in found)]
+    last = [t for t in found if not any(t is not o and is_subtype(o, t) for o in found)]
     return tuple(sorted(last, key=lambda type_: (type_.span.source.name, type_.span.start)))
 
 

@@ -12,7 +12,7 @@ from osc2tx.lowering.declarations.map_fields import is_given_by_map
 from osc2tx.lowering.value_types import PLAIN, SCENARIO, lower_type
 from osc2tx.semantics import symbols as sym
 from osc2tx.semantics import types
-from osc2tx.semantics.scope import supertypes
+from osc2tx.semantics.scope import is_subtype
 from osc2tx.syntax import ast
 from osc2tx_shared.classes import replace
 
@@ -238,17 +238,17 @@ def _given(ctx: LoweringContext, node: ast.Expression) -> ir.Expression | None:
 def _base_of(ctx: LoweringContext, field: sym.FieldSymbol) -> ir.Expression | None:
     """Return the object whose member a plain name means, if that is not the scenario."""
     place, receiver = ctx.place, ctx.receiver
-    if receiver and field.owner and field.owner in supertypes(receiver.owner):
+    if receiver and field.owner and is_subtype(receiver.owner, field.owner):
         return receiver.value
     if place is None or field.owner is None:
         return None
-    if place.owner is not None and field.owner in supertypes(place.owner):
+    if place.owner is not None and is_subtype(place.owner, field.owner):
         if place.prefix:
             return lower_key(ctx, place.prefix, field.span)
         if isinstance(place.owner, sym.ActorSymbol):  # of the actor of the behavior
             type_ = lower_type(types.ActorType(place.owner))
             return ir.FieldRef(span=field.span, type=type_, name="actor")
         return None
-    if place.it and place.it_type and field.owner in supertypes(place.it_type):
+    if place.it and place.it_type and is_subtype(place.it_type, field.owner):
         return lower_key(ctx, place.it, field.span)
     return None
