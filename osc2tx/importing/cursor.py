@@ -11,9 +11,9 @@ from collections.abc import Iterator, Mapping
 from osc2tx.importing.report import ImportReport
 from osc2tx.xosc.element import Element, Place, Unresolved
 
-NAMES = "names in a document are for its readers"
-TOOLS = "properties are for the tools that know them"
-LIMITS = "how fast a vehicle may be is a matter of the world"
+NAMES = "the name has no effect"
+TOOLS = "properties are specific to a tool"
+LIMITS = "the limits of a vehicle are up to the simulator"
 HEADER = "the header describes the file"
 LOCATIONS = "catalogs are found by their paths; their entries are in the library files"
 AXLES = "no motion here depends on the wheels"
@@ -38,10 +38,10 @@ IDLE: Mapping[tuple[str, str], str] = {
     ("Vehicle", "mass"): LIMITS,
     ("Pedestrian", "mass"): LIMITS,
     ("MiscObject", "mass"): LIMITS,
-    ("Pedestrian", "model"): "what an actor looks like is a matter of the simulator",
-    ("Vehicle", "model3d"): "what an actor looks like is a matter of the simulator",
-    ("Pedestrian", "model3d"): "what an actor looks like is a matter of the simulator",
-    ("MiscObject", "model3d"): "what an actor looks like is a matter of the simulator",
+    ("Pedestrian", "model"): "the look of an actor is up to the simulator",
+    ("Vehicle", "model3d"): "the look of an actor is up to the simulator",
+    ("Pedestrian", "model3d"): "the look of an actor is up to the simulator",
+    ("MiscObject", "model3d"): "the look of an actor is up to the simulator",
 }
 """Attributes without effect in the scenario, with the reasons."""
 
@@ -51,7 +51,7 @@ IDLE_ELEMENTS: Mapping[str, str] = {
     "Properties": TOOLS,
     "Performance": LIMITS,
     "Axles": AXLES,
-    "SceneGraphFile": "pictures of the roads are a matter of the simulator",
+    "SceneGraphFile": "the look of the roads is up to the simulator",
     "TrailerHitch": "no trailer hangs on it",
     "TrailerCoupler": "it hangs on nothing",
 }
@@ -108,7 +108,7 @@ class Ledger:
             return
         if (id(element), "") not in self._used:
             self.report.add(
-                "left out", f"<{element.tag}>", "nothing here says it", element.place, file=file
+                "left out", f"<{element.tag}>", "it is not imported", element.place, file=file
             )
             return
         for name, text in element.attributes:

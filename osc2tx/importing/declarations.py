@@ -89,9 +89,9 @@ class Declarations:
                 elif said in nodes:
                     nodes[said].use_all()
                     value = nodes[said].element.get("value") or ""
-                    reason = "nothing that varies here reads it"
+                    reason = "nothing reads it"
                     if said in self._values.aliases:
-                        reason = "it is another one with its unit"
+                        reason = "it repeats another one, in its unit or with a sign"
                     place = nodes[said].place
                     self._report.idle.append((f"parameter {said}", value, reason, str(place)))
         for holder in self._root.children("VariableDeclarations"):

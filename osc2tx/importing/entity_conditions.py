@@ -82,7 +82,9 @@ class EntityConditions:
                 return self._at_places.far(node, said, a)
             case "StandStillCondition":
                 if self._values.nominal(node, "duration") > 0.0:
-                    node.approximate("a time of standing still begins with the first such instant")
+                    node.approximate(
+                        "its duration does not count: it is met as soon as the actor stands still"
+                    )
                 return f"{a}.speed < {literal(STANDING, SPEED)}"
             case "CollisionCondition":
                 return self._collision(node, a)
@@ -201,18 +203,16 @@ class EntityConditions:
         value = self._values.quantity(node, "value", LENGTH)
         body, road_map = self._places.bodies.get(said), self._places.map
         if body is None or body.place is None or road_map is None:
-            node.leave_out(
-                "how far an actor has driven is only known on a road; it is never met here"
-            )
+            node.leave_out("the distance travelled is only known on a road; it is never met here")
             return None
         road = road_map.roads[body.place.road]
         direction = road_map.travel_direction(body.place.road, body.place.lane) * body.along
         direction *= 1 if body.v >= 0.0 else -1
         end = body.place.s + direction * value.value
         if not 0.0 <= end <= road.length:
-            node.leave_out("the way leads beyond the first road; it is never met here")
+            node.leave_out("the distance leads beyond the first road; it is never met here")
             return None
-        node.approximate("the way is that along the road from the place of the start")
+        node.approximate("the distance travelled counts along the road from the start position")
         start = literal(body.place.s, LENGTH)
         reached = f"{a}.get_s_coord()"
         if direction > 0:

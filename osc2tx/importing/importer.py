@@ -275,7 +275,7 @@ class _Import:
         for each, file in self._document.scoped:
             said = f"{each.get('parameterType')} {each.get('value')}"
             at = ":".join(str(part) for part in (file, each.place) if part)
-            note = (f"parameter {each.get('name')}", said, "its value is used here", at)
+            note = (f"parameter {each.get('name')}", said, "its value stands where it is used", at)
             if note not in self._report.idle:
                 self._report.idle.append(note)
         for node, reason in self._document.refused:
@@ -288,7 +288,9 @@ class _Import:
         self._report.problems = list(dict.fromkeys(found))
         rest = [text for place, texts in self._comments.items() for text in texts]
         for text in rest:
-            self._report.idle.append(("comment", text, "it stands beside nothing that is here", ""))
+            self._report.idle.append(
+                ("comment", text, "it belongs to nothing that is imported", "")
+            )
         self._ledger.close()
 
 

@@ -58,7 +58,7 @@ class PlaceConditions:
         if point is None:
             return None
         if kind in ("longitudinal", "lateral"):
-            node.approximate("the distance to a place is the straight one")
+            node.approximate("the distance to a position is the Euclidean one")
         mode = ", bounding_boxes" if _is_free(node) else ""
         value = self._values.quantity(node, "value", LENGTH)
         measure = f"{a}.distance_to_xyz_point({point}, euclidean{mode})"
@@ -68,7 +68,7 @@ class PlaceConditions:
         """Return the point of the world in a condition; `None`, with a finding: it is not known."""
         found = self._places.coordinates(node.one("Position"))
         if found is None:
-            node.leave_out("the place is not known before the run; it is never met here")
+            node.leave_out("the position is not known before the run; it is never met here")
             return None
         self._take_place(node)
         return self._places.points.goal(*found, a)
@@ -78,7 +78,7 @@ class PlaceConditions:
         position = node.one("Position")
         position.use_all()
         if any(text.startswith("$") for e in position.element.walk() for _, text in e.attributes):
-            node.approximate("the place keeps that of its nominal values")
+            node.approximate("the position is that of its nominal values")
 
     # --- places on a road -------------------------------------------------------------------------
 

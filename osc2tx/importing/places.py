@@ -65,9 +65,7 @@ class Places(Ground):
             found = self._known(position, name)
             if found is not None:
                 return found
-        inner.leave_out(
-            "the language has no form for this place, and it is not known before the run"
-        )
+        inner.leave_out("the DSL has no form of this position, and it is not known before the run")
         return None
 
     def _lane(self, node: Node, name: str) -> Spot:
@@ -156,7 +154,7 @@ class Places(Ground):
             return None
         for element in inner.element.walk():
             if any(text.startswith("$") for _, text in element.attributes):
-                inner.approximate("it keeps the place that its nominal values give")
+                inner.approximate("its position is that of its nominal values")
                 break
         inner.use_all()
         where, heading = found

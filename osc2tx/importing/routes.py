@@ -25,7 +25,7 @@ class Routes(Reader):
         self._offsets[said] = 0.0
         if spot is not None:
             if spot.yaw and not spot.turned:
-                node.approximate("it looks along its lane")
+                node.approximate("its heading is that of its lane")
             yield from self.moved(spot, actor)
 
     @staticmethod
@@ -46,7 +46,7 @@ class Routes(Reader):
             stops = [body.place, *stops]
         stops = [*stops[:1], *stops[-1:]]  # it takes the shortest way to the last one
         if len(stops) != 2 or not self._places.courses.is_way(stops):
-            node.leave_out("no way along lanes leads to the end of the route")
+            node.leave_out("no route along lanes leads to its end")
             return None
         node.use_all()
         if self._places.courses.leads_on(*stops):
@@ -65,7 +65,7 @@ class Routes(Reader):
             spot = self._places.spot(node.one("Position"), actor.name, at_start=False)
             if spot is None or not spot.odr_point:
                 return
-            node.approximate("the way to the place is that of the world")
+            node.approximate("the path to the position is up to the simulator")
             target = f"target_odr: {spot.odr_point}"
             yield Effect(
                 Statement(f"{actor.name}.change_position({target}, on_road_network: true)"),

@@ -102,7 +102,7 @@ class Speeds(Reader):
                 2.0 * value.value / (before.value + target.value),
             )
             return Statement(f"{call}({arguments}, duration: {time.text})", length=time.value)
-        dynamics.approximate("the way of the change is that of its usual rate")
+        dynamics.approximate("the distance of the change is that of the usual acceleration")
         return Statement(f"{call}(target: {target.text})")
 
     def _limit_within(
@@ -155,7 +155,7 @@ class Speeds(Reader):
         """Return a speed that is kept against that of another actor."""
         reference = self._actors[self._values.text(target, "entityRef")].name
         if dynamics.text("dynamicsShape") != "step":
-            node.approximate("how fast a relative speed is reached is a matter of the world")
+            node.approximate("how fast a relative speed is reached is up to the simulator")
         self._values.quantity(dynamics, "value", of_dynamics(dynamics))
         dynamics.text("dynamicsDimension")
         if (target.text("speedTargetValueType") or "delta") == "factor":
@@ -179,7 +179,7 @@ class Speeds(Reader):
             at_once = self._at_once(node, said, actor, at_start)
             if at_once is not None:
                 return at_once
-        node.approximate("how a gap is closed is a matter of the world")
+        node.approximate("how a gap is closed is up to the simulator")
         side = node.text("displacement") or "trailingReferencedEntity"
         direction = "ahead" if side.startswith("leading") else "behind"
         for name in ("freespace", "coordinateSystem"):

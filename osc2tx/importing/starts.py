@@ -175,7 +175,7 @@ class Starts:
         if said in self._spots and not is_moved:
             spot, node = self._spots[said]
             if spot.yaw and not spot.turned:
-                node.approximate("it looks along its lane at the start")
+                node.approximate("its heading at the start is that of its lane")
             found += [each.statement for each in Routes.moved(spot, actor)]
         if said in self._speeds:
             found.append(self._speeds[said])

@@ -201,7 +201,6 @@ class Structure:
         """Return steps at times, one after the other; what is still going on ends."""
         ordered = sorted(group, key=lambda step: nominal_start(step).value)
         branch = Branch([each for step in ordered for each in _below(step)])
-        before = Quantity("0s", 0.0)
         for index, step in enumerate(ordered):
             start = nominal_start(step)
             if index == 0 and start.value > 0.0:
@@ -218,7 +217,6 @@ class Structure:
                     step.node.leave_out("an event of the same time replaces it at once")
                 continue
             branch.members += self._for_a_time(content, gap, step)
-        del before
         return branch
 
     def _for_a_time(

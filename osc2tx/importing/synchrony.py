@@ -36,7 +36,9 @@ class Synchrony(Reader):
         if found is None:
             node.leave_out("when both come to their places is not known before the run")
             return
-        node.approximate("how its speed changes on the way is the tool's; here it changes evenly")
+        node.approximate(
+            "the course of the speed is up to the tool; here the acceleration is constant"
+        )
         steps, last = found
         end = target or Quantity(literal(round(last, 6), SPEED), last)
         statement = self._statement(steps, actor, node, end)
