@@ -20,14 +20,8 @@ from osc2tx.module_loading import scenarios_of_file, scenarios_of_module
 from osc2tx_runtime import ScenarioError
 from osc2tx_runtime.errors import InputError as UnreadableError
 from osc2tx_runtime.errors import coded
-from osc2tx_runtime.running.verification import (
-    RecordedRun,
-    Verification,
-    read_trace,
-)
-from osc2tx_runtime.running.verification import (
-    verify as check,
-)
+from osc2tx_runtime.running.verification import RecordedRun, Verification, read_trace
+from osc2tx_runtime.running.verification import verify as check
 from osc2tx_shared.text import complain, put, say
 
 if TYPE_CHECKING:
@@ -49,9 +43,9 @@ def verify(
 ) -> Exit:
     """Check whether the conditions of a scenario hold in a finished TRACE.
 
-    What its modifiers state is measured on the states of the trace, as every run does it. FILE is
-    the scenario or its module; without, the one that the trace names is looked for beside the
-    trace and in the current folder. The exit code is 5 if a condition fails its phase.
+    Its modifiers are checked on the states of the trace, as in a run. FILE is the scenario or its
+    module; by default the one that the trace names, beside the trace or in the current folder. The
+    exit code is 5 if a condition fails its phase.
     """
     try:
         run = read_trace(trace)
@@ -79,7 +73,7 @@ def _find(trace: Path, name: str) -> Path:
         for place in (folder / name, folder / Path(name).name):
             if name and place.is_file():
                 return place
-    raise InputError(f"{trace}: its scenario `{name}` is not beside it; name the file")
+    raise InputError(f"{trace}: its scenario `{name}` is not found; name the file")
 
 
 def _verified(

@@ -1,7 +1,7 @@
-"""The intermediate representation: what a program means, ready for any backend.
+"""The intermediate representation: the meaning of a program, for any backend.
 
-Nodes are frozen data without references to syntax or symbols; every one knows its span.
-Modules, in reading order: `values`, `expressions`, `behaviors`, `declarations`, `user_types`,
+Nodes are frozen data without references to syntax or symbols; each has its span. Modules, in
+reading order: `values`, `expressions`, `behaviors`, `declarations`, `user_types`,
 `coverage`, `nodes`; then `traversal`, `trees`, `compare`, `inheritance`, `verify` (the invariants)
 and `dump` (the printable form).
 """
@@ -89,13 +89,7 @@ from osc2tx.ir.expressions import (
     UserShape,
 )
 from osc2tx.ir.inheritance import Additions, additions, is_named_after
-from osc2tx.ir.nodes import (
-    AbstractScenario,
-    Module,
-    Override,
-    Placement,
-    Scenario,
-)
+from osc2tx.ir.nodes import AbstractScenario, Module, Override, Placement, Scenario
 from osc2tx.ir.traversal import applied_with, bounds, children, constant, is_live, rewrite, walk
 from osc2tx.ir.trees import (
     actors_of,

@@ -41,10 +41,7 @@ from osc2tx.lowering.declarations.user_types import lower_enums, lower_types, lo
 from osc2tx.lowering.modifiers.modifier_functions import lower_modifiers, own_modifiers
 from osc2tx.lowering.modifiers.override_modifiers import lower_overrides
 from osc2tx.lowering.modifiers.standing_modifiers import StandingModifiers
-from osc2tx.lowering.placement.initial_placement import (
-    PlacementLowering,
-    merged,
-)
+from osc2tx.lowering.placement.initial_placement import PlacementLowering, merged
 from osc2tx.lowering.placement.member_placements import member_placements
 from osc2tx.lowering.unsupported_members import report_unsupported_members
 from osc2tx.lowering.values.expressions import lower_expression
@@ -145,11 +142,11 @@ class _ProgramLowering:
     def lower(
         self, scenario: Composed, is_inherited_only: bool = False
     ) -> tuple[ir.AbstractScenario | None, Sequence[Composed]]:
-        """Return a scenario, None if it is refused, and what it invokes.
+        """Return a scenario, None if it is refused, and the scenarios that it invokes.
 
         Args:
             scenario: The scenario.
-            is_inherited_only: It is imported, and nothing invokes it.
+            is_inherited_only: It is imported and never invoked.
         """
         if scenario not in self._made:
             self._made[scenario] = None, ()  # while it is lowered: it may invoke itself
@@ -191,7 +188,7 @@ def _user_base(scenario: Composed) -> tuple[Composed, ...]:
 def _bases_first(
     lowered: Mapping[Composed, ir.AbstractScenario | None],
 ) -> dict[Composed, ir.AbstractScenario]:
-    """Return what could be lowered, each below its base, which it refers to if it adds to it."""
+    """Return the lowered scenarios, each below its base, to which it refers if it extends it."""
     found: dict[Composed, ir.AbstractScenario] = {}
     for symbol in lowered:
         for each in reversed(list(lineage_of(symbol))):

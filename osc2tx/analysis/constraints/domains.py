@@ -1,7 +1,7 @@
 """Domains: the values that a parameter or expression can still have.
 
 Numbers are intervals in SI, with Python integers for `int` and `uint`, floats for the rest. Bools,
-enums and strings are finite sets or their complements. An interval says for each bound whether
+enums and strings are finite sets or their complements. An interval states for each bound whether
 it is excluded, and whether NaN is in the set: comparisons drop it, their negations do not.
 """
 
@@ -53,7 +53,7 @@ class Interval:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """The values of a set, or with `excluded` all others; enum members stand as their numbers."""
+    """The values of a set, or with `excluded` all others; enum members are their numbers."""
 
     values: frozenset[Value]
     excluded: bool = False

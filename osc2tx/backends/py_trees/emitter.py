@@ -63,7 +63,7 @@ class GeneratedModule:
         stem: File name of the module without `.py`.
         python: Text of the module.
         source_map: Text of the sidecar map, JSON.
-        coverage_model: Text of what its scenarios sample, JSON; None if they sample nothing.
+        coverage_model: Text of the coverage model, JSON; None if its scenarios sample nothing.
     """
 
     source: str
@@ -142,7 +142,7 @@ def emit(
         siblings=siblings,
         root=_root(module) if siblings else None,
         api_level=API_LEVEL,
-        units=_told_units(uses.units(), module),
+        units=_comments_of_units(uses.units(), module),
         enums=_explained_enums(uses.enums(), names, sharing, module),
         scenarios=_explained(scenario_views, scenarios, sharing),
         mains=tuple(names[scenario.key] for scenario in own_scenarios(module)),
@@ -189,12 +189,12 @@ def _explained_enums(
     reasons = {names[key]: PyComment.of(reason) for key, reason in sharing.copies.items()}
     declared = {names[key_of(each)]: each for each in module.enums if key_of(each) in names}
     return tuple(
-        replace(_told_enum(view, declared.get(view.name)), copied=reasons.get(view.name))
+        replace(_comments_of_enum(view, declared.get(view.name)), copied=reasons.get(view.name))
         for view in views
     )
 
 
-def _told_enum(view: EnumView, declared: ir.UserEnum | None) -> EnumView:
+def _comments_of_enum(view: EnumView, declared: ir.UserEnum | None) -> EnumView:
     """Return an enum with the comments of its declaration."""
     if declared is None:
         return view
@@ -208,7 +208,7 @@ def _told_enum(view: EnumView, declared: ir.UserEnum | None) -> EnumView:
     return replace(view, **about, members=members, is_long=bool(told))
 
 
-def _told_units(views: Sequence[UnitView], module: ir.Module) -> tuple[UnitView, ...]:
+def _comments_of_units(views: Sequence[UnitView], module: ir.Module) -> tuple[UnitView, ...]:
     """Return units with the comments of their declarations."""
     told = {identifier(each.name): each.comments for each in module.units}
     return tuple(
@@ -229,7 +229,7 @@ def own_scenarios(module: ir.Module) -> list[ir.Scenario]:
 
 
 def main_scenario(module: ir.Module) -> ir.Scenario | None:
-    """Return the scenario of the file that no other one of it invokes, if there is just one.
+    """Return the only scenario of the file that no other one of it invokes, if there is one.
 
     One that is called `top` or `main` needs no such sign.
     """
@@ -257,7 +257,7 @@ def _is_given(declaration: ir.Declaration) -> bool:
 
 
 def _policies(module: ir.Module) -> Iterator[str]:
-    """Yield the settings that decide what its trees mean, where they have such members."""
+    """Yield the settings that decide the meaning of its trees, where they have such members."""
     nodes = [n for each in own_scenarios(module) for n in ir.walk_behaviors(each.body)]
     if any(isinstance(node, ir.OneOf) for node in nodes):
         yield ONE_OF_POLICIES[module.one_of]

@@ -10,11 +10,7 @@ from osc2tx.backends.py_trees.call_support import CallCheck, domains_of
 from osc2tx.backends.py_trees.naming import identifier, module_name
 from osc2tx.backends.py_trees.object_support import ObjectCheck
 from osc2tx.backends.py_trees.own_names import declarations, has_module, is_own
-from osc2tx.backends.py_trees.runtime_api import (
-    ACTOR_CLASSES,
-    ANNOTATIONS,
-    STRUCT_CLASSES,
-)
+from osc2tx.backends.py_trees.runtime_api import ACTOR_CLASSES, ANNOTATIONS, STRUCT_CLASSES
 from osc2tx.catalogue import catalogue, object_tables
 from osc2tx.diagnostics import DiagnosticSink, Span
 from osc2tx.support.python_modules import is_taken
@@ -22,7 +18,7 @@ from osc2tx.support.python_modules import is_taken
 # CPython gives up on expressions of about 3,000 parts; one of this length is unreadable anyway.
 MAX_PARTS = 1000
 
-# Names that `Scenario.invoke` takes for itself, so that parameters cannot be handed in by them.
+# Names that `Scenario.invoke` uses, so parameters cannot be passed by them.
 INVOKE_KEYWORDS = frozenset({"caller", "known_as", "self", "settings"})
 
 
@@ -47,7 +43,9 @@ def check_name(module: ir.Module, sink: DiagnosticSink) -> None:
     own = next((d.span.source for d in declarations(module) if is_own(d, module)), None)
     if own is None or not has_module(module) or not is_taken(stem):
         return
-    message = f"the module is called `{module_name(module.source)}`: Python has a module `{stem}`"
+    message = (
+        f"the module has the name `{module_name(module.source)}`: Python has a module `{stem}`"
+    )
     sink.report("OSC517", Span(own, 0, 0), message, help="rename the file")
 
 
@@ -172,7 +170,7 @@ class _SupportCheck:
                 self.sink.report(
                     "OSC509",
                     argument.span,
-                    f"`{argument.parameter}` is a word of the runtime's own here; rename it",
+                    f"`{argument.parameter}` is a reserved name of the runtime here; rename it",
                 )
 
     def limits(self, duration: ir.Expression | None, until: tuple[ir.Trigger, ...]) -> None:
@@ -207,7 +205,7 @@ class _SupportCheck:
                 event.span,
                 f"the events of `{event.label}` are there only once it has started, as an argument"
                 " of it depends on the state of the world",
-                help=f"wait for `@{event.label}.end`, or hand in the actor and read its state",
+                help=f"wait for `@{event.label}.end`, or pass the actor and read its state",
             )
         match trigger.condition:
             case ir.Every():
@@ -276,7 +274,7 @@ class _SupportCheck:
                 pass  # everything else is plain Python
 
     def said(self, part: ir.Attribute, base: ir.Expression) -> None:
-        """Report a member of an actor that nothing says: no catalogue knows it."""
+        """Report an unstated member of an actor that no catalogue has."""
         name = base.name if isinstance(base, ir.FieldRef) else None
         actors = (d for d in self.declarations if isinstance(d, ir.Actor))
         actor = next((each for each in actors if each.name == name), None)
@@ -284,7 +282,7 @@ class _SupportCheck:
             self.sink.report(
                 "OSC503",
                 part.span,
-                f"nothing says the `{part.name}` of `{name}`",
+                f"no constraint states the `{part.name}` of `{name}`",
                 help=f"`keep({name}.{part.name} == value)`",
             )
 

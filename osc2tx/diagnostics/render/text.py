@@ -36,7 +36,7 @@ def render_text(diagnostic: Diagnostic, *, color: bool = False, folder: Path | N
     """Return one diagnostic as lines of text, the last one with its line end.
 
     Args:
-        diagnostic: What to render.
+        diagnostic: The diagnostic.
         color: Whether to use the colors of a terminal.
         folder: If given, files below it are cited relative to it and others by their full path,
             so that a terminal can open them; else every file has the name of its `SourceFile`.
@@ -86,7 +86,7 @@ def _end_line(span: Span) -> int:
 def _snippet(span: Span, gutter: int) -> list[tuple[bool, str]]:
     """Return the first and the last line of a span, each with marks below it.
 
-    The flag of each row says whether it holds marks.
+    The flag of each row states whether it holds marks.
     """
     source = span.source
     first, column = source.position(span.start)
@@ -126,7 +126,7 @@ def _marked_line(
 
 
 def _cells(text: str) -> list[str]:
-    """Return what to print for each character: tabs as blanks, nothing that steers a terminal."""
+    """Return the printed form of each character: tabs as blanks, control characters as escapes."""
     cells: list[str] = []
     column = 0
     for char in text:

@@ -1,8 +1,8 @@
 """Constraints on the values of a scenario (§7.3.11) as fixed values and domains.
 
-A parameter becomes a constant (what sets it is hard), a value with a default, or a value out of a
-domain. Its domain is written with the bounds of the source where the source has them. A constraint
-that all this does not make true by itself is left over: it is checked before the run.
+A parameter becomes a constant (set by a hard constraint), a value with a default, or a value out of
+a domain. Its domain is written with the bounds of the source, if there are any. A constraint that
+these do not imply is checked before the run.
 """
 
 from __future__ import annotations
@@ -129,7 +129,7 @@ class ConstraintLowering:
             value, is_fixed = by_cases, True
         domain = None if is_fixed else self._domain(writer, within, hard)
         self._note(key, type_, definition, domain, hard if is_fixed else None)
-        said = [c for c in mentioned if self._is_said(c, key, definition, domain)]
+        said = [c for c in mentioned if self._is_stated(c, key, definition, domain)]
         self._used.update(c for c in said if c is definition or c is within)
         comments = dict.fromkeys(line for c in said for line in self._comments(c))
         return Setting(value, domain, is_fixed, tuple(comments), tuple(said))
@@ -162,8 +162,8 @@ class ConstraintLowering:
                 continue
             if any(c.subject == key and c.origin == "argument" for c in mentioned):
                 continue
-            says_itself = not is_of_library and any(c.subject == key for c in mentioned)
-            if (says_itself or (parameter is DURATION and not is_of_library)) and all(
+            states_itself = not is_of_library and any(c.subject == key for c in mentioned)
+            if (states_itself or (parameter is DURATION and not is_of_library)) and all(
                 c.place.prefix[:1] == (node,) for c in mentioned
             ):
                 continue
@@ -181,7 +181,7 @@ class ConstraintLowering:
                     found[parameter] = None
         yield from found
 
-    def says_all(self, setting: Setting, key: Key) -> bool:
+    def is_only_definition(self, setting: Setting, key: Key) -> bool:
         """Whether the written value of a parameter makes all constraints on it true."""
         return all(c in setting.constraints for c in self.found.by_key.get(key, ()))
 
@@ -190,7 +190,7 @@ class ConstraintLowering:
         self._used.add(constraint)
 
     def left_over(self) -> tuple[ir.Constraint, ...]:
-        """Return what has to be checked before the run; ask last."""
+        """Return the constraints that are checked before the run; called last."""
         left = [c for c in self.found.in_force.constraints if self._is_left(c)]
         lowered = (lower_check(self.ctx, c, self._comments(c)) for c in left)
         return tuple(constraint for constraint in lowered if constraint is not None)
@@ -212,7 +212,7 @@ class ConstraintLowering:
         return writer.equality([c for c in writer.constraints if self._defines(c, writer.key)])
 
     def _defines(self, constraint: Constraint, member: Key) -> bool:
-        """Whether a constraint is all that says what another parameter is, by a member."""
+        """Whether a constraint is the only definition of another parameter, through a member."""
         subject = constraint.subject
         if subject is None or subject == member:
             return False
@@ -220,7 +220,7 @@ class ConstraintLowering:
             return True
         about = self.found.by_key.get(subject, ())
         own = [c for c in about if c.subject == subject and c.value is not None]
-        if len(member) == 1:  # the other one is declared later, and takes its last definition
+        if len(member) == 1:  # the other parameter is declared later, and takes its last definition
             definitions = [c for c in own if not c.is_range]
             return len(subject) == 1 and definitions[-1:] == [constraint]
         return own == [constraint]
@@ -358,7 +358,7 @@ class ConstraintLowering:
         root = definition.operations.root
         return values[root.operands[1]] if len(root.operands) > 1 else values[-1]
 
-    def _is_said(
+    def _is_stated(
         self,
         constraint: Constraint,
         key: Key,

@@ -11,7 +11,7 @@ from osc2tx.semantics.declarations.resolve_types import resolve_type
 from osc2tx.semantics.dialects import PRELUDE_MEMBERS
 from osc2tx.semantics.expressions.names import value_type
 from osc2tx.semantics.names.aliases import member_alias, standard_member, write_instead
-from osc2tx.semantics.names.everyday_words import MEMBERS, plain_word
+from osc2tx.semantics.names.colloquial_names import MEMBERS, plain_word
 from osc2tx.semantics.names.member_lookup import find_member, member_names
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
 from osc2tx.semantics.scope import supertypes
@@ -128,7 +128,7 @@ def infer_cast(r: Resolution, node: ast.Cast, env: Environment) -> Type:
     target = resolve_type(r, node.type, env.context)
     source = r.type_of(node.base, env, target)
     if ERROR not in (source, target) and not can_cast(source, target):
-        r.report("OSC315", node.span, f"a value of `{source}` cannot become `{target}`")
+        r.report("OSC315", node.span, f"a value of `{source}` cannot be converted to `{target}`")
     return target
 
 

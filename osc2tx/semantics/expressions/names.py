@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from osc2tx.diagnostics.fixes import Help, write, write_one_of
 from osc2tx.diagnostics.suggestions import name_meant, nearest, one_of
-from osc2tx.semantics.conversions import converts, stand_in, symbol_of, type_of_owner
+from osc2tx.semantics.conversions import convertible_type, converts, symbol_of, type_of_owner
 from osc2tx.semantics.declarations.resolve_types import choose, resolve_type_name
 from osc2tx.semantics.dialects import ENUM_MEMBER_ALIASES
 from osc2tx.semantics.expressions.type_receivers import type_as_receiver
 from osc2tx.semantics.names.actors_by_name import actor_of_caller
 from osc2tx.semantics.names.aliases import enum_member_alias, write_instead
-from osc2tx.semantics.names.everyday_words import ENUM_MEMBERS, NAMES, NOTHING, plain_word
+from osc2tx.semantics.names.colloquial_names import ENUM_MEMBERS, NAMES, NOTHING, plain_word
 from osc2tx.semantics.names.member_lookup import find_member, lookup_value, visible_names
 from osc2tx.semantics.names.unknown_names import in_newest_version
 from osc2tx.semantics.resolution import Environment, Resolution, declared_here
@@ -71,7 +71,7 @@ def enum_member_of(name: ast.Name, expected: Type | None) -> EnumMemberSymbol | 
     """Return the member of that name of the expected enum type."""
     if isinstance(expected, ListType | RangeType):
         expected = expected.element
-    expected = expected and (stand_in(expected) or expected)
+    expected = expected and (convertible_type(expected) or expected)
     if isinstance(expected, EnumType):
         return expected.symbol.members.get(name.text)
     return None
@@ -87,7 +87,7 @@ def _member_by_alias(
 
 
 def value_type(r: Resolution, symbol: Symbol, node: ast.Expression) -> Type:
-    """Return the type of what a name or path stands for; report what is not a value."""
+    """Return the type of a name or path; report one that is not a value."""
     match symbol:
         case FieldSymbol() | ParameterSymbol() | LabelSymbol():
             return symbol.type
@@ -105,7 +105,7 @@ def value_type(r: Resolution, symbol: Symbol, node: ast.Expression) -> Type:
             )
             return ERROR
         case _:
-            r.report("OSC316", node.span, f"`{symbol.name}` does not stand for a value")
+            r.report("OSC316", node.span, f"`{symbol.name}` does not denote a value")
             return ERROR
 
 
@@ -162,9 +162,9 @@ def _infer_unknown(
 
 
 def _name_meant(r: Resolution, name: ast.Name, env: Environment) -> Help:
-    """Say what may be meant by a name that is not defined."""
+    """Return the help for a name that is not defined."""
     if name.text in NOTHING:
-        return "there is no empty value; leave out what has none"
+        return "there is no empty value; omit arguments and members without a value"
     if found := plain_word(name.span, NAMES) or _field_elsewhere(r, name):
         return found
     meant = nearest(name.text, visible_names(r, env))
@@ -179,7 +179,7 @@ def _name_meant(r: Resolution, name: ast.Name, env: Environment) -> Help:
 
 
 def _member_meant(r: Resolution, name: ast.Name, enum: EnumSymbol) -> Help:
-    """Say which member of an enum may be meant by a name that it does not have."""
+    """Return the help for an unknown member of an enum."""
     if enum.origin != "user" and (newer := in_newest_version(r, enum.name, name)):
         return newer
     if ENUM_MEMBERS.get(name.text) in enum.members:
@@ -193,7 +193,7 @@ def _field_elsewhere(r: Resolution, name: ast.Name) -> str | None:
         if isinstance(symbol, ScenarioSymbol):
             field = symbol.members.get(name.text)
             if isinstance(field, FieldSymbol) and field.node is not None:
-                return f"`{name}` is a field of `{symbol.qualified_name}`; hand it over as argument"
+                return f"`{name}` is a field of `{symbol.qualified_name}`; pass it as an argument"
     return None
 
 

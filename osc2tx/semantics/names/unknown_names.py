@@ -8,7 +8,7 @@ from osc2tx.diagnostics.fixes import Help, Remedy, write
 from osc2tx.diagnostics.suggestions import name_meant, one_of
 from osc2tx.semantics.dialects import LEFT_OUT, PRELUDE_PARAMETERS, PreludeHint
 from osc2tx.semantics.names.aliases import standard_parameter, write_instead
-from osc2tx.semantics.names.everyday_words import fitting_word
+from osc2tx.semantics.names.colloquial_names import fitting_word
 from osc2tx.semantics.names.stray_modifiers import move_out
 from osc2tx.semantics.resolution import Resolution, declared_here
 from osc2tx.semantics.scope import is_subtype, supertypes
@@ -65,9 +65,9 @@ def report_unknown(
     Args:
         r: The state of the pass.
         names: The names, with the values given.
-        parameters: Those that there are.
-        callee: What has them.
-        node: What gives the arguments.
+        parameters: The declared parameters.
+        callee: The owner of the parameters.
+        node: The owner of the arguments.
     """
     hints = {n: PRELUDE_PARAMETERS.get((callee.name, n.text)) for n in names}
     foreign = [n for n in names if hints[n] is not None and callee.origin == "library"]
@@ -131,7 +131,7 @@ def in_newest_version(r: Resolution, owner: str, name: ast.Name) -> str:
 
 
 def _is_modified_by(r: Resolution, callee: Symbol, word: str) -> bool:
-    """Whether a modifier has the name and goes with a behavior, or with another modifier."""
+    """Whether a modifier has the name and applies to a behavior, or beside another modifier."""
     modified = callee.target if isinstance(callee, ModifierSymbol) else callee
     if not isinstance(modified, ScenarioSymbol | ActionSymbol):
         return False
