@@ -157,11 +157,11 @@ from osc2tx_runtime.world.measuring.velocities import (
 )
 
 API_LEVEL = 1
-"""Of the names and signatures below; a generated module asks for the level it was made for."""
+"""Of the names and signatures below; a generated module requires the level it was made for."""
 
 
 def require_api(level: int) -> None:
-    """Stop the import of a module that was made for another runtime.
+    """Reject a module that was made for another level of the runtime.
 
     Raises:
         ImportError: If this runtime does not have the level.

@@ -8,7 +8,8 @@ _ROUNDING = 1e-6
 """Part of a step by which seconds over steps may miss a whole number: 4.5 / 0.05 is 90."""
 
 _NEVER = 2.0**62
-"""Steps that no run gets to, for a time that dt divides into more than a float can say."""
+"""A number of steps that no run reaches, for a quotient of time and dt beyond the range of
+floats."""
 
 
 def whole_steps(seconds: float, dt: float) -> int:
@@ -34,11 +35,11 @@ def lateness(steps: int, seconds: float, dt: float) -> float:
 
 
 def is_longer(seconds: float, than: float, dt: float) -> bool:
-    """Return whether a part of a step is longer than another one, not only by the rounding of sums.
+    """Return whether a part of a step is longer than another, beyond the rounding of sums.
 
     Args:
         seconds: The part (s).
-        than: The other one (s).
+        than: The other part (s).
         dt: Length of a step (s).
     """
     return seconds - than > _ROUNDING * dt

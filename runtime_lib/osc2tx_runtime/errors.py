@@ -1,4 +1,4 @@
-"""The errors a scenario can meet; `main` prints them as `file:line: error: message`."""
+"""The errors of scenarios and runs; `main` prints them as `file:line: error: message`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ NO_RESULT = (ArithmeticError, LookupError, RecursionError, ValueError)
 a conversion to a type that has no such value (§7.4.2.6)."""
 
 RUN_FAILED = "OSC809"
-"""Code of the line that says how a run failed: that is a verdict, no error."""
+"""Code of the line with the reason of a failed run: a verdict, not an error."""
 
 NOT_MET = "OSC810"
 """Code of a condition that fails its phase."""
@@ -20,7 +20,7 @@ PARTLY_MET = "OSC811"
 
 
 class SourcePlace(str):
-    """A place in a scenario: `cut_in.osc:12` as traces and reports have it, with its column.
+    """A source position: `cut_in.osc:12` as in traces and reports, with its column.
 
     Args:
         file: The scenario file.
@@ -38,7 +38,7 @@ class SourcePlace(str):
         return place
 
     def __reduce__(self) -> tuple[type[SourcePlace], tuple[str, int, int]]:
-        """Return what makes a copy, also in another process."""
+        """Return the constructor call of a copy, also in another process."""
         file, _, line = self.rpartition(":")
         return SourcePlace, (file, int(line), self.column)
 
@@ -47,11 +47,11 @@ class ScenarioError(Exception):
     """The scenario cannot run, or cannot continue.
 
     Attributes:
-        message: Description of the error, and its remedy where that is known.
-        source: Position in the scenario, `hello_world.osc:57`; None where unknown.
-        exit_code: What `main` returns: 5 ran and failed, 4 unreadable input or no simulator, 2
+        message: Description of the error, with its remedy if known.
+        source: Position in the scenario, `hello_world.osc:57`; None if unknown.
+        exit_code: The exit code of `main`: 5 run failed, 4 unreadable input or no simulator, 2
             usage.
-        code: What `osc2tx explain` says more about.
+        code: Code for `osc2tx explain`.
     """
 
     exit_code = 5
@@ -63,15 +63,15 @@ class ScenarioError(Exception):
         self.source = source
 
     def happened(self, seconds: float) -> None:
-        """Note when it was met."""
+        """Note the time at which it occurred."""
         self.message = f"{self.message} (at {seconds:.3f} s)"
 
     def report(self, file: str, given: str | None = None) -> str:
-        """Return the message as it is printed: `cut_in.osc:12:9: error[OSC802]: …`.
+        """Return the printed message: `cut_in.osc:12:9: error[OSC802]: …`.
 
         Args:
-            file: The scenario file, as the module knows it.
-            given: The same file, as the user has written it.
+            file: The scenario file as stated in the module.
+            given: The same file as given by the user.
         """
         return coded(self.code, self.message, self.source or file, file, given)
 
@@ -80,7 +80,7 @@ class ScenarioError(Exception):
 
 
 def why_no_result(error: Exception) -> str:
-    """Say why an expression has no result."""
+    """Return why an expression has no result."""
     if isinstance(error, KeyError) and error.args:
         return f"no member of the enumeration has the value {error.args[0]!r}"
     if isinstance(error, RecursionError):
@@ -89,19 +89,19 @@ def why_no_result(error: Exception) -> str:
 
 
 def with_column(place: str) -> str:
-    """Return a place with its column, where it knows one: `cut_in.osc:12:9`."""
+    """Return a source position with its column, if known: `cut_in.osc:12:9`."""
     return f"{place}:{place.column}" if isinstance(place, SourcePlace) else place
 
 
 def coded(code: str, message: str, place: str, file: str, given: str | None = None) -> str:
-    """Return a message of a run as it is printed.
+    """Return the printed message of a run.
 
     Args:
         code: Its code.
         message: Description of the error.
-        place: Its position; empty where unknown.
-        file: The scenario file, as the module knows it.
-        given: The same file, as the user has written it.
+        place: Its position; empty if unknown.
+        file: The scenario file as stated in the module.
+        given: The same file as given by the user.
     """
     known = given is not None and place.startswith(file)
     whole = with_column(place)
@@ -111,17 +111,17 @@ def coded(code: str, message: str, place: str, file: str, given: str | None = No
 
 
 class PlacementError(ScenarioError):
-    """An actor cannot be put where the scenario wants it."""
+    """An actor cannot be placed as the scenario requires."""
 
     code = "OSC802"
 
 
 class BeyondMapError(ScenarioError):
-    """What was drawn is more than the map has there."""
+    """A drawn value exceeds the map."""
 
 
 class SlotConflict(ScenarioError):
-    """Two actions that run at the same time control the same thing of one actor."""
+    """Two actions that run at the same time control the same quantity of one actor."""
 
     code = "OSC803"
 
@@ -133,7 +133,7 @@ class UnsupportedError(ScenarioError):
 
 
 class NoActionError(UnsupportedError):
-    """No class carries out an action that the scenario declares; a package can bring one."""
+    """No class executes an action that the scenario declares; a package can provide one."""
 
 
 class CapabilityError(ScenarioError):
@@ -143,7 +143,7 @@ class CapabilityError(ScenarioError):
 
 
 class SettingsError(ScenarioError):
-    """A run option is wrong."""
+    """A run option is invalid."""
 
     code = "OSC806"
     exit_code = 2
@@ -157,23 +157,23 @@ class InputError(ScenarioError):
 
 
 class SimulatorError(ScenarioError):
-    """The simulator is not available, no longer answers, or refuses a request of the run."""
+    """The simulator is not available, no longer responds, or rejects a request of the run."""
 
     code = "OSC808"
     exit_code = 4
 
 
 class OwnCode:
-    """Makes whatever code of the user's own raises an error of the scenario.
+    """Turns every exception of user code into an error of the scenario.
 
         with OwnCode("ego creep raised", action.source):
             action.on_start()
 
-    Also other exceptions: a `SystemExit` must not end the run like a success. Errors of the
-    scenario and Ctrl-C pass.
+    This includes `SystemExit`, which must not end the run like a success. Errors of the scenario
+    and Ctrl-C pass.
 
     Args:
-        what: Begin of the message, which ends with the exception.
+        what: Start of the message, which ends with the exception.
         source: Position in the scenario.
         error: The class of the resulting error.
     """
@@ -191,7 +191,7 @@ class OwnCode:
         """Begin."""
 
     def __exit__(self, kind: object, raised: BaseException | None, trace: object) -> None:
-        """Translate what was raised."""
+        """Translate the exception."""
         if raised is None or isinstance(raised, ScenarioError | KeyboardInterrupt):
             return
         raise self.error(f"{self.what} {message_of(raised)}", self.source or None) from raised
@@ -200,14 +200,14 @@ class OwnCode:
 def message_of(error: BaseException) -> str:
     """Return the class and the message of an exception; without a message, the class alone."""
     text = ""
-    with suppress(Exception):  # its `__str__` is code of the user's own
+    with suppress(Exception):  # its `__str__` is user code
         text = str(error)
     name = type(error).__name__
     return f"{name}: {text}" if text else name
 
 
 def is_own(factory: type) -> bool:
-    """Whether a class is code of the user's own, whatever its module claims."""
+    """Whether a class is user code, whatever its module claims."""
     stated = module_of(factory)
     module = sys.modules.get(stated)
     is_ours = f"{stated}.".startswith("osc2tx_runtime.")
@@ -220,6 +220,6 @@ def name_of(factory: type) -> str:
 
 
 def module_of(factory: type) -> str:
-    """Return the name of the module of a class, which may state anything."""
+    """Return the name of the module that a class states, which may be wrong."""
     stated: object = factory.__module__
     return stated if type(stated) is str else "?"

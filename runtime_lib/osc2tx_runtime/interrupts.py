@@ -1,7 +1,7 @@
 """Ctrl-C while a generated module is loaded as a script: its process ends quietly, with code 130.
 
-It begins when this module is imported, before anything that takes time, and `main` ends it: what
-comes later is an interrupted run. Other programs that import the runtime keep their own ways.
+This is effective from the import of this module, which comes first, until `main`: a later interrupt
+is one of the run. Other programs that import the runtime keep their signal handlers.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import signal
 import sys
 
 INTERRUPTED = 130
-"""Exit code, as shells have it: 128 + SIGINT."""
+"""Exit code, as of shells: 128 + SIGINT."""
 
 _MARK = b"Made by osc2tx from "
 
@@ -22,11 +22,11 @@ def _quiet_while_loading() -> None:
         try:  # noqa: SIM105 (contextlib would be one more to load)
             signal.signal(signal.SIGINT, _end)
         except ValueError:
-            pass  # only the main thread may
+            pass  # only the main thread may set it
 
 
 def as_usual() -> None:
-    """Interrupts are exceptions again."""
+    """Make interrupts exceptions again."""
     if signal.getsignal(signal.SIGINT) is _end:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 

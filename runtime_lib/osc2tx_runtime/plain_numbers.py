@@ -1,17 +1,17 @@
-"""Numbers as text, as XML Schema has them: ASCII digits, no `1_0`, no `nan`."""
+"""Numbers as text, in the forms of XML Schema: ASCII digits, no `1_0`, no `nan`."""
 
 from __future__ import annotations
 
 import math
 
-_LONGEST_INT = 18  # digits: what no id and no seed is longer than
+_LONGEST_INT = 18  # digits: upper limit of ids and seeds
 
 
 def to_float(text: str) -> float:
     """Return a finite number.
 
     Raises:
-        ValueError: The text is no number, or one in a form of Python alone.
+        ValueError: The text is not a number, or has a form that only Python accepts.
     """
     value = float(_plain(text))
     if not math.isfinite(value):

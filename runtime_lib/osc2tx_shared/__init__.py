@@ -1,1 +1,1 @@
-"""Modules that compiler and runtime share; they import the standard library alone."""
+"""Modules of both compiler and runtime; they only import the standard library."""

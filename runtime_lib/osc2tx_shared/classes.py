@@ -1,16 +1,15 @@
-"""`dataclass` as of the standard library, but cheap to declare and quicker to construct.
+"""`dataclass` as of the standard library, but cheaper to declare and faster to construct.
 
-The decorator of the standard library inspects each class at length, and writes and compiles six
-methods for it when its module is imported: a third of a millisecond each. osc2tx has three hundred
-classes and its runtime two hundred, of which a run needs a few. Here a constructor is made when it
-is first called, from code that all classes with fields of the same kinds share, and the other
-methods are those of all classes. Constructors of frozen classes fill the slots directly, in half
-the time.
+The decorator of the standard library inspects each class, and writes and compiles six methods for
+it when its module is imported: a third of a millisecond each. osc2tx has three hundred classes and
+its runtime two hundred, of which a run uses a few. Here a constructor is created on its first call,
+from code shared by all classes with fields of the same kinds, and all classes share the other
+methods. Constructors of frozen classes fill the slots directly, in half the time.
 
-Everything else is as with `dataclasses`: `field`, `fields`, `replace`, inheritance from classes of
-either kind, pickling, `FrozenInstanceError`. Type checkers see the decorator of the standard
-library. Supported options are those in the signature; `field(init=…, repr=…, hash=…, compare=…)`
-is, `InitVar` and `KW_ONLY` are not.
+All else is as in `dataclasses`: `field`, `fields`, `replace`, inheritance from classes of either
+kind, pickling, `FrozenInstanceError`. Type checkers see the decorator of the standard library.
+Supported options are those in the signature; `field(init=…, repr=…, hash=…, compare=…)` is,
+`InitVar` and `KW_ONLY` are not.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ else:
 
         def decorate(cls):
             if cls.__doc__ is None:
-                cls.__doc__ = cls.__qualname__  # else it would be the signature, which is slow
+                cls.__doc__ = cls.__qualname__  # the default is the signature, which is slow
             fields = _fields(cls, frozen, slots, kw_only)
             own = list(fields.values())
             methods = {
@@ -72,7 +71,7 @@ else:
 
 
 _READERS: dict[type, Any] = {}
-"""What makes keyword arguments of an instance, for each class of which one was replaced."""
+"""Functions that return the keyword arguments of an instance, by replaced class."""
 
 
 def _reader(cls: Any) -> Any:
@@ -92,7 +91,7 @@ _FIELD: Any = _Sample.__dataclass_fields__["x"]._field_type  # type: ignore[attr
 
 
 class _Parameters:
-    """What the decorator of the standard library asks of a base class."""
+    """The attribute of base classes that the decorator of the standard library reads."""
 
     __slots__ = ("frozen",)
 
@@ -151,10 +150,10 @@ def _with_slots(cls: Any, methods: dict[str, Any]) -> Any:
 
 
 class _Signature:
-    """What `inspect.signature` of a class reads."""
+    """The attribute that `inspect.signature` of a class reads."""
 
     def __get__(self, instance: object, cls: Any) -> Any:
-        from inspect import signature  # loaded by few
+        from inspect import signature  # rarely used
 
         if cls.__init__ is _init_first:
             owner = _owner(cls)
@@ -167,12 +166,12 @@ _SIGNATURE = _Signature()
 
 
 def _owner(cls: Any) -> Any:
-    """Return the class of which one has the constructor that is not compiled yet."""
+    """Return the class whose constructor is not compiled yet."""
     return next(each for each in cls.__mro__ if each.__dict__.get("__init__") is _init_first)
 
 
 def _init_first(self: Any, /, *positional: object, **named: object) -> None:
-    """Compile the constructor of a class, and from then on use it."""
+    """Compile the constructor of a class, and use it from then."""
     cls = _owner(type(self))
     constructor = cls.__init__ = _constructor(cls)
     constructor(self, *positional, **named)

@@ -1,8 +1,8 @@
-"""Rows of a campaign: one scenario run many times, each time with other values.
+"""Rows of a campaign: one scenario run many times, each time with different values.
 
 `points` are the values of a row, `rows` its inputs and results, `modules` imports the module from
-its text, `executor` runs rows one after the other. A worker needs no more than this package: the
-compiler samples, stores and reports.
+its text, `executor` runs rows one after the other. A worker needs only this package: the compiler
+samples, stores and reports.
 """
 
 from __future__ import annotations

@@ -34,7 +34,7 @@ class Executor:
         plan: The common part of the rows.
 
     Raises:
-        ScenarioError: The module cannot be imported, or a measure is not known.
+        ScenarioError: The module cannot be imported, or a measure is unknown.
     """
 
     def __init__(self, plan: Plan) -> None:
@@ -45,7 +45,7 @@ class Executor:
         self._read = lru_cache(maxsize=4)(_read)
 
     def close(self) -> None:
-        """Forget the module."""
+        """Unload the module."""
         self._modules.close()
 
     def settings_of(self, row: Row) -> RunSettings:
@@ -58,7 +58,7 @@ class Executor:
         """Return the values of a row, without running it, and the random numbers behind them.
 
         Raises:
-            ScenarioError: There are none, or they break a constraint.
+            ScenarioError: No values exist, or they break a constraint.
         """
         settings = self.settings_of(row)
         scenario = self._scenario(settings)
@@ -80,7 +80,7 @@ class Executor:
         """Return the file of the map that a row is on.
 
         Raises:
-            ScenarioError: There is none.
+            ScenarioError: It does not exist.
         """
         settings = self.settings_of(row)
         return find_map(self._scenario(settings).map_file(), settings.map_path)
@@ -104,7 +104,7 @@ class Executor:
         return result, dict(made[-1].parameters)
 
     def run(self, row: Row) -> RowResult:
-        """Run a row; whatever goes wrong in the scenario is part of the result."""
+        """Run a row; every failure of the scenario is part of the result."""
         begin = time.perf_counter()
         made: list[Scenario] = []
 

@@ -1,4 +1,4 @@
-"""Imports a generated module, and those that it needs, from their texts."""
+"""Imports a generated module and the modules that it requires, from their texts."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ _NUMBERS = count()  # modules of one process have names of their own
 
 
 class Modules:
-    """The modules of a campaign in a folder of their own, which is gone when this is closed.
+    """The modules of a campaign in a temporary folder, which `close` deletes.
 
-    A process can have one of them at a time: modules find each other on `sys.path`.
+    A process can have one instance at a time: modules find each other on `sys.path`.
 
     Args:
-        files: Path of each module inside of the folder to its text.
+        files: Path of each module in the folder to its text.
 
     Raises:
-        SettingsError: A path leads out of the folder: the store of a campaign may be a stranger's.
+        SettingsError: A path leads out of the folder; the store of a campaign is untrusted.
     """
 
     def __init__(self, files: Mapping[str, str]) -> None:
@@ -50,7 +50,7 @@ class Modules:
         """Import a module; return its scenarios by their names in the source.
 
         Raises:
-            SettingsError: It is none of the modules.
+            SettingsError: It is not one of the modules.
         """
         if name not in self._files or not name.endswith(".py"):
             raise SettingsError(f"{name!r} is no module of the campaign")
@@ -68,7 +68,7 @@ class Modules:
         return scenarios_of(module)
 
     def close(self) -> None:
-        """Forget all modules of the folder."""
+        """Unload all modules of the folder."""
         sys.path[:] = self._path
         for name in set(sys.modules) - self._known:
             place = getattr(sys.modules[name], "__file__", None)
@@ -102,7 +102,7 @@ def scenario_in(scenarios: Mapping[str, type[Scenario]], name: str) -> type[Scen
     """Return a scenario by its name.
 
     Raises:
-        SettingsError: There is none.
+        SettingsError: It does not exist.
     """
     if name not in scenarios:
         raise SettingsError(f"there is no scenario `{name}`; there is: {', '.join(scenarios)}")

@@ -1,4 +1,4 @@
-"""Points of the unit cube as values of parameters: how far along its domain each of them is."""
+"""Points of the unit cube as values of parameters: the position of each in its domain."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Column:
 
     Attributes:
         name: As in settings: in an invoked scenario with the path before it.
-        kind: The kind of its domain: a range of real or whole numbers, or some values.
+        kind: The kind of its domain: a range of real or whole numbers, or a list of values.
         count: Number of these values; 0 for real numbers.
     """
 
@@ -25,7 +25,7 @@ class Column:
 
 
 class Point:
-    """The place of a row between the first (0) and the last value (1) of each parameter.
+    """The position of a row between the first (0) and the last value (1) of each parameter.
 
     As `RunSettings.draws` it replaces the seed. A bound may depend on other parameters: the value
     is a share of the range at that time.
@@ -35,7 +35,7 @@ class Point:
         rest: Seed of all other parameters.
 
     Attributes:
-        columns: What was drawn, in order.
+        columns: The drawn parameters, in order.
     """
 
     def __init__(self, shares: Mapping[str, float], rest: int = 0) -> None:
@@ -52,14 +52,14 @@ class Point:
 
 
 class _Placed(random.Random):
-    """Draws a value at a place of its domain."""
+    """Draws a value at a position in its domain."""
 
     def __init__(self, name: str, share: float, columns: dict[str, Column]) -> None:
         super().__init__(0)
         self._name, self._share, self._columns = name, share, columns
 
     def random(self) -> float:
-        """Return the place itself."""
+        """Return the position itself."""
         self._columns[self._name] = Column(self._name, "real")
         return self._share
 

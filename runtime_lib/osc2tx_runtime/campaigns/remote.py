@@ -1,7 +1,7 @@
-"""Runs rows for a driver on another machine, in whatever process a cluster has there.
+"""Runs rows for a driver on another machine, in the processes of a cluster.
 
-Everything comes with the rows: the module and the map travel in a `Parcel`, which a process unpacks
-once. So a machine of the cluster needs this package and the cluster's own, and no files.
+All inputs are sent with the rows: the module and the map are in a `Parcel`, which a process unpacks
+once. So a machine of the cluster needs only this package and that of the cluster, and no files.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ class Parcel:
 
     Attributes:
         plan: The common part of the rows; it names no files.
-        maps: The map, name to content; empty if it is one of this package's.
+        maps: The map, name to content; empty if it is a map of this package.
         runtime: The version of this package that the rows are for.
-        digest: Of all that.
+        digest: SHA-256 of the attributes above.
     """
 
     plan: Plan
@@ -43,7 +43,7 @@ def parcel_of(plan: Plan) -> Parcel:
     """Pack a plan.
 
     Raises:
-        ScenarioError: Its map is not there.
+        ScenarioError: Its map does not exist.
     """
     maps: dict[str, bytes] = {}
     if plan.settings.map_path:
@@ -60,12 +60,12 @@ def parcel_of(plan: Plan) -> Parcel:
 
 
 def unchanged(parcel: Parcel) -> Parcel:
-    """Return a parcel: the task by which a cluster comes to have it, also again."""
+    """Return a parcel: the task that stores it in a cluster, also after a loss."""
     return parcel
 
 
 def run_rows(parcel: Parcel, rows: Sequence[Row]) -> list[RowResult] | Refused:
-    """Run rows; one process runs one row at a time, whatever threads it has."""
+    """Run rows; one process runs one row at a time, whatever its number of threads."""
     if parcel.runtime != _runtime():
         return Refused(
             f"a worker has osc2tx-runtime {_runtime()}, the campaign is run with {parcel.runtime}:"
@@ -82,7 +82,7 @@ def run_rows(parcel: Parcel, rows: Sequence[Row]) -> list[RowResult] | Refused:
 
 
 class _Held:
-    """The parcel that was unpacked last: modules of two would find each other's."""
+    """The parcel that was unpacked last: the modules of two parcels would mix."""
 
     def __init__(self) -> None:
         self._digest = ""

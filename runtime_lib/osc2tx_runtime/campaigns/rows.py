@@ -25,7 +25,7 @@ _COMPARISONS: Mapping[str, Callable[[float, float], bool]] = {
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """What makes a row fail whatever the scenario says: `min_ttc < 1.5`.
+    """A condition that makes a row fail, whatever the scenario states: `min_ttc < 1.5`.
 
     Attributes:
         measure: Name of a measure.
@@ -72,13 +72,13 @@ class Plan:
     """What all rows of a campaign have in common; workers get it once.
 
     Attributes:
-        files: Path of each module inside of a folder to its text, source maps among them.
+        files: Path of each file in a folder to its text: modules and source maps.
         module: Path of the module of the scenario.
         scenario: Its name in the source.
         settings: Of each run, apart from the values of a row.
         measures: Names of the measures.
         fail_if: Further conditions of failure.
-        digests: Whether the trace of each row is made, for its digest.
+        digests: Whether the trace of each row is written, for its digest.
     """
 
     files: Mapping[str, str]
@@ -92,12 +92,12 @@ class Plan:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A row that is to be run.
+    """A row to run.
 
     Attributes:
-        number: From 0; its meaning depends on nothing else but the campaign.
+        number: From 0; its meaning depends only on the campaign.
         seed: Of the run.
-        shares: Positions of parameters in their domains; None leaves them to the seed.
+        shares: Positions of parameters in their domains; None: drawn from the seed.
         set: Values of parameters.
     """
 
@@ -116,16 +116,16 @@ class RowResult:
         values: Its parameters.
         status: `success`, `failure`, `timeout`; `error` if it could not be run; `crashed`.
         reason: Empty for success.
-        source: Place in the scenario where an error was met.
+        source: Source position of the error.
         steps: Steps the world made.
         time: Simulated seconds.
-        measures: By name; None where there is no value.
+        measures: By name; None without a value.
         collisions: Time in seconds, the two actors, their difference of speed in m/s.
-        violations: Conditions that did not hold: code, place and what was found.
+        violations: Conditions that did not hold: code, source position and finding.
         samples: `cover` or `record`, and the line that the trace has of the item, as JSON.
-        digest: SHA-256 of the trace, if asked for.
+        digest: SHA-256 of the trace, if requested.
         seconds: Seconds that it took on this machine.
-        attempts: How often it was tried.
+        attempts: Number of attempts.
     """
 
     row: Row

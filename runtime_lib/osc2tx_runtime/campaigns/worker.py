@@ -1,7 +1,7 @@
-"""The process that runs rows for a driver, which it hears and tells through a pipe.
+"""The process that runs rows for a driver; both communicate through a pipe.
 
-Beside its results it tells every now and then that it is alive: a process that is stopped, or
-whose machine has no memory left, tells nothing, while one at a long row does.
+Besides results it sends a heartbeat at intervals. It stops if the process is suspended or its
+machine is out of memory, but not during a long row.
 """
 
 from __future__ import annotations
@@ -45,17 +45,17 @@ class _Teller:
         """Tell the driver.
 
         Raises:
-            OSError: It is gone.
+            OSError: The driver has ended.
         """
         with self._lock:
             self._pipe.send(message)
 
     def beat(self, every: float) -> None:
-        """Send `ALIVE` from now on, in intervals of this length (s)."""
+        """Send `ALIVE` at intervals of this length (s)."""
         never = Event()
 
         def beat() -> None:
-            with suppress(OSError):  # the driver is gone
+            with suppress(OSError):  # the driver has ended
                 while not never.wait(every):
                     self.send(ALIVE)
 
@@ -65,8 +65,8 @@ class _Teller:
 def work(pipe: Connection, plan: Plan, beat: float) -> None:
     """Run the rows that come through a pipe, until it is closed.
 
-    It tells `READY`, then of each row as soon as it is done; or that it is `Refused`. Each `beat`
-    seconds it tells that it is `ALIVE`.
+    It sends `READY`, then each result as soon as the row is done, or `Refused`. Every `beat`
+    seconds it sends `ALIVE`.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the driver ends it
     _end_with_parent()
@@ -86,7 +86,7 @@ def work(pipe: Connection, plan: Plan, beat: float) -> None:
             rows: list[Row] = pipe.recv()
             for row in rows:
                 teller.send(executor.run(row))
-    except (EOFError, OSError):  # the driver is gone
+    except (EOFError, OSError):  # the driver has ended
         return
 
 

@@ -1,6 +1,6 @@
 """Lists the actions, modifiers and objects of this runtime, for the tables of the compiler.
 
-Everything else does not exist; the compiler rejects it before anything runs.
+The compiler rejects everything else before a run.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ def actions() -> dict[str, dict[str, Any]]:
     """List the registered actions of actors, `vehicle.drive`, in sorted order.
 
     Returns:
-        For each its `arguments`, which of them are `required`, the `modifiers` that it accepts, and
-        which of these `modifiers_with` values of a parameter, its `slots`, how it `ends`, whether
-        it `moves` as its modifiers state and whether that has to be `physical`, whether it
-        `places` and `paces`, what it `needs` of a world, the `rules` of its arguments and why it
-        is `undeclared`.
+        For each its `arguments` and the `required` ones; the `modifiers` that it accepts, and those
+        only accepted `modifiers_with` values of a parameter; its `slots`; how it `ends`; whether it
+        `moves` as its modifiers state, and whether the motion has to be `physical`; whether it
+        `places` and `paces`; what it `needs` of a world; the `rules` of its arguments; why it is
+        `undeclared`.
     """
     return {
         method.qualified_name: _action(method, method.factory)
@@ -43,8 +43,8 @@ def modifiers() -> dict[str, dict[str, Any]]:
     """List the modifiers that have an effect, by name, in sorted order.
 
     Returns:
-        For each its `parameters`, which of them are `required`, the base of its `shape`, the
-        `rules` of its parameters, and the facts of its registration.
+        For each its `parameters` and the `required` ones, the base of its `shape`, the `rules` of
+        its parameters, and the facts of its registration.
     """
     return {name: _modifier(MODIFIERS[name]) for name in sorted(MODIFIERS)}
 
@@ -54,11 +54,11 @@ def objects() -> dict[str, Any]:
 
     Returns:
         `methods`: `physical_object.object_distance` to its parameters; `fields`: name to type;
-        `objects`: actor or value type to what its constructor takes; `needed`: what that cannot do
-        without; `unknown`: members of actors that only the scenario can say; `reserved`: what
-        actors have besides actions; `declared`: structs that are objects as actors are, to what
-        these have; `lane_bound`: actors that follow lanes; `enums`: types of the
-        library's enums; `units`: names of its units.
+        `objects`: actor or value type to the parameters of its constructor; `needed`: the required
+        ones; `unknown`: members of actors that only the scenario can state; `reserved`: attributes
+        of actors besides actions; `declared`: structs that are objects as actors are, to their
+        attributes; `lane_bound`: actors that follow lanes; `enums`: types of the library's enums;
+        `units`: names of its units.
     """
     return {
         "methods": {name: _arguments(METHODS[name]) for name in sorted(METHODS)},
@@ -81,7 +81,7 @@ def objects() -> dict[str, Any]:
 
 
 def _is_unit(name: str, value: object) -> bool:
-    """Whether a name of the module of units is one: a factor, or a scale with another zero."""
+    """Whether a name of the module of units is a unit: a factor, or a scale with an offset."""
     return isinstance(value, float | FunctionType) and not name.startswith("_")
 
 
@@ -107,7 +107,7 @@ def _action(method: RegisteredMethod, factory: type[Action]) -> dict[str, Any]:
 
 
 def _names(kinds: Iterable[type]) -> list[str]:
-    """Return modifiers by name, each once."""
+    """Return modifiers by name, without duplicates."""
     return sorted({kind.name for kind in kinds if issubclass(kind, Modifier)})
 
 
@@ -140,7 +140,7 @@ def _members(kind: type[DeclaredObject]) -> list[str]:
 
 
 def _arguments(function: Callable[..., Any]) -> list[str]:
-    """Names of the parameters in their order, without the actor and what all have."""
+    """Names of the parameters in their order, without the actor and the common options."""
     return [
         parameter.name
         for parameter in inspect.signature(function).parameters.values()
@@ -150,14 +150,14 @@ def _arguments(function: Callable[..., Any]) -> list[str]:
 
 
 def _required(function: Callable[..., Any]) -> list[str]:
-    """Names of those that have no default."""
+    """Names of the parameters without default."""
     parameters = inspect.signature(function).parameters
     names = _arguments(function)
     return [name for name in names if parameters[name].default is inspect.Parameter.empty]
 
 
 def _keywords(kind: Callable[..., Any]) -> list[str]:
-    """Names of all parameters of a constructor, those of its bases as well."""
+    """Names of all parameters of a constructor and its bases."""
     names: list[str] = []
     for parameter in inspect.signature(kind).parameters.values():
         if parameter.kind is parameter.VAR_KEYWORD:

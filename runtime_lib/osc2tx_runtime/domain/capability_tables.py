@@ -99,7 +99,7 @@ FIELDS: Mapping[str, str] = {
     "traffic_light_group.traffic_lights": "list of traffic_light",
     "xyz_point.position": "position_3d",
 }
-"""Members of actors that can be read in expressions, with their types; of structs all can be."""
+"""Members of actors that can be read in expressions, with their types; of structs all members."""
 
 OBJECTS: Mapping[str, Callable[..., Any]] = {
     **{
@@ -190,9 +190,9 @@ MANDATORY: Mapping[str, tuple[str, ...]] = {
     "hitch_receiver": ("position_x", "position_z"),
     "wind": ("speed", "direction"),
 }
-"""Members that a value of a scenario's own must have, besides those without a default.
+"""Members that a value defined by a scenario must have, besides those without a default.
 
-As members of an actor these values may leave them open: the catalogue knows them.
+As members of an actor these values may omit them.
 """
 
 UNKNOWN = (
@@ -201,4 +201,4 @@ UNKNOWN = (
     "physical_object.color",
     "physical_object.geometry_reference",
 )
-"""Members of actors that only the scenario can say."""
+"""Members of actors that only the scenario can state."""

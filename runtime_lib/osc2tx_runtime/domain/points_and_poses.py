@@ -69,7 +69,7 @@ class Pose:
         position: Point | None = None,
         orientation: Orientation | None = None,
     ) -> None:
-        """Take the numbers, or instead of them a point and an orientation."""
+        """Create a pose from numbers, or from a point and an orientation."""
         if position is not None:
             x, y, z = position.x, position.y, position.z
         if orientation is not None:
@@ -85,7 +85,7 @@ class Pose:
 
     @property
     def orientation(self) -> Orientation:
-        """How it is turned."""
+        """Its orientation."""
         return Orientation(self.roll, self.pitch, self.yaw or 0.0)
 
 
@@ -119,19 +119,19 @@ class RoutableDot:
 
     @property
     def anchors(self) -> list[str]:
-        """Nothing in the map file is it."""
+        """It is not part of the map file."""
         return []
 
     def start_point(self) -> RoutePoint:
-        """Where it begins.
+        """Its start.
 
         Raises:
-            ScenarioError: A point has no begin of its own.
+            ScenarioError: A point has no start.
         """
         raise ScenarioError("a point is no route with a begin and an end: convert it to one")
 
     def end_point(self) -> RoutePoint:
-        """Where it ends; as `start_point`."""
+        """Its end; as `start_point`."""
         return self.start_point()
 
 
@@ -156,7 +156,7 @@ class OdrPoint(RoutableDot):
         """Number of the lane; None if the point only names its road.
 
         Raises:
-            PlacementError: It is no number.
+            PlacementError: It is not a number.
         """
         if self.lane_id is None or self.lane_id == "":
             return None
@@ -181,7 +181,7 @@ class RouteAxis:
 
 @dataclass(frozen=True, slots=True)
 class RoadRoute(RouteAxis):
-    """A road, or one of its lanes, as something to measure along.
+    """A road, or one of its lanes, as an axis.
 
     Attributes:
         road_id: Road.
@@ -225,7 +225,7 @@ class GeodeticPoint(RoutableDot):
 
 
 AnyPoint = Point | XyzPoint | RoutePoint | OdrPoint
-"""A point that one can go to."""
+"""A point to move to."""
 
 NetworkPoint = RoutePoint | OdrPoint | XyzPoint | GeodeticPoint
 """A point of the road network."""

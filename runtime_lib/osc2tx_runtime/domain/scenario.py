@@ -18,7 +18,7 @@ class Scenario(BaseScenario):
     """A scenario. Generated classes write `declare`, `placement` and `behavior`.
 
     Attributes:
-        implied_starts: What suits the first actions of actors that enter, by their ids.
+        implied_starts: Implied starts of actors that enter, by actor id.
     """
 
     implied_starts: Mapping[str, Sequence[Modifier]]
@@ -38,10 +38,10 @@ class Scenario(BaseScenario):
         return with_entries(tree, acting | placed, self.implied_starts, race)
 
     def map_file(self) -> str | None:
-        """Return the map file the scenario names; None if it leaves the map open.
+        """Return the map file that the scenario states; None if it leaves the map open.
 
         Raises:
-            ScenarioError: If it names two.
+            ScenarioError: It states two.
         """
         maps = [actor for actor in self.actors.values() if isinstance(actor, Map)]
         named = [(found.named_file, found.source) for found in maps if found.named_file]
@@ -58,7 +58,7 @@ class Scenario(BaseScenario):
 
 
 def bind_all(scenario: Scenario, context: ExecutionContext) -> None:
-    """Let the actors of a scenario and its declared parts of the map join a run."""
+    """Bind the actors of a scenario and its declared parts of the map to a run."""
     for actor in scenario.actors.values():
         if isinstance(actor, Actor):
             actor.bind(context)

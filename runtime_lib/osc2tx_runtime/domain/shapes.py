@@ -1,9 +1,9 @@
 """Shapes: the value of a quantity over the time of a phase (DSL 8.9.1.2).
 
-A shape gives the course of the value that its modifier names: a speed, or how much faster than
-another one; a distance along the road, or to another actor; a lateral position. The time
-counts from the start of the action. Common shapes state how a target is reached;
-shapes of a scenario compute every value in their own classes.
+A shape computes the value of its modifier over time: a speed or speed difference; a distance along
+the road or to another actor; a lateral position. The time counts from the start of the action.
+Common shapes state how a target is reached; shapes of a scenario compute every value in their own
+classes.
 """
 
 from __future__ import annotations
@@ -54,14 +54,14 @@ class AnyAccelerationShape(AnyShape):
 
 @dataclass(frozen=True, slots=True)
 class AnyPositionShape(AnyShape):
-    """Of a place along the road, a way, or a distance to another actor (m)."""
+    """Of a position along the road, a distance covered, or a distance to another actor (m)."""
 
     kind = "any_position_shape"
 
 
 @dataclass(frozen=True, slots=True)
 class AnyLateralShape(AnyShape):
-    """Of a place across the lane (m)."""
+    """Of a lateral position (m)."""
 
     kind = "any_lateral_shape"
 
@@ -70,13 +70,12 @@ class AnyLateralShape(AnyShape):
 class CommonShape(AnyShape):
     """The common base of the common shapes.
 
-    In an action they start from the motion of the actor. Called directly they start at zero: their
-    members state no other start.
+    In an action they start from the motion of the actor; called directly they start at zero.
 
     Attributes:
-        rate_profile: Course of the first derivative of the quantity.
+        rate_profile: Profile of the first derivative of the quantity.
         rate_peak: Its peak.
-        target: Value to be reached, where the modifier gives none.
+        target: Value to reach, if the modifier states none.
     """
 
     rate_profile: DynamicProfile = "none"
@@ -87,7 +86,7 @@ class CommonShape(AnyShape):
         """Seconds from zero to the target.
 
         Raises:
-            ScenarioError: Profile, peak or target leave it open.
+            ScenarioError: Profile, peak or target do not determine it.
         """
         return self._from_zero().duration
 
@@ -126,7 +125,7 @@ class CommonAccelerationShape(CommonShape, AnyAccelerationShape):
 
 @dataclass(frozen=True, slots=True)
 class CommonPositionShape(CommonShape, AnyPositionShape):
-    """Of a position along the road, a path or a distance (m); the rate is a speed (m/s).
+    """Of a position along the road or a distance (m); the rate is a speed (m/s).
 
     The speed is relative to the origin of the distance: the speed of the actor itself, or relative
     to the actor of `ahead_of` or `behind`.
@@ -135,7 +134,7 @@ class CommonPositionShape(CommonShape, AnyPositionShape):
 
 @dataclass(frozen=True, slots=True)
 class CommonLateralShape(CommonShape, AnyLateralShape):
-    """Of a place across the lane (m); the rate is the lateral speed (m/s)."""
+    """Of a lateral position (m); the rate is the lateral speed (m/s)."""
 
     def _smooth(self, target: float, peak: float) -> Profile:
         return Cosine(0.0, target, cosine_duration(target, peak))
@@ -150,7 +149,7 @@ class OwnShape(Generic[ShapeT]):
     Args:
         shape: The object, with the members that the methods read.
         compute: The value at a time (s) after the start of the action.
-        duration: Duration (s) of the course; None: it continues as long as the action.
+        duration: Duration (s); None: as long as the action.
     """
 
     def __init__(
@@ -165,7 +164,7 @@ class OwnShape(Generic[ShapeT]):
         self._duration = duration
 
     def course(self) -> Computed:
-        """The course, asked for its length now and for its values when they are needed.
+        """The profile; its duration is computed now, its values when they are needed.
 
         Raises:
             ScenarioError: A method has no value, as in a division by zero.
@@ -192,7 +191,7 @@ class OwnShape(Generic[ShapeT]):
 
 
 def with_methods(shape: AnyShape) -> AnyShape | OwnShape[AnyShape]:
-    """Return a shape whose class computes its values with its methods; others as they are."""
+    """Return a shape with the methods of its class; others unchanged."""
     compute = getattr(type(shape), "compute", None)
     if compute is None or compute is CommonShape.compute:
         return shape

@@ -1,8 +1,8 @@
-"""Measures of a run, taken in the loop of steps: how near actors came, how hard they braked.
+"""Measures of a run, taken at each step: distances, times to collision, decelerations.
 
 `measure` is the base class, `pairs` has the measures of two actors, `rules` collisions, lanes and
-lights, `registry` all others; it finds them by name, those of installed packages too, and takes
-them in a run.
+lights, `registry` all others; it finds them by name, also those of installed packages, and
+evaluates them in a run.
 """
 
 from __future__ import annotations

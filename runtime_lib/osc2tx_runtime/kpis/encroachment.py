@@ -1,4 +1,4 @@
-"""The post-encroachment time: who was at one place, one after the other."""
+"""The post-encroachment time: actors at the same position, one after the other."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ Rows = NDArray[np.float64]
 _Indexes = NDArray[np.int64]
 
 _FIRST, _LAST, _X, _Y, _COS, _SIN, _LENGTH, _WIDTH = range(8)
-_MOST = 1_000_000  # pairs of places that are compared at once
+_MOST = 1_000_000  # pairs of positions that are compared at once
 
 
 class MinEncroachment:
-    """Least post-encroachment time (s): between two actors at one place, one after the other.
+    """Least post-encroachment time (s) between two actors at the same position.
 
-    To a step: boxes at one step count as there until the next one. 0 if two touch; no value for a
-    pair whose ways have no common place.
+    Its resolution is a step: a box remains at its position until the next step. 0 if two touch; no
+    value for a pair whose paths do not cross.
     """
 
     name = "min_pet"
@@ -32,7 +32,10 @@ class MinEncroachment:
         self._ways: dict[str, array[float]] = {}
 
     def observe(self, scene: Scene) -> None:
-        """Note the positions of all actors; an actor at standstill is there once, for as long."""
+        """Note the positions of all actors.
+
+        An actor at standstill is noted once, with its duration.
+        """
         for actor in scene.actors:
             box = actor.box
             way = self._ways.setdefault(actor.id, array("d"))
@@ -43,7 +46,7 @@ class MinEncroachment:
                 way.extend((scene.time, scene.time, *place))
 
     def results(self) -> Mapping[str, float | None]:
-        """Return the least of all, then that of each pair."""
+        """Return the least value of all, then that of each pair."""
         ways = {name: np.array(way).reshape(-1, _WIDTH + 1) for name, way in self._ways.items()}
         least = {
             f"{self.name}({one},{other})": _least(ways[one], ways[other])
@@ -55,7 +58,7 @@ class MinEncroachment:
 
 
 def _least(one: Rows, other: Rows) -> float | None:
-    """Return the least time between two boxes at one place."""
+    """Return the least time between two boxes at the same position."""
     reach = np.hypot(one[0, _LENGTH], one[0, _WIDTH]) + np.hypot(
         other[0, _LENGTH], other[0, _WIDTH]
     )
@@ -73,9 +76,9 @@ def _least(one: Rows, other: Rows) -> float | None:
 
 
 def _neighbours(one: Rows, other: Rows, reach: float) -> Iterator[tuple[_Indexes, _Indexes]]:
-    """Yield pairs of places of two ways, among them all that are as near as `reach` (m).
+    """Yield pairs of positions of two paths, including all pairs within `reach` (m).
 
-    The places of one way are looked up in the cells of a grid around those of the other.
+    The positions of one path are looked up in a grid of those of the other.
     """
     cells = _cells(other, reach, (0, 0))
     order = np.argsort(cells, kind="stable")
@@ -98,7 +101,7 @@ def _neighbours(one: Rows, other: Rows, reach: float) -> Iterator[tuple[_Indexes
 
 
 def _cells(places: Rows, edge: float, shift: tuple[int, int]) -> _Indexes:
-    """Return a number for the cell of each place; far cells may share one."""
+    """Return a number for the grid cell of each position; distant cells may share one."""
     column, row = (np.floor(places / edge).astype(np.int64) + shift).T
     cells: _Indexes = (column << 32) ^ (row & 0xFFFFFFFF)
     return cells

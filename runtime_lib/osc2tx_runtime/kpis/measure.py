@@ -15,7 +15,7 @@ class Moving(NamedTuple):
 
     Attributes:
         id: Of the actor.
-        state: Where it is.
+        state: Its state.
         box: Its bounding box.
         vx: Velocity along the x axis of the world (m/s): its speed along its heading.
         vy: The same along y (m/s).
@@ -49,21 +49,21 @@ class Scene(NamedTuple):
 
 
 class Measure(Protocol):
-    """Looks at the steps of one run; made anew for each. All values have SI units.
+    """Evaluates the steps of one run; created anew for each run. All values have SI units.
 
-    Its class may have an attribute `worst`, `min` or `max`: whether the least or the greatest value
-    is the worst one, which a search looks for.
+    Its class may have an attribute `worst`, `min` or `max`: whether a search minimizes or maximizes
+    the value to find the worst case.
     """
 
     def observe(self, scene: Scene) -> None:
-        """Look at a step, the first one included."""
+        """Evaluate a step, including the first."""
 
     def results(self) -> Mapping[str, float | None]:
-        """Return values by name; the name of the measure itself has to be among them."""
+        """Return values by name, including the name of the measure."""
 
 
 def scene_of(context: ExecutionContext, step: int) -> Scene:
-    """Return all actors of a run as they are now."""
+    """Return all actors of a run in their present states."""
     state = context.world.state
     actors = tuple(_moving(actor_id, state(actor_id)) for actor_id in context.cast())
     return Scene(step, step * context.dt, context.dt, actors, context)

@@ -1,7 +1,7 @@
 """Measures of two actors at one step: gap, time to collision, time gap.
 
-Boxes are upright and seen from above. Most pairs are distinguished by the circles around them: only
-pairs that may be nearer than any before are computed exactly.
+Boxes are upright and seen from above. Circles around the boxes exclude most pairs: only pairs that
+may be nearer than all before are computed exactly.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class _Least:
         self._least: dict[tuple[str, str], float] = {}
 
     def results(self) -> Mapping[str, float | None]:
-        """Return the least of all, then that of each pair: `min_gap(ego,other)`."""
+        """Return the least value of all, then that of each pair: `min_gap(ego,other)`."""
         found: dict[str, float | None] = {self.name: min(self._least.values(), default=None)}
         for (one, other), value in sorted(self._least.items()):
             found[f"{self.name}({one},{other})"] = value
@@ -47,7 +47,7 @@ class MinGap(_Least):
     name = "min_gap"
 
     def observe(self, scene: Scene) -> None:
-        """Look at the pairs that may be nearer than before."""
+        """Evaluate the pairs that may be nearer than before."""
         for one, other in pairs_of(scene.actors):
             apart = math.hypot(other.box.x - one.box.x, other.box.y - one.box.y)
             if apart - one.reach - other.reach < self._so_far(one, other):
@@ -57,13 +57,13 @@ class MinGap(_Least):
 class MinTimeToCollision(_Least):
     """Least time to collision (s): until two boxes touch if both continue straight at their speed.
 
-    No value for a pair that was never on such a course; 0 for one that touches.
+    No value for a pair that was never on a collision course; 0 for a pair that touches.
     """
 
     name = "min_ttc"
 
     def observe(self, scene: Scene) -> None:
-        """Look at the pairs whose circles may meet sooner than the boxes ever would."""
+        """Evaluate the pairs whose circles meet sooner than the least time so far."""
         for one, other in pairs_of(scene.actors):
             dx, dy = other.vx - one.vx, other.vy - one.vy
             if _meeting(one, other, dx, dy) < self._so_far(one, other):
@@ -73,7 +73,7 @@ class MinTimeToCollision(_Least):
 
 
 def _meeting(one: Moving, other: Moving, dx: float, dy: float) -> float:
-    """Return after how many seconds the circles around two boxes touch; infinity if never."""
+    """Return the time (s) until the circles around two boxes touch; infinity if never."""
     x, y = other.box.x - one.box.x, other.box.y - one.box.y
     reach = one.reach + other.reach
     gap = x * x + y * y - reach * reach
@@ -87,16 +87,16 @@ def _meeting(one: Moving, other: Moving, dx: float, dy: float) -> float:
 
 
 class MinTimeGap(_Least):
-    """Least time gap (s): in which one at its speed drives to the present rear of the other one.
+    """Least time gap (s): to the rear of the lead vehicle, at the speed of the follower.
 
-    The other one counts if its box is in the straight strip ahead, as wide as the follower. The
-    pair is named with the follower first.
+    The lead vehicle counts if its box is in the straight strip ahead, as wide as the follower. The
+    follower is named first.
     """
 
     name = "min_time_gap"
 
     def observe(self, scene: Scene) -> None:
-        """Look at both orders of each pair."""
+        """Evaluate both orders of each pair."""
         for one, other in pairs_of(scene.actors):
             self._follow(one, other)
             self._follow(other, one)
@@ -138,7 +138,7 @@ def _corners(box: Box) -> list[tuple[float, float]]:
 
 
 def _beyond(box: Box, x: float, y: float) -> float:
-    """Return how far a point is from a box."""
+    """Return the distance of a point from a box."""
     x, y = x - box.x, y - box.y
     along = abs(x * box.cos + y * box.sin) - box.half_length
     across = abs(y * box.cos - x * box.sin) - box.half_width

@@ -26,7 +26,7 @@ class _Greatest:
         self._greatest: dict[str, float] = {}
 
     def results(self) -> Mapping[str, float | None]:
-        """Return the greatest of all, then that of each actor: `max_jerk(ego)`."""
+        """Return the greatest value of all, then that of each actor: `max_jerk(ego)`."""
         found: dict[str, float | None] = {self.name: max(self._greatest.values(), default=None)}
         for actor, value in sorted(self._greatest.items()):
             found[f"{self.name}({actor})"] = value
@@ -45,35 +45,35 @@ class _Greatest:
 
 
 class MaxDeceleration(_Greatest):
-    """Strongest braking (m/s^2): how fast the amount of the speed falls, over a step."""
+    """Greatest deceleration (m/s^2): decrease of the absolute speed over a step."""
 
     name = "max_deceleration"
 
     def observe(self, scene: Scene) -> None:
-        """Look at the last step."""
+        """Evaluate the last step."""
         for actor, before, after in self._steps(scene):
             self._note(actor, (abs(before.v) - abs(after.v)) / scene.dt)
 
 
 class MaxJerk(_Greatest):
-    """Greatest jerk along the way (m/s^3): change of the acceleration from step to step."""
+    """Greatest longitudinal jerk (m/s^3): change of the acceleration from step to step."""
 
     name = "max_jerk"
 
     def observe(self, scene: Scene) -> None:
-        """Look at the last step."""
+        """Evaluate the last step."""
         for actor, before, after in self._steps(scene):
-            if scene.step > 1:  # at the start there was no step to have an acceleration from
+            if scene.step > 1:  # the start has no acceleration of a step
                 self._note(actor, abs(after.a - before.a) / scene.dt)
 
 
 class MaxLateralAcceleration(_Greatest):
-    """Greatest acceleration to the side (m/s^2): speed times turn of the heading, over a step."""
+    """Greatest lateral acceleration (m/s^2): speed times yaw rate over a step."""
 
     name = "max_lateral_acceleration"
 
     def observe(self, scene: Scene) -> None:
-        """Look at the last step."""
+        """Evaluate the last step."""
         for actor, before, after in self._steps(scene):
             turn = math.remainder(after.h - before.h, math.tau) / scene.dt
             self._note(actor, abs(0.5 * (before.v + after.v) * turn))
@@ -97,14 +97,14 @@ MEASURES: Mapping[str, Callable[[], Measure]] = {
         RedLights,
     )
 }
-"""The measures of this package; a campaign takes all of them where it names none."""
+"""The measures of this package; a campaign takes all of them by default."""
 
 
 def measures_by_name(names: Sequence[str]) -> dict[str, Callable[[], Measure]]:
     """Return classes of measures.
 
     Raises:
-        SettingsError: There is none of a name, or it cannot be loaded.
+        SettingsError: A name is unknown, or its class cannot be loaded.
     """
     return {name: MEASURES[name] if name in MEASURES else _installed(name) for name in names}
 
@@ -127,10 +127,10 @@ def _installed(name: str) -> Callable[[], Measure]:
 
 
 class Measuring:
-    """The measures of one run, as its observer; it also keeps what coverage items sample.
+    """The measures of one run, as its observer; it also keeps the samples of coverage items.
 
     Args:
-        makers: Make them, when the run begins.
+        makers: Create the measures when the run begins.
 
     Attributes:
         samples: `cover` or `record`, and the fields of the value in the trace.
@@ -143,14 +143,14 @@ class Measuring:
         self.samples: list[tuple[str, Mapping[str, Any]]] = []
 
     def begin(self, context: ExecutionContext) -> None:
-        """See the actors where they start; what was seen of a start before it does not count."""
+        """Evaluate the start; an earlier attempt at a start does not count."""
         self._context = context
         self._measures = tuple(make() for make in self._makers)
         self.samples.clear()
         self.observe(0)
 
     def observe(self, step: int) -> None:
-        """See where a step led."""
+        """Evaluate a step."""
         assert self._context is not None, "it has begun"
         if not self._measures:
             return
@@ -164,7 +164,7 @@ class Measuring:
         self.samples.append((kind, dict(values)))
 
     def results(self) -> dict[str, float | None]:
-        """Return all values by name; none of a run that never began."""
+        """Return all values by name; empty for a run that never began."""
         found: dict[str, float | None] = {}
         for measure in self._measures:
             found.update(measure.results())

@@ -1,4 +1,4 @@
-"""Measures of what should not happen: collisions, leaving the lanes, passing red lights."""
+"""Measures of rule violations: collisions, leaving the lanes, passing red lights."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .measure import Moving, Scene
 
 
 class Collisions:
-    """How many contacts began; `collision_speed` is the greatest difference of velocities (m/s).
+    """Number of contacts; `collision_speed` is the greatest difference of velocities (m/s).
 
     Attributes:
         found: Time (s), both actors, and the difference of their velocities one step before (m/s).
@@ -26,7 +26,7 @@ class Collisions:
         self.found: list[tuple[float, str, str, float]] = []
 
     def observe(self, scene: Scene) -> None:
-        """Look at the contacts of the last step."""
+        """Evaluate the contacts of the last step."""
         if scene.step > 0:
             for one, other in scene.context.world.collisions():
                 speed = _closing(self._before.get(one), self._before.get(other))
@@ -46,7 +46,7 @@ def _closing(one: Moving | None, other: Moving | None) -> float:
 
 
 class OffRoad:
-    """Time that vehicles spent off all driving lanes (s), the longest of all and that of each."""
+    """Time of vehicles off all driving lanes (s): the longest, and that of each vehicle."""
 
     name = "off_road"
     worst = "max"
@@ -55,7 +55,7 @@ class OffRoad:
         self._seconds: dict[str, float] = {}
 
     def observe(self, scene: Scene) -> None:
-        """Look at where the last step led."""
+        """Evaluate the last step."""
         road_map = scene.context.world.map
         for actor in scene.actors:
             if "vehicle" not in scene.context.actors[actor.id].kinds:
@@ -86,7 +86,7 @@ class RedLights:
         self._criteria: Criteria | None = None
 
     def observe(self, scene: Scene) -> None:
-        """Look at the lines that the last step led over."""
+        """Evaluate the stop lines passed in the last step."""
         if self._criteria is None:
             self._criteria = Criteria(scene.context, ("red_light",), is_noted=False)
         else:

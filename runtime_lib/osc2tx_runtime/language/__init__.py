@@ -1,10 +1,10 @@
-"""The language at run time, without its domain model: any actors, any actions.
+"""The language at run time, without its domain model: independent of actor and action types.
 
 In order of control flow: a `scenario` (`scenario_values`, `scenario_parts`) makes its tree of the
 nodes in `tree`; `registry` finds the class of an `action` by its `method`. All nodes share the
 `context` of a run: its `settings`, its `slots` and its `trace`, and the nodes that are `resting`.
-The language's view of actors and modifiers is in `declared` and `modifier`; `source_map` says which
-line of the scenario is which.
+The language's view of actors and modifiers is in `declared` and `modifier`; `source_map` maps nodes
+to source lines.
 """
 
 from __future__ import annotations

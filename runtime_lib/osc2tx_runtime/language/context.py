@@ -1,12 +1,12 @@
 """The state of one run that all nodes share: clock, events, slots, effects.
 
-No action of a node in a pass may change the values that another node reads in the same pass. So
-nodes hand in their requests here:
+A node must not change values that another node reads in the same pass. So nodes submit their
+requests here:
 
 - `post`, `assign`: an event, a new value become visible with the next pass;
 - `effect`: a change of state at one instant (assign_speed, set_lights), applied together with
   all others once no event of the instant is pending; a new snapshot follows;
-- `claim`, `command`, `release`: the owners of slots, from the settled instant on (`commit`).
+- `claim`, `command`, `release`: the owners of slots, from the settled instant (`commit`).
 """
 
 from __future__ import annotations
@@ -80,12 +80,12 @@ class Monitors(Protocol):
         ...
 
     def observe(self) -> None:
-        """Look at the states of a settled instant."""
+        """Check the states of a settled instant."""
         ...
 
 
 class Entries(Protocol):
-    """What a run needs of what brings actors in that enter later."""
+    """The interface of actors that enter, for a run."""
 
     def begins(self, action: Any) -> None:
         """Note the start of an action."""
@@ -106,21 +106,21 @@ class ExecutionContext:
         step: Present step; `time` is `step * dt`.
         pass_number: Number of the present pass within the step, from 0.
         tick: Number of the present pass within the run, from 1: the clock of events.
-        late: Seconds by which what begins now should have begun before this step: what time ends
-            in a serial carries its exact end on to what follows.
-        snapshot: Number of the values that nodes read: changes with every step, with every pass
-            in which a sampled variable gets a new value, and when effects are carried out.
-        is_placing: The first assignments of the run are not carried out yet; conditions wait.
-        settled: The instant is settled; what is unfinished now is unfinished at this instant.
+        late: Seconds by which the exact start of what begins now precedes this step: in a serial, a
+            member that time ends passes its exact end on to its successor.
+        snapshot: Number of the values that nodes read: changes with each step, with each pass in
+            which a sampled variable gets a new value, and when effects are applied.
+        is_placing: Whether the first assignments of the run are not applied yet; conditions wait.
+        settled: Whether the instant is settled: what is unfinished now remains so at this instant.
         one_of: Policy of the scenario: `race`, `first` or `seeded`.
         random: Seeded generator. For draws inside nodes use `random_for`: two parallel nodes
             that draw from one generator would depend on the order of their visit.
         collisions: Time in seconds and the two actors of each new contact.
-        first_come: Members with a duration or an `until` end with whichever comes first.
-        label_events: (label, `start` | `end` | `fail`) to the event that is waited for.
+        first_come: Whether members with a duration or an `until` end with whichever comes first.
+        label_events: (label, `start` | `end` | `fail`) to the awaited event.
         resting: Nodes of the tree without work until they are woken.
         monitors: Checks the phases of actions; None: no checks.
-        entries: Brings actors in that enter later; None: there are none.
+        entries: Actors that enter; None without any.
     """
 
     def __init__(
@@ -182,7 +182,7 @@ class ExecutionContext:
 
         Args:
             seconds: How long.
-            late: Seconds by which they should have begun before this step.
+            late: Seconds by which their exact start precedes this step.
         """
         left = seconds - late
         steps = max(0, self.steps(left))
@@ -205,31 +205,31 @@ class ExecutionContext:
         return any(self.world.control(actor) not in EXACT for actor in self.cast())
 
     def random_for(self, key: str) -> random.Random:
-        """Return a generator of its own for `key`: same seed and key, same draws."""
+        """Return a separate generator for `key`: the same seed and key give the same draws."""
         return random.Random(f"{self.settings.seed}/{key}")
 
     # --- events and passes ---
 
     def post(self, event: PostedEvent, arguments: Mapping[str, Any] | None = None) -> None:
-        """Let an event occur now; others see it from the next pass of this instant on."""
+        """Post an event; it is visible from the next pass of this instant."""
         self._posted.setdefault(event, []).append(dict(arguments or {}))
         self.trace.event(event.name, arguments)
 
     def assign(self, variable: AssignedVariable, value: Any) -> None:
-        """Give a sampled variable a value; others read it from the next pass of this instant on."""
+        """Set the value of a sampled variable; it is visible from the next pass of this instant."""
         self._assigned[variable] = value
         self._pass_wanted = True
 
     def request_pass(self) -> None:
-        """Ask for one more pass at this instant."""
+        """Request one more pass at this instant."""
         self._pass_wanted = True
 
     def request_settling(self) -> None:
-        """Ask for a pass with `settled` set, after all others of this instant."""
+        """Request a pass with `settled` set, after all others of this instant."""
         self._settling_wanted = True
 
     def begin_step(self, step: int) -> None:
-        """Go to a step; its first pass comes next."""
+        """Advance to a step; its first pass comes next."""
         self.step = step
         self.resting.begin_step(step, self.world.changed)
         self._left.clear()
@@ -239,10 +239,10 @@ class ExecutionContext:
         self.settled = False
 
     def begin_pass(self) -> None:
-        """Start a pass: what was posted before becomes visible.
+        """Start a pass: posted events and values become visible.
 
         Raises:
-            ScenarioError: If the instant does not come to rest.
+            ScenarioError: The instant does not settle.
         """
         self.tick += 1
         self.pass_number += 1
@@ -266,7 +266,7 @@ class ExecutionContext:
         self.resting.begin_pass()
 
     def _assign(self) -> None:
-        """Give variables the values that were assigned."""
+        """Set variables to their assigned values."""
         if self._assigned:
             self.snapshot += 1
             for variable, value in self._assigned.items():
@@ -275,27 +275,30 @@ class ExecutionContext:
             self._assigned.clear()
 
     def has_news(self) -> bool:
-        """Return whether events or values want another pass of this instant."""
+        """Return whether events or values require another pass of this instant."""
         if not self._posted and not self._pass_wanted:
             return False
         self.settled = False
         return True
 
     def carry_out(self) -> None:
-        """Carry out the effects together."""
+        """Apply the effects together."""
         self.effects.apply()
         self.snapshot += 1
         self.settled = False
         self.resting.wake_all()
 
     def placed(self) -> None:
-        """Let conditions see the actors, which are where the first assignments put them."""
+        """Enable conditions: the first assignments have placed the actors."""
         self.is_placing = False
         self.snapshot += 1
         self.resting.wake_all()
 
     def settles(self) -> bool:
-        """Return whether a pass is wanted after all others of this instant; say so in `settled`."""
+        """Return whether a pass is requested after all others of this instant.
+
+        Then set `settled`.
+        """
         if not self._settling_wanted:
             return False
         self.settled = True
@@ -310,23 +313,23 @@ class ExecutionContext:
         self.slots.claim((actor_id, slot), owner)
 
     def release(self, actor_id: str, slot: str, owner: Owner, momentary: bool = False) -> None:
-        """Give a slot up. Without a new owner the actor holds its speed or keeps its lane.
+        """Release a slot. Without a new owner the actor holds its speed or keeps its lane.
 
         Args:
             actor_id: The actor.
             slot: The slot.
             owner: The previous owner.
-            momentary: It had it for no time, to change a state.
+            momentary: Whether it held the slot for no time, to change a state.
         """
         self.slots.release((actor_id, slot), owner)
         if momentary:
             self.slots.pass_through((actor_id, slot), owner)
 
     def leave(self, actor_id: str, slot: str, model: str, command: Command | None) -> None:
-        """Let a slot without owner pursue the command of a behavioral model; None: hold, keep.
+        """Set the command of a slot without owner, from a behavioral model; None: hold, keep.
 
         Raises:
-            ScenarioError: At this instant it was left to another model.
+            ScenarioError: Another model was set at this instant.
         """
         other = self._left.setdefault(actor_id, model)
         if other != model:
@@ -348,12 +351,12 @@ class ExecutionContext:
     def effect(
         self, key: tuple[str, ...], owner: Owner, value: object, apply: Callable[[], None]
     ) -> None:
-        """Ask for a change of state at this instant.
+        """Request a change of state at this instant.
 
         Args:
             key: The changed quantity, as in ("speed", "hero").
             owner: The action that changes it.
-            value: New value: two actions that are not in sequence may only set equal ones.
+            value: New value: two actions that are not in sequence may only set equal values.
             apply: Applies it at this instant: calls of the world and the trace.
         """
         self.effects.add(key, Effect(owner, value, apply))
@@ -363,12 +366,12 @@ class ExecutionContext:
         self.slots.send(self.world)
 
     def note_collision(self, step: int, one: str, other: str) -> None:
-        """Note a contact that began on the way to a step."""
+        """Note a contact that began during a step."""
         self.collisions.append((step * self.dt, one, other))
         self.trace.collision((one, other))
 
     def clear(self) -> None:
-        """Forget claims, effects and posted events; the run is over."""
+        """Clear claims, effects and posted events at the end of the run."""
         self.slots = Slots()
         self.effects.clear()
         self._posted.clear()

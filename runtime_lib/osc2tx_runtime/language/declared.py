@@ -1,4 +1,4 @@
-"""Bases of declared actors and objects, as far as the language needs to know them."""
+"""Bases of declared actors and objects, as far as the language requires them."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ class _NotGiven:
 
 
 not_given: Any = _NotGiven()
-"""Value of a field of a user's own type that is neither mentioned in its file nor given."""
+"""Value of a field of a user-defined type that is neither stated in its file nor given."""
 
 
 class DeclaredObject:
-    """Something that a scenario declares.
+    """An object that a scenario declares.
 
     Attributes:
-        source: Where it is declared.
+        source: Source position of its declaration.
     """
 
     source: str | None = None
@@ -35,7 +35,7 @@ class BaseActor(DeclaredObject):
 
     Attributes:
         kinds: Actor kinds of the DSL, most derived first.
-        one_per_run: Scenarios that are invoked share the one of the scenario that runs.
+        one_per_run: Whether invoked scenarios share the instance of the main scenario.
         id: Name of the field that holds it; given by the scenario.
     """
 
@@ -54,7 +54,7 @@ ObjectT = TypeVar("ObjectT")
 
 
 def as_type(value: object, kind: type[ObjectT]) -> ObjectT:
-    """Return an actor or a struct as one of a more special type.
+    """Return an actor or a struct as an instance of a more special type.
 
     Raises:
         ScenarioError: If there is none.
@@ -73,8 +73,8 @@ def member_at(values: Sequence[MemberT], index: int) -> MemberT:
     """Return a member of a list by its index, which counts from 0 (§7.4.2.7.2).
 
     Raises:
-        LookupError: There is none: the list is shorter, or the index is negative, as that of
-            `first_index` where it finds nothing.
+        LookupError: The index is out of range: beyond the end, or negative, as the result of
+            `first_index` without a match.
     """
     if not 0 <= index < len(values):
         raise LookupError(f"a list of {len(values)} has no member with the index {index}")
@@ -82,10 +82,10 @@ def member_at(values: Sequence[MemberT], index: int) -> MemberT:
 
 
 def undefined(method: str) -> NoReturn:
-    """Stand for the body of a method that has none (§7.3.7.1).
+    """Represent the body of an undefined method (§7.3.7.1).
 
     Raises:
-        ScenarioError: Always: it is invoked.
+        ScenarioError: Always.
     """
     raise ScenarioError(
         f"method `{method}` is undefined: override it, `is only expression …`, "

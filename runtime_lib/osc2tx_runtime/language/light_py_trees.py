@@ -1,8 +1,8 @@
 """py_trees without the modules of its viewers and demos, which are loaded on first use.
 
-`import py_trees` loads all of its modules, and with them pydot and multiprocessing: a fifth of the
-start of a run, which needs five of its modules. Imported from here, each of the others is loaded
-when one of its names is first used; the difference is invisible.
+`import py_trees` loads all of its modules, with pydot and multiprocessing: a fifth of the start of
+a run, which uses five of them. Imported from here, each of the others is loaded when one of its
+names is first used.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from types import ModuleType
 
 
 class _Later:
-    """Finds modules of py_trees, to be loaded later."""
+    """Finder of py_trees modules that are loaded lazily."""
 
     @staticmethod
     def find_spec(

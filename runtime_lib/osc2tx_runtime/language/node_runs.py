@@ -1,4 +1,4 @@
-"""When the nodes of a tree ran, for the `tree` line of the trace."""
+"""The times at which nodes of a tree run, for the `tree` line of the trace."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The nodes of a tree in the order of the scenario, with the words that people know them by."""
+"""The nodes of a tree in the order of the scenario, with their descriptions."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ class OutlineNode:
 
     Attributes:
         node: The node itself.
-        last: For each level from the root down, whether the branch ends there.
+        last: For each level from the root, whether the branch ends there.
         kind: `serial`, `action`, `wait`, …
-        text: Name of the node, or what it does.
+        text: Name of the node, or its activity.
         label: The label of an action or a directive, with which `text` begins; empty without one.
             The name of a composition is its text.
         source: Position in the scenario, `file:line`; empty if unknown.
@@ -66,7 +66,7 @@ def _kind(node: Behaviour) -> str:
 
 
 def _label(node: Behaviour) -> str:
-    """The label that stands before it in the scenario; `until` has taken it over."""
+    """The label before it in the scenario, which `until` has taken over."""
     if isinstance(node, (Composition, Until)):
         return ""
     label, above = getattr(node, "label", None), node.parent
@@ -76,7 +76,7 @@ def _label(node: Behaviour) -> str:
 
 
 def _text(node: Behaviour) -> str:
-    """The name, without the kind if it repeats it; a label with the activity under it."""
+    """The name, without the kind if it repeats it; a label with its activity."""
     kind, label = _kind(node), _label(node)
     if isinstance(node, BaseAction) and label:
         return f"{label}: {node.action_name}"

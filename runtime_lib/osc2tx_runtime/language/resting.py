@@ -1,9 +1,8 @@
-"""Nodes that have nothing to do, and what wakes them.
+"""Resting nodes, and their wake-up conditions.
 
-A node without any change to find rests; a composition whose members all rest does so too, and a
-tree that rests as a whole is not visited. The conditions of a node are checked here, in each pass,
-or arrive by themselves: news of an actor, a time. Events, new values of variables and effects wake
-all.
+A node without possible changes rests; so does a composition whose members all rest, and a tree that
+rests as a whole is not visited. The conditions of a node are checked here in each pass, or are
+notified: a change of an actor, a time. Events, new values of variables and effects wake all nodes.
 """
 
 from __future__ import annotations
@@ -32,10 +31,10 @@ class Resting:
         self._next = NEVER  # the first of these steps
         self._unless: dict[Behaviour, Sequence[Callable[[], bool]]] = {}
 
-    # --- what wakes ---
+    # --- wake-up conditions ---
 
     def with_actor(self, node: Behaviour, actor_id: str) -> None:
-        """Wake a node when there is news of an actor."""
+        """Wake a node when the motion of an actor changes."""
         self._with.setdefault(actor_id, {})[node] = None
 
     def until(self, node: Behaviour, step: int) -> None:
@@ -50,7 +49,7 @@ class Resting:
     # --- time ---
 
     def begin_step(self, step: int, changed: Callable[[], Iterable[str]]) -> None:
-        """Wake nodes whose time has come, or whose actors have changed."""
+        """Wake nodes that are due, or whose actors have changed."""
         if self._with:
             for actor_id in changed():
                 for node in self._with.pop(actor_id, ()):
@@ -61,7 +60,7 @@ class Resting:
             self._next = min(self._until.values(), default=NEVER)
 
     def begin_pass(self) -> None:
-        """Wake nodes whose condition is true; conditions without a value are left to the nodes."""
+        """Wake nodes whose condition is true; nodes report conditions without a value."""
         for node in [n for n, conditions in self._unless.items() if self._is_any(conditions)]:
             self.wake(node)
 
@@ -76,7 +75,7 @@ class Resting:
         return False
 
     def wake(self, node: Behaviour) -> None:
-        """Have a node visited again."""
+        """Wake a node."""
         self._unless.pop(node, None)
         self._until.pop(node, None)
         above: Behaviour | None = node
@@ -85,7 +84,7 @@ class Resting:
             above = above.parent
 
     def wake_all(self) -> None:
-        """Have all nodes visited again; nodes without work come back."""
+        """Wake all nodes; nodes without work rest again."""
         self.nodes.clear()
         self._with.clear()
         self._until.clear()

@@ -38,7 +38,7 @@ EventT = TypeVar("EventT", bound=Event)
 
 
 class BaseScenario(ScenarioParts):
-    """A scenario, whatever its actors are.
+    """A scenario, independent of its actor types.
 
     Args:
         settings: Of the run.
@@ -67,7 +67,7 @@ class BaseScenario(ScenarioParts):
         """Set the cast, events and values as attributes."""
 
     def placement(self) -> None:
-        """Call `place` for the actors that do not start just anywhere."""
+        """Call `place` for actors with constraints on their start."""
 
     def behavior(self) -> Behaviour:
         """Return the tree."""
@@ -76,15 +76,15 @@ class BaseScenario(ScenarioParts):
 
     @classmethod
     def is_abstract(cls) -> bool:
-        """Whether a scenario is only there for others to inherit: it has no behavior."""
+        """Whether a scenario only serves as a base: it has no behavior."""
         return cls.behavior is BaseScenario.behavior
 
     # --- used by generated classes ---
 
     def cast(self, name: str, declared: ActorT) -> ActorT:
-        """Return the actor of a role: the one that the invoker hands in, else the declared one.
+        """Return the actor of a role: that of the invoker, else the declared one.
 
-        Of maps and environments there is one in a run: all scenarios share it.
+        All scenarios of a run share one map and one environment.
 
         Args:
             name: Name of the role.
@@ -98,7 +98,7 @@ class BaseScenario(ScenarioParts):
         return self._only(declared) if declared.one_per_run else declared
 
     def global_object(self, name: str, declared: AnyT) -> AnyT:
-        """Return a global actor or struct: the one that the first scenario of the run made.
+        """Return a global actor or struct: that of the first scenario of the run.
 
         Args:
             name: Name of the global parameter.
@@ -117,15 +117,15 @@ class BaseScenario(ScenarioParts):
         throughout: bool = False,
         implied: bool = False,
     ) -> None:
-        """Say where and how an actor starts.
+        """State the start of an actor.
 
         Args:
             actor: The actor.
             *modifiers: Conditions at the start.
-            throughout: The first action establishes all of it anyway: where the scenario is invoked
-                in the middle of a run, no actor is placed.
-            implied: Nothing states it, but the first action of the actor needs it, or goes on with
-                it. Void if something else says how the actor starts, or if it is there already.
+            throughout: The first action also establishes it: if the scenario is invoked during a
+                run, no actor is placed.
+            implied: It is not stated, but implied by the first action of the actor. Ignored if the
+                start is stated otherwise, or if the actor is already placed.
         """
         source = self._source_map.of_placement(len(self.placements))
         self.placements.append(Placement(actor, modifiers, source, throughout, implied))
@@ -139,18 +139,18 @@ class BaseScenario(ScenarioParts):
         condition: Guard | None = None,
         name: str = "",
     ) -> AnyT:
-        """Make a variable: `self.v = self.sample(lambda: self.ego.speed, self.near, 0 * mps)`.
+        """Create a variable: `self.v = self.sample(lambda: self.ego.speed, self.near, 0 * mps)`.
 
         Read later, `self.v` is its latest value: `default`, and from the pass after an occurrence
-        on what `expression` gave at that occurrence.
+        the value of `expression` at that occurrence.
 
         Args:
             expression: Gives the new value.
             trigger: When: an event, a condition or a boolean function; `"start"` and `"end"` refer
                 to this scenario.
-            default: Value before the first sample; without it the variable cannot be read before.
+            default: Value before the first sample; without it, earlier reads are an error.
             condition: With an event: only an occurrence at which this is true counts.
-            name: Name in the scenario, where its attribute cannot have it (`from`).
+            name: Name in the scenario, if an attribute cannot have it (`from`).
         """
         variable: Any = Sampled(expression, trigger, default, condition, name)
         return variable  # type: ignore[no-any-return]
@@ -192,24 +192,23 @@ class BaseScenario(ScenarioParts):
     ) -> Behaviour:
         """Invoke another scenario: `self.invoke("p1", Approach, actor=self.ego, lead=self.car1)`.
 
-        Its random values depend on the seed and on the label; without one on its name and the names
-        of the actors, not on the order of invocations.
+        Its random values depend on the seed and on the label; without a label, on its name and the
+        names of the actors; not on the order of invocations.
 
         Args:
             *label_and_scenarios: Its class, and conditional ones that run instead if the arguments
-                say so: `Phase, SlowPhase.when(fast=False)`. The label before them may be left out;
-                it is the name for `@label.end`, for settings (`--set label.gap=12`) and in the
-                trace.
+                match: `Phase, SlowPhase.when(fast=False)`. The label is optional; it is the name
+                for `@label.end`, for settings (`--set label.gap=12`) and in the trace.
             actor: Its `actor`, for a scenario of an actor.
-            duration: Seconds, or (least, most) seconds, that it takes.
+            duration: Its duration: seconds, or (least, most) seconds.
             known_as: Its name in settings and in the trace if it has no label; else the name of the
                 scenario, numbered in the order of the calls.
             times: Seconds that it and what it invokes would draw, by path, `{"p1.wait time": 2.0}`.
-            **arguments: Its parameters (a range is drawn from) and actors. A function gives a value
-                when the invocation starts, and the invocation is made then.
+            **arguments: Its parameters (drawn from ranges) and actors. Functions are evaluated when
+                the invocation starts, and it is created then.
 
         Raises:
-            ScenarioError: If it does not take the arguments.
+            ScenarioError: The arguments do not match.
         """
         label, (scenario, *specials) = split_label(label_and_scenarios)
         given = arguments if actor is None else {"actor": actor, **arguments}
@@ -240,18 +239,18 @@ class BaseScenario(ScenarioParts):
 
     @classmethod
     def when(cls, **values: Any) -> Special[BaseScenario]:
-        """Return this scenario as one that runs instead of its base: `SlowPhase.when(fast=False)`.
+        """Return this scenario as a variant of its base: `SlowPhase.when(fast=False)`.
 
         Args:
-            **values: The arguments that an invocation of the base has then.
+            **values: The arguments of the base for which it runs.
         """
         return Special(cls, values)
 
     def override(self, overridden: str, by: str, mode: Mode = "on_start") -> None:
-        """Let a behavior end another when it starts; call it in `behavior`.
+        """Let the start of a behavior end another; call it in `behavior`.
 
         Args:
-            overridden: Label of the behavior that ends.
+            overridden: Label of the overridden behavior.
             by: Label of the behavior that overrides it.
             mode: `when_active`: it also does not start while the other behavior runs.
         """
@@ -291,7 +290,7 @@ class BaseScenario(ScenarioParts):
     # --- used by the runtime ---
 
     def create_tree(self) -> Behaviour:
-        """Return the tree, each node with its place in the scenario."""
+        """Return the tree, each node with its source position."""
         self._invoked, self._keys, self._overrides = {}, {}, []
         tree = assemble(self, self._computed(self.behavior))
         if self._caller is None:
@@ -306,17 +305,20 @@ class BaseScenario(ScenarioParts):
         return tree
 
     def completed(self, tree: Behaviour) -> Behaviour:
-        """Return the whole tree of a run with what the domain adds to it."""
+        """Return the whole tree of a run with the nodes of the domain."""
         return tree
 
     def _computed(self, method: Callable[[], AnyT]) -> AnyT:
-        """Call a method of the generated class; a value without result is an error of it."""
+        """Call a method of the generated class.
+
+        A value without result is an error of the scenario.
+        """
         try:
             return method()
         except NO_RESULT as error:
             raise not_computed(error, self._source_map, 0) from error
 
-    if not TYPE_CHECKING:  # so that type checkers still know which attributes there are
+    if not TYPE_CHECKING:  # so that type checkers still know the attributes
 
         def __setattr__(self, name: str, value: Any) -> None:
             if isinstance(value, Sampled):

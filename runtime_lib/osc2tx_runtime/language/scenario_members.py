@@ -14,13 +14,13 @@ if TYPE_CHECKING:
 
 
 def name_members(scenario: ScenarioParts) -> None:
-    """Give actors, map objects and events their names, and note them."""
+    """Set the names of actors, map objects and events, and register them."""
     place_of = scenario._source_map.of_field
     handed_in = {id(actor) for actor in scenario._arguments.values()}
     handed_in.update(id(actor) for actor in scenario._root.actors.values())
     shared = {id(value): name for name, value in scenario._shared_objects.items()}
     for attribute, value in vars(scenario).items():
-        own = attribute  # but where it cannot have the name of the scenario
+        own = attribute  # unless an attribute cannot have the name of the scenario
         if isinstance(value, Event):
             own = value.name or own
         elif isinstance(value, BaseActor):
@@ -28,7 +28,7 @@ def name_members(scenario: ScenarioParts) -> None:
         path = f"{scenario._path}.{own}" if scenario._path else own
         if isinstance(value, BaseActor) and id(value) not in handed_in:
             name = shared.get(id(value))
-            if name is not None:  # as the scenario that runs sees it, if nothing hides it there
+            if name is not None:  # as in the main scenario, if nothing hides it there
                 path = name if _is_free(name, value, scenario) else f"::{name}"
             value.id = path
             value.source = place_of(attribute)
@@ -46,11 +46,11 @@ def _is_free(name: str, actor: BaseActor, scenario: ScenarioParts) -> bool:
 
 
 def check_arguments(scenario: ScenarioParts) -> None:
-    """Refuse arguments that are no parameter and no actor of the scenario.
+    """Reject arguments that are neither parameters nor actors of the scenario.
 
     Raises:
-        TypeError: A program calls the class so.
-        ScenarioError: A scenario invokes it so.
+        TypeError: A program passes them.
+        ScenarioError: An invocation passes them.
     """
     fixed = (name for name, narrowed in scenario._narrowed.items() if narrowed.is_fixed)
     known = (*scenario.parameters, *scenario._composite, *fixed)
@@ -66,7 +66,7 @@ def check_arguments(scenario: ScenarioParts) -> None:
 
 
 def check_settings(scenario: ScenarioParts) -> None:
-    """Report settings that name nothing of this scenario."""
+    """Report settings with names that the scenario does not have."""
     settings = scenario.settings
     check_known("--set", "parameter", settings.set, scenario.parameters)
     check_known("--signal", "event", settings.signal, scenario.events)

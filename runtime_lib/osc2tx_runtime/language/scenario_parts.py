@@ -25,14 +25,14 @@ class ScenarioParts(ScenarioValues):
     Args:
         settings: Of the run.
         caller: The scenario that invokes this one.
-        arguments: Values of parameters, and actors that take the place of the declared ones.
+        arguments: Values of parameters, and actors that replace the declared ones.
 
     Attributes:
         name: Name in the scenario file.
         source: Scenario file.
         one_of: How `OneOf` chooses: `race`, `first` or `seeded`.
         first_come: Durations and `until` end with whichever comes first, as in dialect `carla`.
-        is_main: It is the default scenario of its module.
+        is_main: Whether it is the default scenario of its module.
         settings: Of the run.
         actors: Declared actors by id, in order; the scenario that runs also has those of all that
             it invokes.
@@ -40,7 +40,7 @@ class ScenarioParts(ScenarioValues):
         events: Declared events by name, in order; likewise.
         parameters: Values of the parameters, in order; likewise.
         placements: The requests of `placement`; likewise, once there is a tree.
-        label_events: (label, `start` | `end` | `fail`) to the event that is waited for.
+        label_events: (label, `start` | `end` | `fail`) to the awaited event.
     """
 
     name: ClassVar[str] = ""
@@ -80,7 +80,7 @@ class ScenarioParts(ScenarioValues):
 
     @property
     def short_name(self) -> str:
-        """The name without that of the actor, of `vehicle.approach`."""
+        """The name without that of the actor: `approach` of `vehicle.approach`."""
         return self.name.rpartition(".")[2]
 
     def invoked(self, label: str) -> Any:
@@ -91,7 +91,7 @@ class ScenarioParts(ScenarioValues):
         return self._invoked[label]
 
     def _only(self, declared: ActorT) -> ActorT:
-        """Return the actor of a type of which a run has one, if a caller has it already."""
+        """Return the unique actor of a type, if a caller has it already."""
         actors = self._root.actors.values() if self._caller is not None else ()
         return next((actor for actor in actors if type(actor) is type(declared)), declared)
 
@@ -107,8 +107,8 @@ class Caller:
 
     Attributes:
         scenario: The scenario that invokes.
-        path: Path of the invocation: the labels from the scenario that runs down to it.
-        key: Names its draws from the seed.
+        path: Path of the invocation: the labels from the main scenario to it.
+        key: Key of its draws from the seed.
         arguments: As given.
         times: Seconds that the invoked scenario would draw, and what it invokes, by path.
     """
@@ -120,10 +120,10 @@ class Caller:
     times: Mapping[str, float]
 
     def cast(self, name: str, declared: ActorT) -> ActorT | None:
-        """Return the actor handed in for a declared one; `None` if none is.
+        """Return the actor passed for a declared one; `None` without one.
 
         Raises:
-            ScenarioError: If an actor of another kind was handed in.
+            ScenarioError: An actor of another kind was passed.
         """
         given = self.arguments.get(name)
         if given is None:

@@ -15,7 +15,7 @@ from osc2tx_runtime.world.protocol import ControlMode
 from osc2tx_shared.classes import dataclass
 
 MOST_STEPS = 100_000_000
-"""Upper limit of the length of a run: hours of computing."""
+"""Upper limit of the length of a run (steps): hours of computing."""
 
 FAIL_ON = ("collision", "off_road", "red_light")
 """The criteria of a failed run."""
@@ -29,7 +29,7 @@ class RunSettings:
         map_path: Folders searched for map files, before the maps of this package; a file among
             them is used as the map itself.
         world: Name of the world to run in.
-        world_options: Values of its own options, by `Option.field`.
+        world_options: Values of the options of the world, by `Option.field`.
         control: Control mode of an actor, by id; `""` stands for all others. Default: of the world.
         expect: Commands to external actors become expectations, not errors.
         physics: Response to motions beyond the limits of tyres: `warn` or `fail`.
@@ -38,16 +38,16 @@ class RunSettings:
         fail_on: Further criteria of failure, see `FAIL_ON`.
         signal: Events given from outside: name to time in seconds.
         spawn: Start position of actors: id to (road id, lane id, road s in metres).
-        destination: Where vehicles go: id to an actor id or `ROAD,LANE,S`.
+        destination: Destinations of vehicles: id to an actor id or `ROAD,LANE,S`.
         set: Values of the scenario's parameters, SI units: name to number or text.
-        seed: Of all that is sampled.
-        draw: Which draw of the seed counts; the map has no room for those before.
+        seed: Seed of all sampled values.
+        draw: Number of the draw of the seed; earlier draws do not fit the map.
         dt: Length of a step in seconds.
         max_time: Simulated seconds after which the run ends with status `timeout`.
-        trace: Where to write the trace (JSON Lines).
-        report: Where to write the report (HTML).
+        trace: File of the trace (JSON Lines).
+        report: File of the report (HTML).
         allow_external: Functions of the user that the scenario may call, `module.function`.
-        draws: Gives the random number of a parameter, by its name; default: from the seed.
+        draws: Returns the random number of a parameter, by its name; default: from the seed.
     """
 
     map_path: tuple[Path, ...] = ()
@@ -94,7 +94,7 @@ class RunSettings:
 
 
 def check_known(option: str, what: str, given: Any, known: Any) -> None:
-    """Raise SettingsError for a name of the settings that the scenario does not have."""
+    """Raise SettingsError for names in the settings that the scenario does not have."""
     for name in given:
         if name not in known:
             has = f"it has {', '.join(known)}" if known else "it has none"

@@ -1,8 +1,8 @@
 """Slots of actors with their owners and commands; effects of one instant.
 
-Slots are judged when the instant is settled, so a hand-over from one action to the next is silent
-in whatever order the tree visits them, and two parallel actions on one slot are reported. Effects
-are carried out within the instant, all that are wanted at a time together.
+Slots are checked when the instant is settled: a hand-over from one action to the next is silent,
+whatever the order of the visit, and two parallel actions on one slot are reported. Effects are
+applied within the instant, all requested ones together.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ SlotKey = tuple[str, str]  # (actor id, slot)
 
 
 class Owner(Protocol):
-    """What controls a slot: an action, a node of the tree."""
+    """The owner of a slot: an action, a node of the tree."""
 
     name: str
     source: str
@@ -28,7 +28,7 @@ class Owner(Protocol):
 
 
 class Slots:
-    """Owners of the slots, and the commands they want carried out."""
+    """Owners of the slots, and their commands."""
 
     def __init__(self) -> None:
         self._owners: dict[SlotKey, dict[Owner, Command | None]] = {}
@@ -39,31 +39,31 @@ class Slots:
 
     @property
     def is_touched(self) -> bool:
-        """Whether anything happened to them at this instant."""
+        """Whether they changed at this instant."""
         return bool(self._touched or self._passed)
 
     def leave(self, key: SlotKey, command: Command | None) -> None:
-        """Let a slot pursue a command while it has no owner; None holds the present motion."""
+        """Set the command of a slot without owner; None holds the present motion."""
         if command is not self._left.get(key):
             self._left[key] = command
             self._touched[key] = None
 
     def claim(self, key: SlotKey, owner: Owner) -> None:
-        """Make `owner` an owner of the slot; claiming twice is claiming once."""
+        """Make `owner` an owner of the slot; a repeated claim has no effect."""
         self._owners.setdefault(key, {}).setdefault(owner, None)
         self._touched[key] = None
 
     def release(self, key: SlotKey, owner: Owner) -> None:
-        """Give the slot up; nothing happens if `owner` does not own it."""
+        """Release the slot; no effect if `owner` does not own it."""
         owners = self._owners.get(key, {})
         if owner in owners:
             del owners[owner]
             self._touched[key] = None
 
     def pass_through(self, key: SlotKey, owner: Owner) -> None:
-        """Note an owner that had the slot for no time, and changed a state that it controls.
+        """Note an owner that held the slot for no time, and changed a state that it controls.
 
-        Earlier commands no longer count, and a simultaneous owner of the slot is in conflict.
+        Earlier commands are void, and a simultaneous owner of the slot is in conflict.
         """
         self._passed.setdefault(key, []).append(owner)
 
@@ -94,14 +94,14 @@ class Slots:
                 yield key, owners
 
     def passed(self) -> Iterator[tuple[SlotKey, Owner, Owner]]:
-        """Yield the slots that an owner had for no time while another has them, with both."""
+        """Yield slots that an owner held for no time while another holds them, with both."""
         for key in sorted(self._passed):
             for owner in self._passed[key]:
                 for live in self._owners.get(key, ()):
                     yield key, owner, live
 
     def send(self, world: World) -> None:
-        """Hand the changed commands to the world; an unowned slot gets its default."""
+        """Send the changed commands to the world; a slot without owner gets its default."""
         for key in sorted(self._touched):
             owners = self._owners.get(key, {})
             command = next(iter(owners.values()), self._left.get(key))
@@ -113,7 +113,7 @@ class Slots:
 
 
 class Effect(NamedTuple):
-    """A change of state one action asks for."""
+    """A change of state that an action requests."""
 
     owner: Owner
     value: Any
@@ -128,13 +128,13 @@ class Effects:
         self._done: dict[tuple[str, ...], list[Effect]] = {}
 
     def begin_step(self) -> None:
-        """Forget what was carried out at the instant before."""
+        """Clear the effects of the instant before."""
         self._done.clear()
 
     def add(self, key: tuple[str, ...], effect: Effect) -> None:
-        """Remember an effect, unless its owner had it carried out at this instant already.
+        """Add an effect, unless its owner has already applied it at this instant.
 
-        A later one of the same owner takes its place.
+        A later one of the same owner replaces it.
         """
         done = self._done.get(key)
         if done and done[-1].owner is effect.owner and done[-1].value == effect.value:
@@ -142,7 +142,7 @@ class Effects:
         self._wanted.setdefault(key, {})[effect.owner] = effect
 
     def withdraw(self, owner: Owner) -> None:
-        """Forget the requests of an owner."""
+        """Remove the requests of an owner."""
         for effects in self._wanted.values():
             effects.pop(owner, None)
 

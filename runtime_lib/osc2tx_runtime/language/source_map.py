@@ -1,6 +1,6 @@
 """Reader of the source map beside a generated module.
 
-It holds numbers only and decides nothing: without it, messages and traces name the file alone.
+It only contains positions: without it, messages and traces only name the file.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class SourceMap:
     """The map of one scenario.
 
     Attributes:
-        file: Scenario file, as shown to readers.
+        file: Scenario file, as shown in messages.
         fields: Line and column of the fields, by name.
         constraints: Positions of the `keep` calls, in order.
         placements: Positions of the `place` calls, in order.
@@ -43,11 +43,11 @@ class SourceMap:
     modifiers: Mapping[int, tuple[Entry | None, ...]] = field(default_factory=dict)
 
     def place(self, entry: Entry | None) -> str:
-        """Return `file:line`, which knows its column, or the file alone."""
+        """Return `file:line` with its column, or only the file."""
         return self.file if entry is None else SourcePlace(self.file, *entry)
 
     def of_field(self, name: str) -> str:
-        """Return the place of a field."""
+        """Return the position of a field."""
         return self.place(self.fields.get(name))
 
     def of_placement(self, index: int) -> str:
@@ -60,13 +60,13 @@ class SourceMap:
 
 
 _MAPS: WeakKeyDictionary[type, SourceMap] = WeakKeyDictionary()
-"""By class: each invocation of a scenario asks."""
+"""Cache by class, for repeated invocations."""
 
 
 def read_source_map(scenario: type, name: str, file: str) -> SourceMap:
     """Read the map beside the module of a scenario class, once for each class.
 
-    A missing or unreadable map is no error, nor is one of another module.
+    A missing or unreadable map is not an error, nor is that of another module.
 
     Args:
         scenario: The class.
@@ -99,7 +99,7 @@ def _bytes_of(path: str) -> bytes:
 
 
 def parse_source_map(entry: Mapping[str, Any], file: str) -> SourceMap:
-    """Return the map of one scenario from its JSON object; invalid entries are left out."""
+    """Return the map of one scenario from its JSON object; invalid entries are omitted."""
     fields = _table(entry.get("fields"))
     return SourceMap(
         file=file,

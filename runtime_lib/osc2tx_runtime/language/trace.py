@@ -23,11 +23,11 @@ ACTION_ORDER = {"start": 0, "end": 1, "fail": 2}
 
 
 def number(value: float | None) -> str:
-    """Return a number as the trace writes it: with few decimals, no minus zero."""
+    """Return a number in the format of the trace: with few decimals, without minus zero."""
     if value is None:
         return "null"
     text = repr(round(value, DECIMALS) + 0.0)
-    return "null" if "n" in text else text  # nan and inf are no JSON
+    return "null" if "n" in text else text  # JSON has no nan and inf
 
 
 def to_json(value: Any, *, exact: bool = False) -> str:
@@ -80,16 +80,16 @@ class TracedAction(Protocol):
 class TraceWriter:
     """Makes the lines of a run.
 
-    What happens at one instant is kept until `end_instant` and written in a fixed order, so that
-    the order in which the tree visits parallel members does not show.
+    The lines of one instant are kept until `end_instant` and written in a fixed order, independent
+    of the order in which the tree visits parallel members.
 
     Args:
-        *takers: Called with the lines of each instant; the writer keeps none of them.
-        on_sample: Called with the value of each coverage item, also if nothing takes the lines.
-        on_states: Called with the states of each instant, which then are no lines.
+        *takers: Called with the lines of each instant; the writer does not keep them.
+        on_sample: Called with the value of each coverage item, also without takers.
+        on_states: Called with the states of each instant, instead of lines.
 
     Attributes:
-        enabled: Whether something takes the lines.
+        enabled: Whether the lines are taken.
     """
 
     def __init__(
@@ -110,10 +110,10 @@ class TraceWriter:
         self._written: dict[str, tuple[ActorState, str]] = {}
         self._runs = NodeRuns()
 
-    # --- what happens at the present instant ---
+    # --- lines of the present instant ---
 
     def event(self, name: str, arguments: Mapping[str, Any] | None = None) -> None:
-        """Note that an event occurs; equal ones of one instant are one."""
+        """Note an occurrence; equal ones of one instant count once."""
         if self.enabled:
             values = {key: arguments[key] for key in sorted(arguments)} if arguments else {}
             self._events.add((name, f',"arguments":{to_json(values)}' if values else ""))
@@ -129,9 +129,9 @@ class TraceWriter:
 
         Args:
             status: `start`, `end` or `fail`.
-            action: Which one.
-            reason: Why, where it is not plain.
-            deviation: How far a driven actor is from where it was to be.
+            action: The action.
+            reason: The reason, unless obvious.
+            deviation: Deviation of a driven actor from its command.
         """
         if not self.enabled:
             return
@@ -152,7 +152,7 @@ class TraceWriter:
         self.other(0, "lights", actor=actor_id, mode=mode)
 
     def environment(self, **values: Any) -> None:
-        """Note new values of the environment, SI units; values of one instant are one line."""
+        """Note new values of the environment, SI units; values of one instant share a line."""
         self._environment.update(values)
 
     def signal(
@@ -177,9 +177,9 @@ class TraceWriter:
             self._listed(5, "override", {"name": name, "what": what, "by": by}, source)
 
     def variable(self, name: str, value: Any) -> None:
-        """Note the first value of a sampled variable, and every new one from then on.
+        """Note the first value of a sampled variable, and each new one.
 
-        The last one of an instant counts.
+        The last value of an instant counts.
         """
         if name not in self._values or self._values[name] != value:
             self._values[name] = value
@@ -205,15 +205,15 @@ class TraceWriter:
     def _listed(
         self, rank: int, kind: str, values: Mapping[str, Any], source: str | None = None
     ) -> None:
-        """Keep a line of which there may be several, whatever they are about."""
+        """Keep a line of a kind that may occur several times per instant."""
         text = to_json(values)[1:-1]
         place = "" if source is None else f',"source":{json.dumps(source)}'
         self._others[rank, kind, text] = f'"kind":{json.dumps(kind)},{text}{place}'
 
     def other(self, rank: int, kind: str, **values: Any) -> None:
-        """Note a line of another kind, about its first value; the last one about it counts.
+        """Note a line of another kind, with its first value as the key.
 
-        Call it where the order is fixed: from effects, or after a step.
+        The last line of a key counts. Call it in a fixed order: from effects, or after a step.
 
         Args:
             rank: Order of the kinds within an instant.
@@ -226,7 +226,7 @@ class TraceWriter:
             self._others[rank, kind, subject] = text
 
     def node_starts(self, node: object, time: float) -> None:
-        """Note that a node of the tree begins, at `time` (s)."""
+        """Note that a node of the tree starts, at `time` (s)."""
         if self.enabled:
             self._runs.starts(node, time)
 
@@ -238,7 +238,7 @@ class TraceWriter:
     # --- the file ---
 
     def header(self, values: Mapping[str, Any]) -> None:
-        """Write the first line; parameters with all digits, so that they can be set again."""
+        """Write the first line; parameters with all digits, so that they can be reproduced."""
         if self.enabled:
             head = {"kind": "header", "version": TRACE_VERSION, **values}
             members = (
@@ -296,10 +296,10 @@ class TraceWriter:
 
 
 def state_json(state: ActorState) -> str:
-    """Return the state of an actor as the inside of a JSON object.
+    """Return the state of an actor as the members of a JSON object.
 
-    Most lines of a trace come from here, so the numbers are not written by `number` one by one, and
-    `DECIMALS` stands here as a literal.
+    Most lines of a trace are states, so for speed the numbers are not formatted by `number`, and
+    `DECIMALS` is repeated as a literal.
     """
     x, y, z, h, v, a, place = state[:7]
     if place is None:

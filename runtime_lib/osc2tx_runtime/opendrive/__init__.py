@@ -1,18 +1,18 @@
-"""OpenDRIVE road maps: read an .xodr file, then ask it about lanes, places and distances.
+"""OpenDRIVE road maps: read an .xodr file, then query lanes, positions and distances.
 
-Input is a file; output is a `RoadMap`, which answers everything and never changes. Begin at
-`road_map`. In order of control flow:
+Input is a file; output is an immutable `RoadMap` with all queries. Start reading at `road_map`. In
+order of control flow:
 
-* `xml_reader`, `reader`, `lane_reader`, `signal_reader`, `crosswalks`: text to roads, checked, or
-    a `MapError`; `unread`: unread elements; `seams`: lanes that do not continue where they end;
+* `xml_reader`, `reader`, `lane_reader`, `signal_reader`, `crosswalks`: text to roads, checked, or a
+    `MapError`; `unread`: unread elements; `seams`: lanes with a gap or kink to their successor;
     `map_snapshots`, `packed_map`: large maps are parsed once.
   * `polynomials`, `geometry`, `model`: the parts of a road.
-* `lane_table`: lanes by id; `network`: which follows which; `lane_line`: `arc_length` along one.
+* `lane_table`: lanes by id; `network`: their connections; `lane_line`: `arc_length` along one.
 * `lane_advance`: moving along lanes, `lane_cursor`: the same step by step; `lane_distances`:
   distances over the lane graph.
 * `poses`: from a lane to (x, y, z); `road_index`, `projection`: back to a lane.
-* `geodesy`: from the globe to the map; `outlines`: drawing and default start places;
-  `signal_places`: where signals hold; `signals`, `errors`: value types.
+* `geodesy`: from the globe to the map; `outlines`: drawing and default start positions;
+  `signal_places`: positions of signals; `signals`, `errors`: value types.
 
 Invariants: SI units, right-handed coordinates, headings in (-pi, pi]. Results do not depend on
 set order, platform hash seeds or the order of queries. Distances are measured on the xy plane.

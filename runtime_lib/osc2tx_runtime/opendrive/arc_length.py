@@ -1,11 +1,10 @@
-"""Arc length along a lane centre line as a table: the length at a place, and its inverse.
+"""Arc length along a lane centre line as a table: the length at a position, and its inverse.
 
 Distances in the DSL run along the lane centre line on the xy plane (OpenSCENARIO DSL 8.3.4), not
-along road s: on a tight curve both differ by up to a third. Each lane therefore gets a table of
-its arc length F over s. A parallel line at offset o (m, in direction of +t) has the length
-F(s) - o psi(s), psi being the heading the reference line has turned through: that is exact where
-the lane keeps its width, additive and cheap to invert, so moving in many small steps ends where
-one long step ends.
+along road s: on a tight curve both differ by up to a third. Each lane therefore gets a table of its
+arc length F over s. A parallel line at offset o (m, in direction of +t) has the length F(s) - o
+psi(s), psi being the turn of the reference line. This is exact for constant width, additive and
+cheap to invert, so many small steps end at the same position as one long step.
 """
 
 from __future__ import annotations
@@ -16,23 +15,24 @@ from bisect import bisect_right
 from .polynomials import Row
 
 SLOWEST_RATE = 1e-3
-"""Lane metres per metre of s: a lane inside the centre of curvature must not run backwards."""
+"""Least lane metres per metre of s: a lane inside the centre of curvature must not run
+backwards."""
 
 
 class LaneLine:
     """Arc length table of one lane of one section.
 
     Args:
-        begin: Where the section begins (m of s).
-        end: Where it ends.
+        begin: Start of the section (m of s).
+        end: Its end.
 
     Attributes:
         length: Arc length of the centre line (m).
         turn: Angle (rad) that the reference line turns through.
-        nodes: Places (s) at which the pieces of the table begin.
+        nodes: Start positions (s) of the pieces of the table.
         rows: Cubic polynomials of the arc length, by piece.
         psi: Cubic polynomials of the angle, likewise.
-        offset_min: Least offset (m, +t) of a parallel line that still runs forwards.
+        offset_min: Least offset (m, +t) of a parallel line that runs forwards.
         offset_max: Greatest such offset.
     """
 
@@ -57,11 +57,11 @@ class LaneLine:
         self.offset_min, self.offset_max = -math.inf, math.inf
 
     def clamp(self, offset: float) -> float:
-        """Offset (m, +t) limited to where the parallel line still runs forwards."""
+        """Offset (m, +t), limited so that the parallel line runs forwards."""
         return min(max(offset, self.offset_min), self.offset_max)
 
     def length_at(self, s: float, offset: float = 0.0) -> float:
-        """Arc length from the begin of the section to `s` (m), at an offset in +t (m)."""
+        """Arc length from the start of the section to `s` (m), at an offset in +t (m)."""
         i = bisect_right(self.nodes, s) - 1 if len(self.nodes) > 1 else 0
         if i < 0:
             i = 0
@@ -78,7 +78,7 @@ class LaneLine:
         return self.s_in(self.row_of(length, offset), length, offset)
 
     def row_of(self, length: float, offset: float) -> int:
-        """Number of the piece in which an arc length (m) lies, at an offset in +t (m)."""
+        """Number of the piece of an arc length (m), at an offset in +t (m)."""
         low, high = 0, len(self.nodes)
         while high - low > 1:
             middle = (low + high) // 2
@@ -89,7 +89,7 @@ class LaneLine:
         return low
 
     def s_in(self, low: int, length: float, offset: float) -> float:
-        """The s at which an arc length (m) lies that is in a piece, at an offset in +t (m)."""
+        """The s of an arc length (m) in a piece, at an offset in +t (m)."""
         begin = self.nodes[low]
         end = self.nodes[low + 1] if low + 1 < len(self.nodes) else self.end
         a, b, c, d = self.rows[low]

@@ -14,7 +14,7 @@ from .polynomials import ZERO, Piecewise, Row
 from .xml_reader import Attributes
 
 Height = tuple[float, float, float]
-"""A height (m), and how it changes along s and along t."""
+"""A height (m), and its derivatives along s and t."""
 
 _FLAT: Height = 0.0, 0.0, 0.0
 
@@ -57,8 +57,8 @@ class Strip:
 
     Attributes:
         terms: Its coefficients over s, the constant one first.
-        width: Of an inner strip (m over s), beyond which the outer one begins.
-        on_top: Of an outer strip: added to the height of the edge of the inner one.
+        width: Width of an inner strip (m over s); the outer strip begins beyond it.
+        on_top: Whether its height is added to that of the edge of the inner strip.
     """
 
     terms: tuple[Piecewise, Piecewise, Piecewise, Piecewise]
@@ -110,7 +110,7 @@ class SurfaceStrips:
 def read_cross_section(
     lateral: etree._Element | None, attributes: Attributes
 ) -> CrossSection | None:
-    """The cross-section that a `lateralProfile` describes; None if the road is even across.
+    """The cross-section that a `lateralProfile` describes; None if the cross-section is flat.
 
     Raises:
         MapError: A record of it cannot be read.
@@ -150,7 +150,7 @@ def _strips(surface: etree._Element, attributes: Attributes) -> SurfaceStrips:
 
 
 def _over_s(parent: etree._Element | None, attributes: Attributes) -> Piecewise:
-    """Polynomials over s; a coefficient that is not given is zero."""
+    """Polynomials over s; missing coefficients are zero."""
     elements = [] if parent is None else list(parent.iterchildren("coefficients"))
     records = []
     for element in elements:

@@ -1,8 +1,8 @@
 """Crosswalks: objects of type "crosswalk", each as the straight path of a person across it.
 
-A file gives a box (`length`, `width`) or an outline, either turned by `hdg` against the road; which
-of the two axes of the box is the way and which the width is left open. People cross a road, so the
-way is the axis that is nearer to a right angle to the road.
+A file gives a box (`length`, `width`) or an outline, either turned by `hdg` against the road; it
+does not state which axis of the box is the path and which the width. Pedestrians cross the road, so
+the path is the axis that is closer to perpendicular.
 """
 
 from __future__ import annotations
@@ -34,12 +34,12 @@ class Crosswalk:
         subtype: `pedestrian`, `bicycle`, `zebra`, `virtual`, or empty.
         road: Id of the road that it belongs to.
         s: Road coordinate (m).
-        x: Middle of the way (m).
+        x: Middle of the path (m).
         y: Likewise.
-        heading: Direction of the way (rad), from the right side of the road to the left.
-        length: Length of the way (m).
+        heading: Direction of the path (rad), from the right side of the road to the left.
+        length: Length of the path (m).
         width: Extent across it (m).
-        lift: Height of its begin above the road (m).
+        lift: Height of its start above the road (m).
     """
 
     id: str
@@ -61,7 +61,7 @@ def read_crosswalks(
     """All crosswalks of a map, sorted by id.
 
     Raises:
-        MapError: One has neither a box nor an outline.
+        MapError: A crosswalk has neither a box nor an outline.
     """
     found = []
     for element in elements:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 
 class MapError(Exception):
-    """A map cannot be read, or a query names something the map does not have.
+    """A map cannot be read, or a query refers to an element that the map does not have.
 
     Attributes:
         file: Path or name of the map.
-        line: Line in the file (1-based), None where unknown.
+        line: Line in the file (1-based), None if unknown.
         message: Description of the error and its remedy.
     """
 

@@ -1,8 +1,8 @@
 """Map projections of `geoReference`: WGS 84 to map coordinates.
 
-The transverse Mercator projection is written out: the series of Krüger up to the fourth order of
-the third flattening, which is good to less than a millimetre within 3000 km of the central
-meridian. Universal transverse Mercator (UTM) is the same with the constants of its zone.
+The transverse Mercator projection is implemented here: the series of Krüger up to the fourth order
+of the third flattening, with errors below a millimetre within 3000 km of the central meridian.
+Universal transverse Mercator (UTM) is the same with the constants of its zone.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ SEMI_MAJOR = 6_378_137.0
 FLATTENING = 1.0 / 298.257_223_563
 
 _N = FLATTENING / (2.0 - FLATTENING)
-# Radius of a sphere on which meridians are as long (m).
+# Radius (m) of a sphere with meridians of the same length.
 _RECTIFYING = SEMI_MAJOR / (1.0 + _N) * (1.0 + _N**2 / 4.0 + _N**4 / 64.0)
 _ALPHA = (
     _N / 2.0 - 2.0 * _N**2 / 3.0 + 5.0 * _N**3 / 16.0 + 41.0 * _N**4 / 180.0,
@@ -29,7 +29,7 @@ _ALPHA = (
 _ECCENTRICITY = math.sqrt(FLATTENING * (2.0 - FLATTENING))
 _WIDEST = math.radians(80.0)  # of longitude beside the central meridian
 
-# Values of parameters that give the ellipsoid of WGS 84 (GRS 80: 0.1 mm less).
+# Parameter values of the ellipsoid of WGS 84 (GRS 80: 0.1 mm less).
 _ELLIPSOIDS = frozenset({"WGS84", "GRS80"})
 # Parameters that change the meaning of others, with the accepted values.
 _USUAL: Mapping[str, frozenset[str]] = {
@@ -45,7 +45,7 @@ _UTM_SCALE, _UTM_EAST, _UTM_NORTH = 0.9996, 500_000.0, 10_000_000.0
 
 
 class GeoReferenceError(ValueError):
-    """A map says nothing about the globe, or something that is not understood."""
+    """A map has no georeference, or an unsupported one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,10 +67,10 @@ class TransverseMercator:
     north: float = 0.0
 
     def project(self, latitude: float, longitude: float) -> tuple[float, float]:
-        """Metres to the east and to the north of a place (rad).
+        """Easting and northing (m) of a geodetic position (rad).
 
         Raises:
-            GeoReferenceError: It is no place, or far away from the central meridian.
+            GeoReferenceError: It is not a position, or far from the central meridian.
         """
         beside = math.remainder(longitude - self.longitude, math.tau)
         if abs(latitude) > 0.5 * math.pi or abs(beside) > _WIDEST:
@@ -100,21 +100,21 @@ def _on_sphere(latitude: float, beside: float) -> tuple[float, float]:
 
 @dataclass(frozen=True, slots=True)
 class GeoReference:
-    """Where a map lies on the globe.
+    """Georeference of a map.
 
     Attributes:
         text: The parameters of `geoReference`, `+proj=tmerc +lat_0=...`; empty without any.
-        offset: Offset of the map against the projection: x, y (m) and heading (rad).
+        offset: Offset of the map relative to the projection: x, y (m) and heading (rad).
     """
 
     text: str = ""
     offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def project(self, latitude: float, longitude: float) -> tuple[float, float]:
-        """Place (m) on the map of a place on the globe (rad).
+        """Map coordinates (m) of a geodetic position (rad).
 
         Raises:
-            GeoReferenceError: The map has no projection, or one that is not known here.
+            GeoReferenceError: The map has no projection, or an unsupported one.
         """
         east, north = self._projection().project(latitude, longitude)
         x, y, turn = self.offset
@@ -167,7 +167,7 @@ def _tmerc(given: Mapping[str, str]) -> TransverseMercator:
 
 
 def _utm(given: Mapping[str, str]) -> TransverseMercator:
-    """The zone alone counts; other parameters have no effect on UTM."""
+    """Only the zone counts; other parameters have no effect on UTM."""
     zone = _number(given, ("zone",), 0.0)
     if zone not in range(1, 61):
         raise GeoReferenceError("its `geoReference` has no UTM zone from 1 to 60")

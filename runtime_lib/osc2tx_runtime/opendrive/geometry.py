@@ -43,7 +43,7 @@ class Segment(Protocol):
 
     @property
     def stretch(self) -> float:
-        """Metres of the curve per metre of s, at most."""
+        """Greatest curve length per metre of s (m)."""
         ...
 
     def at(self, u: float) -> Point:
@@ -51,7 +51,7 @@ class Segment(Protocol):
         ...
 
     def constant_curvature(self) -> float | None:
-        """The curvature if it is the same everywhere, else None."""
+        """The curvature if it is constant, else None."""
         ...
 
 
@@ -194,7 +194,10 @@ class ParamPoly:
     def _inverse(
         self, step: float, i: int, nodes: list[float], scale: float
     ) -> tuple[float, float, float, float]:
-        """P over the distance in an interval of the table. Slopes stay where p cannot turn back."""
+        """P over the distance in an interval of the table.
+
+        Slopes are limited so that p is monotonous.
+        """
         span = self.starts[i + 1] - self.starts[i]
         steepest = 3.0 * step / span
         first, last = (
@@ -253,7 +256,7 @@ class ReferenceLine:
 
     def at(self, s: float) -> Point:
         """Point at road coordinate `s` (m)."""
-        # With equal starts the last wins, so zero-length pieces are stepped over.
+        # With equal starts the last one counts, so zero-length pieces are skipped.
         i = bisect_right(self.starts, s) - 1 if len(self.starts) > 1 else 0
         if i < 0:
             i = 0

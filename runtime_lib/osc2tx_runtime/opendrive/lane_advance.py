@@ -13,7 +13,7 @@ from .model import Advance, Lane, LanePosition
 from .network import lane_order
 
 _PROBE = 50.0  # m into a branch at which its direction is compared
-_IDLE_HOPS = 1000  # lanes without length in a row: a loop of them would never end
+_IDLE_HOPS = 1000  # successive lanes without length: a loop of them would be infinite
 
 
 def lane_heading(lane: Lane, s: float) -> float:
@@ -25,7 +25,7 @@ def lane_heading(lane: Lane, s: float) -> float:
 
 
 class _Motion:
-    """Where a step has got to. `offset` is in direction of travel."""
+    """State of a step. `offset` is in direction of travel."""
 
     __slots__ = ("lane", "left", "offset", "s")
 
@@ -75,7 +75,7 @@ def _probe(lane: Lane, distance: float, *, from_exit: bool) -> float:
     distance = min(distance, line.length)
     at_end = from_exit == (lane.direction > 0)
     s = line.s_at(line.length - distance if at_end else distance)
-    # Just inside: the end itself may already belong to the next section or piece.
+    # Just inside: the end itself may belong to the next section or piece.
     inset = min(1e-6, 0.5 * (line.end - line.begin))
     return lane_heading(lane, min(max(s, line.begin + inset), line.end - inset))
 
@@ -86,12 +86,12 @@ def advance(
     """Moves by `distance` (m, negative backwards) along lanes at the offset of `p`.
 
     Raises:
-        PlacementError: The distance is not finite; on a ring road such a move would never end.
+        PlacementError: The distance is not finite; on a ring road such a move would be infinite.
     """
     if not math.isfinite(distance):
         raise PlacementError(f"no place is {distance:g} m away; give a finite distance")
     forwards = distance >= 0.0
-    # Nearly every step of an actor stays in its lane, so that case comes first.
+    # Nearly all steps of an actor stay in its lane, so that case comes first.
     line, offset = lane.line or lane_line(lane), p.offset * lane.direction
     if line.offset_min <= offset <= line.offset_max:
         there = line.length_at(p.s, offset) + distance * lane.direction
@@ -117,7 +117,7 @@ def advance(
 
 
 def _within(motion: _Motion, forwards: bool) -> bool:
-    """Moves inside the current lane; False if it ends before the distance is used up."""
+    """Moves inside the current lane; False if it ends before the distance is covered."""
     lane = motion.lane
     line = lane_line(lane)
     offset = line.clamp(motion.offset * lane.direction) if motion.offset else 0.0
@@ -142,7 +142,7 @@ def _within(motion: _Motion, forwards: bool) -> bool:
 
 
 def _inside(motion: _Motion) -> float:
-    """The s of the result, kept below the begin of the next section of the same road."""
+    """The s of the result, below the start of the next section of the same road."""
     section = motion.lane.section
     if motion.s >= section.end and section.end < motion.lane.road.length:
         return math.nextafter(section.end, section.begin)

@@ -1,8 +1,8 @@
-"""A position that moves along a lane: lane, table, pieces are looked up once, not in each query.
+"""A position that moves along a lane; lane, table and pieces are looked up once, not in each query.
 
 Each step of each actor calls this code, so it consists of two functions. They compute the same as
-`advance` and `lane_pose`, in the same order, so the results are the same to the last digit;
-positions beyond the lane, and roads with a surface of their own, are left to those.
+`advance` and `lane_pose`, in the same order, so the results are identical to the last digit;
+positions beyond the lane, and roads with a cross-section surface, are left to those.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from .lane_line import lane_line
 from .model import Lane, LanePosition, Pose, new_tuple
 from .poses import lane_pose
 
-_SHORT = 1e-3  # m before the joints at which a stretch ends; seams are a little beside them
+_SHORT = 1e-3  # m: distance of the end of a stretch from a joint, for seams beside it
 
 
 class Stretch(NamedTuple):
-    """A piece of a lane along which it is straight or an arc, level, and as wide everywhere.
+    """A piece of a lane that is straight or an arc, level, and of constant width.
 
     Attributes:
         begin: First s (m).
-        end: Behind the last s (m).
-        node: An s from which arc length grows evenly.
+        end: End of the range of s (m).
+        node: An s from which the arc length is linear.
         length: The arc length there (m).
         rate: Lane metres per metre of s.
         t: Of its centre (m).
@@ -50,10 +50,10 @@ class Stretch(NamedTuple):
 
 
 class LaneCursor:
-    """Where one actor is on its lane.
+    """Position of one actor on its lane.
 
     Args:
-        find: Gives the lane at a place, and its s limited to the road.
+        find: Returns the lane at a position, and its s limited to the road.
     """
 
     __slots__ = (
@@ -93,7 +93,7 @@ class LaneCursor:
         self._heading = 0.0  # of a lane along it, in direction of travel
 
     def _go_to(self, place: LanePosition) -> bool:
-        """Looks a place up; returns whether there is one, on the road."""
+        """Looks up a position; returns whether it exists on the road."""
         self._place = None
         lane, s = self._find(place.road, place.lane, place.s)
         if s != place.s:
@@ -110,10 +110,12 @@ class LaneCursor:
         return True
 
     def moved(self, p: LanePosition, distance: float, offset: float) -> LanePosition | None:
-        """Position at a distance (m, finite) along the lane, at another offset; None behind it.
+        """Position at a distance (m, finite) along the lane, at another offset.
+
+        None beyond the lane.
 
         Args:
-            p: Where it starts; its offset is the one at which it moves.
+            p: The start, with the offset of the motion.
             distance: Metres, negative backwards.
             offset: Of the result (m).
         """
@@ -135,7 +137,7 @@ class LaneCursor:
         if aside:
             pa, pb, pc, pd = line.psi[row]
             there -= aside * (pa + u * (pb + u * (pc + u * pd)))
-        # The s of the length there, mostly in the same row of the table.
+        # The s of the length there, usually in the same row of the table.
         there += distance * direction
         if not 0.0 <= there < line.length - aside * line.turn:
             return None
@@ -147,7 +149,7 @@ class LaneCursor:
             s = line.s_in(row, there, aside)
         elif aside or c or d or b <= SLOWEST_RATE:
             s = line.s_in(row, there, aside)
-        else:  # a straight line or an arc of constant width, as `s_in` has them
+        else:  # a straight line or an arc of constant width, as in `s_in`
             start, end = nodes[row], nodes[row + 1] if row < last else line.end
             u, most = (there - a) / b, end - start
             s = start + (0.0 if u < 0.0 else most if u > most else u)
@@ -156,7 +158,7 @@ class LaneCursor:
         return place
 
     def pose(self, p: LanePosition) -> Pose:
-        """Pose at a place, heading in direction of travel including the slope of the lane."""
+        """Pose at a position, heading in direction of travel including the slope of the lane."""
         s = p.s
         if (p is not self._place or not self._begin <= s < self._end) and not self._go_to(p):
             lane, s = self._find(p.road, p.lane, p.s)
@@ -183,7 +185,7 @@ class LaneCursor:
         return new_tuple(Pose, (x - t * self._sin, y + t * self._cos, 0.0, heading, 0.0, 0.0))
 
     def stretch(self, p: LanePosition) -> Stretch | None:
-        """The even piece of the lane around a place in its middle; None where it is not even."""
+        """The stretch of the lane around a position in its middle; None without one."""
         s = p.s
         if (p is not self._place or not self._begin <= s < self._end) and not self._go_to(p):
             return None

@@ -1,9 +1,9 @@
 """Route search: distances over the lane graph.
 
-Lanes that lie side by side and run the same way form a group; moving within a group costs no
-length (OpenSCENARIO DSL 8.7.6.1). A distance is measured along the lane of the one behind and
-changes lane only where that lane does not lead on, so that going 30 m ahead in a lane and asking
-for the distance afterwards gives 30 m even where an inner lane is shorter.
+Adjacent lanes of the same direction form a group; moving within a group costs no length
+(OpenSCENARIO DSL 8.7.6.1). A distance is measured along the lane of the rear position, with lane
+changes only where that lane does not lead on; so the distance after a motion of 30 m in a lane is
+30 m, even if an inner lane is shorter.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ _NARROW = 0.5  # m: a narrower lane does not separate others
 
 
 def passable(lane: Lane, s: float) -> bool:
-    """True if vehicles change lanes across this lane although they do not drive on it."""
+    """Whether vehicles change lanes across this lane although they do not drive on it."""
     return lane.type == "biking" or lane.width is None or lane.width.value(s) < _NARROW
 
 
 def _sides(section: LaneSection) -> tuple[tuple[Lane, ...], ...]:
-    """Lanes in the order in which one changes across them; over the middle if none comes there."""
+    """Lanes in the order of lane changes; over the middle if there is no lane."""
     inner = (*section.right[:1], *section.left[:1])
     if section.road.reversed and len({lane.direction for lane in inner}) < len(inner):
         return ((*reversed(section.left), *section.right),)
@@ -33,14 +33,14 @@ def _sides(section: LaneSection) -> tuple[tuple[Lane, ...], ...]:
 
 
 class RouteField:
-    """Distance to go from the end of each group to the begin of a goal group.
+    """Remaining distance from the end of each group to the start of a goal group.
 
     Attributes:
         goal: The goal group.
-        gap: Metres from the end of a group to the begin of the goal, of the groups searched so far
-            that are connected.
-        following: Next group on the way, of the same groups.
-        open: What to search next: distance (m), group, and the group after it.
+        gap: Metres from the end of a group to the start of the goal, for the connected groups
+            searched so far.
+        following: Next group on the route, for the same groups.
+        open: Queue of the search: distance (m), group, and the group after it.
     """
 
     __slots__ = ("following", "gap", "goal", "open")
@@ -98,7 +98,7 @@ class LaneGroups:
         return found
 
     def field(self, goal: int) -> RouteField:
-        """The field of a goal group, cached; `gap_from` searches it as far as it is asked for."""
+        """The field of a goal group, cached; `gap_from` searches it as far as required."""
         field = self._fields.get(goal)
         if field is None:
             field = self._fields[goal] = RouteField(goal)
@@ -106,9 +106,9 @@ class LaneGroups:
         return field
 
     def gap_from(self, group: int, field: RouteField) -> float:
-        """Metres from the end of a group to the begin of the goal; infinite if not connected.
+        """Metres from the end of a group to the start of the goal; infinite if not connected.
 
-        Backward Dijkstra from the goal, over all groups that are not farther than this one.
+        Backward Dijkstra from the goal, over all groups up to this distance.
         """
         gap, following, heap = field.gap, field.following, field.open
         while heap and heap[0][0] <= gap.get(group, math.inf):
@@ -123,7 +123,7 @@ class LaneGroups:
         return gap.get(group, math.inf)
 
     def length(self, group: int) -> float:
-        """Length (m) of the middle lane of a group, used to compare ways."""
+        """Length (m) of the middle lane of a group, to compare routes."""
         length = self._lengths[group]
         if length < 0.0:
             lanes = self.groups[group]
@@ -131,10 +131,7 @@ class LaneGroups:
         return length
 
     def gap(self, lane: Lane, goal: Lane) -> tuple[float, Lane] | None:
-        """Metres from the end of a lane to the begin of the group of another, cached.
-
-        The lane of arrival comes with it: it may lie beside the goal.
-        """
+        """Metres from the end of a lane to the group of another, and the lane of arrival."""
         key = (lane, goal)
         if key not in self._gaps:
             self._gaps[key] = self._walk(lane, goal)
@@ -156,10 +153,10 @@ class LaneGroups:
             total += self.length(lane.group) if is_middle else lane_length(lane)
 
     def _step(self, lane: Lane, target: int, goal: Lane, following: dict[int, int]) -> Lane:
-        """Next lane of the path: the one that needs the fewest lane changes.
+        """Next lane of the path: that with the fewest lane changes.
 
-        In a junction each lane often has a connecting road of its own. Those that end in the same
-        group count as parallel: a car in the outer lane of a bend stays there.
+        In a junction each lane often has a separate connecting road. Those that end in the same
+        group count as parallel: a car in the outer lane of a bend remains there.
         """
         lanes = self.groups[lane.group]
         if len(lanes) == 1 and len(lane.successors) == 1:
@@ -181,7 +178,7 @@ class LaneGroups:
         return min(candidates, key=lambda candidate: candidate[:4])[4]
 
     def _changes(self, lane: Lane, goal: Lane) -> int:
-        """Lane changes left from a lane that lies in, or right before, the group of the goal."""
+        """Remaining lane changes from a lane in, or directly before, the group of the goal."""
         group = self.groups[goal.group]
         arrivals = [lane] if lane.group == goal.group else lane.successors
         found = [o for o in arrivals if o.group == goal.group]
@@ -206,8 +203,8 @@ class LaneGroups:
         return here + gap + there
 
     def signed(self, a: Lane, s_a: float, b: Lane, s_b: float) -> float | None:
-        """Distance from a to b, negative if b is behind; the nearer of both ways round."""
-        if a.group == b.group and a.direction == b.direction:  # nearly always, and no ring
+        """Distance from a to b, negative if b is behind; the shorter of both directions."""
+        if a.group == b.group and a.direction == b.direction:  # the usual case, and no ring
             on = (s_b - s_a) * a.direction
             if on > 0.0 and self.gap(b, a) is None:
                 line = lane_line(a)
@@ -226,10 +223,10 @@ class LaneGroups:
 
 
 class Route:
-    """Distance-to-go field to a goal; decides at forks.
+    """Field of remaining distances to a goal; decides at forks.
 
     Attributes:
-        goal: Where the route leads.
+        goal: The end of the route.
     """
 
     __slots__ = ("_field", "_find", "_groups", "_lane", "goal")
@@ -248,15 +245,15 @@ class Route:
         self._field = groups.field(lane.group)
 
     def distance(self, p: LanePosition) -> float | None:
-        """Distance to go (m) from a place; None if the goal is not reached from there.
+        """Remaining distance (m) from a position; None if the goal is not reached from there.
 
-        From a place just past the goal it is the way round.
+        From a position just past the goal it is a full loop.
         """
         lane, s = self._find(p.road, p.lane, p.s)
         return self._groups.forward(lane, s, self._lane, self.goal.s)
 
     def cost(self, lane: Lane) -> float:
-        """Distance to go (m) from the begin of a lane to the goal group, to compare branches."""
+        """Remaining distance (m) from the start of a lane to the goal, to compare branches."""
         if lane.group == self._field.goal:
             return 0.0
         return self._groups.length(lane.group) + self._groups.gap_from(lane.group, self._field)

@@ -24,7 +24,7 @@ def lane_line(lane: Lane) -> LaneLine:
 
 
 def lane_length(lane: Lane) -> float:
-    """Arc length of a lane (m), without a table where it is even along lines and arcs."""
+    """Arc length of a lane (m), without a table for constant width along lines and arcs."""
     if lane.line is None and lane.road.superelevation is None:
         t = _even_centre(lane)
         turn = None if t is None else _turn(lane, t)
@@ -34,7 +34,7 @@ def lane_length(lane: Lane) -> float:
 
 
 def _even_centre(lane: Lane) -> float | None:
-    """The t of the centre if it is the same all along."""
+    """The t of the centre if it is constant."""
     t = lane.road.lane_offset.constant()
     side = lane.section.left if lane.id > 0 else lane.section.right
     sign = 1.0 if lane.id > 0 else -1.0
@@ -49,9 +49,10 @@ def _even_centre(lane: Lane) -> float | None:
 
 
 def _turn(lane: Lane, t: float) -> float | None:
-    """How far the road turns along a lane (rad); None if its curvature is not constant in pieces.
+    """Turn of the road along a lane (rad).
 
-    None as well inside of the centre of an arc, where the length of the lane is not that simple.
+    None if its curvature is not piecewise constant, and inside the centre of an arc, where the
+    length of the lane has no simple form.
     """
     reference, begin, end = lane.road.reference, lane.section.begin, lane.section.end
     starts = reference.starts
@@ -115,7 +116,7 @@ def _add_interval(
     inner: list[tuple[float, float]],
     rates: tuple[tuple[float, float], tuple[float, float]],
 ) -> None:
-    """Adds one node: rate and curvature inside are those at the points of the quadrature."""
+    """Adds one node, with rate and curvature at the points of the quadrature."""
     node, step = span
     length = turn = 0.0
     for (_, weight), (rate, curvature) in zip(GAUSS, inner, strict=True):

@@ -13,7 +13,7 @@ from .polynomials import Piecewise, Row
 from .xml_reader import Attributes, source_line
 
 NARROWEST = -0.05
-"""Metres below zero that count as rounding in the map."""
+"""Negative width (m) that counts as rounding in the map."""
 
 _SIDES = ("left", "right")
 _Span = tuple[float, float]
@@ -24,8 +24,8 @@ def read_sections(
 ) -> tuple[LaneSection, ...]:
     """All lane sections of a road, in order of s.
 
-    A section of one side (`singleSide`) leaves the lanes of the other side as they are, so these
-    come from an earlier element.
+    A section of one side (`singleSide`) does not change the lanes of the other side, which come
+    from an earlier element.
 
     Args:
         lanes: The element `lanes` of a road.
@@ -65,10 +65,10 @@ def read_sections(
 
 
 def read_reversed(lanes: etree._Element, attributes: Attributes) -> frozenset[int]:
-    """Ids of the lanes of a road on which traffic runs the other way than their side says.
+    """Ids of the lanes of a road with traffic opposite to that of their side.
 
     Raises:
-        MapError: A lane has an id that is no number.
+        MapError: The id of a lane is not a number.
     """
     elements: dict[str, list[etree._Element]] = {}
     for lane in lanes.iter("lane"):
@@ -84,13 +84,13 @@ def read_reversed(lanes: etree._Element, attributes: Attributes) -> frozenset[in
 
 
 def _says(section: etree._Element, side: str) -> bool:
-    """True if a section decides about the lanes of a side."""
+    """True if a section defines the lanes of a side."""
     one_side = section.get("singleSide") in ("true", "1")
     return not one_side or section.find(side) is not None
 
 
 def _part(lane: Lane, is_first: bool, is_last: bool) -> Lane:
-    """The part of a lane in one of the sections that its element holds for."""
+    """The part of a lane in one of the sections of its element."""
     if is_first and is_last:
         return lane
     part = copy(lane)
@@ -135,7 +135,7 @@ def _lane(element: etree._Element, span: _Span, attributes: Attributes) -> Lane:
 
 
 def _check_side(element: etree._Element, lane: Lane, span: _Span, attributes: Attributes) -> None:
-    """A border on the other side of the road would fold the lane over its neighbours."""
+    """Reports a border on the other side of the road, which would fold the lane."""
     assert lane.border is not None
     low, high = lane.border.extremes(*span)
     beyond = high if lane.id < 0 else -low
@@ -149,7 +149,7 @@ def _check_side(element: etree._Element, lane: Lane, span: _Span, attributes: At
 
 
 def _heights(records: list[tuple[float, float, float]]) -> tuple[Piecewise, Piecewise] | None:
-    """Heights of both edges: even ramps from one record to the next."""
+    """Heights of both edges: linear from one record to the next."""
     if not any(inner or outer for _, inner, outer in records):
         return None
     records = sorted({record[0]: record for record in records}.values())

@@ -21,13 +21,13 @@ class LaneTable:
     def __init__(self, roads: Mapping[str, Road], file: str) -> None:
         self._roads = roads
         self._file = file
-        self._recent: dict[tuple[str, int], Lane] = {}  # section of the last look-up
+        self._recent: dict[tuple[str, int], Lane] = {}  # sections of the last look-ups
 
     def road(self, road: str) -> Road:
         """A road.
 
         Raises:
-            MapError: There is none.
+            MapError: It does not exist.
         """
         found = self._roads.get(road)
         if found is None:
@@ -38,7 +38,7 @@ class LaneTable:
         """Lane at s, and s limited to the road.
 
         Raises:
-            MapError: There is none.
+            MapError: It does not exist.
         """
         recent = self._recent.get((road, lane))
         if recent is not None and recent.section.begin <= s < recent.section.end:
@@ -59,7 +59,7 @@ class LaneTable:
         """Lane of a section.
 
         Raises:
-            MapError: There is none.
+            MapError: It does not exist.
         """
         sections = self.road(key.road).sections
         lane = sections[key.section].lanes.get(key.lane) if key.section < len(sections) else None

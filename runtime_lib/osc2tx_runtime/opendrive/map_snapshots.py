@@ -1,6 +1,6 @@
 """Snapshots of maps in the user's cache folder: a large map is parsed once.
 
-A snapshot belongs to the bytes of a map, wherever that is, and to the code that read it.
+The key of a snapshot is the content of a map and the code that read it.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from .packed_map import PackingError, pack, unpack
 from .reader import MapContent, read_content
 
 SMALLEST = 200_000
-"""Bytes of a map that is worth a file."""
+"""Least size (bytes) of a map with a snapshot."""
 
 MOST_KEPT = 64
-"""Maps; the file of one has a fifth of its size or less."""
+"""Greatest number of snapshots; each has at most a fifth of the size of its map."""
 
 SNAPSHOTS = Snapshots(
     kind="OpenDRIVE map 1",
@@ -28,7 +28,7 @@ SNAPSHOTS = Snapshots(
 
 
 def read_content_once(path: Path) -> MapContent:
-    """Reads a file, from its snapshot if there is one that can be trusted.
+    """Reads a file, or its snapshot if that is trustworthy.
 
     Raises:
         MapError: The file is not a usable OpenDRIVE map.
@@ -42,7 +42,7 @@ def read_content_once(path: Path) -> MapContent:
         try:
             return replace(unpack(packed), file=str(path), name=path.stem)
         except PackingError:
-            pass  # as if there were none
+            pass  # as without a snapshot
     content = read_content(path)
     if _digest(path) == digest:  # unchanged meanwhile
         kept = SNAPSHOTS.save(name, digest, pack(content))
@@ -52,7 +52,7 @@ def read_content_once(path: Path) -> MapContent:
 
 
 def _digest(path: Path) -> str | None:
-    """Return the digest of a large file; `None` of others, and of what cannot be read."""
+    """Return the digest of a large file; `None` for others, and for unreadable files."""
     try:
         status = path.stat()
         if not stat.S_ISREG(status.st_mode) or status.st_size < SMALLEST:

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from .geometry import ReferenceLine
 
 new_tuple = tuple.__new__
-"""Makes a named tuple of all its fields in half the time of a call: `new_tuple(Pose, (x, ...))`."""
+"""Creates a named tuple of all its fields in half the time of a call: `new_tuple(Pose, (x,
+...))`."""
 
 DRIVING: frozenset[str] = frozenset(
     {
@@ -59,7 +60,7 @@ class LaneKey:
 
 
 class LanePosition(NamedTuple):
-    """A place on a lane.
+    """A position on a lane.
 
     Attributes:
         road: Road id.
@@ -75,7 +76,7 @@ class LanePosition(NamedTuple):
 
 
 class Advance(NamedTuple):
-    """Result of moving along a lane: where, and how far it was possible to go (m, signed)."""
+    """Result of moving along a lane: position and distance moved (m, signed)."""
 
     position: LanePosition
     travelled: float
@@ -102,7 +103,7 @@ class Link:
         id: Of the linked element.
         contact: The end of a linked road, "start" or "end".
         s: Position of the link within a road (m), None if at an end of it.
-        with_s: Whether the own way from start to end runs on along s of that road.
+        with_s: Whether the direction from start to end continues along s of that road.
     """
 
     kind: str
@@ -114,7 +115,7 @@ class Link:
 
 @dataclass(frozen=True, slots=True)
 class JunctionConnection:
-    """Way from an incoming road to a connecting (or, in direct junctions, linked) road."""
+    """Connection from an incoming road to a connecting (or, in direct junctions, linked) road."""
 
     id: str
     incoming: str
@@ -140,7 +141,7 @@ class LaneBends(NamedTuple):
 
     Attributes:
         sharpest: The largest curvature (1/m); 0 of a straight lane.
-        stretches: Metres from the begin of the lane, from where to where, and the curvature there.
+        stretches: Start and end (m from the start of the lane) and curvature of each stretch.
     """
 
     sharpest: float
@@ -156,11 +157,11 @@ class Lane:
         predecessors: Lanes that lead here, sorted.
         centre: t of the centre line over road s (m).
         outer: t of the edge away from the reference line (m).
-        level: Whether it stays level where its road is not.
-        level_from: t of the edge (m) whose height it then has, None if it is as its road is.
-        bends: Where it bends.
-        heights: Of its surface above the road at the inner and at the outer edge (m); None if
-            it lies on the road.
+        level: Whether it remains level on a road with superelevation.
+        level_from: t of the edge (m) whose height it then has, None if it follows its road.
+        bends: Its bends.
+        heights: Heights above the road at the inner and at the outer edge (m); None if it is on the
+            road.
     """
 
     __slots__ = (
@@ -217,7 +218,7 @@ class Lane:
         return (outer, inner) if outer < inner else (inner, outer)
 
     def height_at(self, s: float, t: float) -> float:
-        """Height (m) of the surface above the road, even from edge to edge."""
+        """Height (m) of the surface above the road, linear from edge to edge."""
         if self.heights is None:
             return 0.0
         inner, outer = (edge.value(s) for edge in self.heights)
@@ -231,7 +232,7 @@ class Lane:
 
 
 class LaneSection:
-    """Lanes that exist side by side on [begin, end) of a road. Lane 0 is not stored."""
+    """Adjacent lanes on [begin, end) of a road. Lane 0 is not stored."""
 
     __slots__ = ("begin", "end", "index", "lanes", "left", "ready", "right", "road")
 
@@ -280,10 +281,10 @@ class Road:
         reference: Plan view.
         elevation: Height over s (m), None if flat.
         superelevation: Roll of the cross-section over s (rad), None if zero.
-        cross_section: Heights across it, None if it is even.
+        cross_section: Cross-section heights, None if it is flat.
         lane_offset: t of lane 0 over s (m).
         sections: Lane sections in order of s.
-        reversed: Ids of its lanes on which traffic runs the other way than their side says.
+        reversed: Ids of its lanes with traffic opposite to that of their side.
     """
 
     id: str
@@ -322,7 +323,7 @@ class Road:
 
     @property
     def is_flat(self) -> bool:
-        """Whether all of it lies in the xy plane, but for heights of lanes."""
+        """Whether it is in the xy plane, except for heights of lanes."""
         return self.elevation is None and self.superelevation is None and self.cross_section is None
 
     def section_at(self, s: float) -> LaneSection:

@@ -1,4 +1,4 @@
-"""The lane graph: which lane follows which, in direction of travel."""
+"""The lane graph: successors and predecessors in direction of travel."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ def lane_order(lane: Lane) -> tuple[tuple[int, int, str], int, int]:
 def connect_lanes(roads: Mapping[str, Road], junctions: Mapping[str, Junction]) -> None:
     """Fills `successors` and `predecessors` of all lanes.
 
-    Links that name missing roads or lanes, or that would turn traffic around, are ignored: real
-    maps have some, and a lane then simply ends there.
+    Links to missing roads or lanes, or against the direction of traffic, are ignored: real maps
+    have some, and a lane then ends there.
     """
     following: dict[Lane, dict[Lane, None]] = {}
     leading: dict[Lane, dict[Lane, None]] = {}
@@ -106,7 +106,7 @@ def _connection_edges(
 
 
 def _enters(lane: Lane, contact: str) -> bool:
-    """True if traffic on the lane runs away from that end of its road."""
+    """True if traffic on the lane enters at that end of its road."""
     return (lane.direction > 0) == (contact != "end")
 
 
@@ -115,18 +115,18 @@ def _end_section(road: Road, contact: str) -> LaneSection:
 
 
 def _touched(other: Road, road: Road, link: Link, *, at_end: bool) -> tuple[LaneSection, str]:
-    """The section of a linked road that one end of a road touches, and by which of its ends."""
+    """The section of a linked road at one end of a road, and its touching end."""
     if link.s is None:
         contact = link.contact or _contact(other, road)
         return _end_section(other, contact), contact
-    onward = link.with_s == at_end  # else it is where the own way comes from
+    onward = link.with_s == at_end  # else it leads here
     ends = [section.begin if onward else section.end for section in other.sections]
     gaps = [abs(end - link.s) for end in ends]
     return other.sections[gaps.index(min(gaps))], "start" if onward else "end"
 
 
 def _junction_end(road: Road, junction: str, connecting: Road, contact: str) -> str:
-    """The end of a road that touches a junction; by geometry if both do or none says so."""
+    """The end of a road that touches a junction; by geometry if links do not determine it."""
     at_end = _names(road.successor, junction)
     at_start = _names(road.predecessor, junction)
     if at_end != at_start:
@@ -149,6 +149,6 @@ def _end_point(road: Road, contact: str) -> tuple[float, float]:
 
 
 def _contact(other: Road, road: Road) -> str:
-    """Guesses a missing contact point: the end whose own link names this road."""
+    """Determines a missing contact point: the end whose link refers to this road."""
     link = other.predecessor
     return "start" if link is not None and link.id == road.id else "end"

@@ -1,4 +1,4 @@
-"""Lane outlines for drawing, and default start places."""
+"""Lane outlines for drawing, and default start positions."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from .model import DRIVING, Lane, LaneOutline, LanePosition, LaneSection, Road
 _Bounds = tuple[float, float, float, float]
 _Edge = list[tuple[float, float]]
 
-_SPAWN_FIRST = 10.0  # m from the begin of the lane in direction of travel
+_SPAWN_FIRST = 10.0  # m from the start of the lane in direction of travel
 _SPAWN_STEP = 20.0  # m
-_SPAWN_WIDTH = 2.0  # m: a car does not start on a lane that only begins to open
+_SPAWN_WIDTH = 2.0  # m: a car does not start on a narrower lane
 
 
 def lane_outlines(
@@ -22,7 +22,7 @@ def lane_outlines(
 
     Args:
         roads: The roads.
-        bounds: Box (xmin, ymin, xmax, ymax) outside of which lanes are left out.
+        bounds: Box (xmin, ymin, xmax, ymax); lanes outside are omitted.
         step: Largest distance between points along a road (m).
     """
     for road in roads:
@@ -76,7 +76,7 @@ def _touches(outline: LaneOutline, bounds: _Bounds) -> bool:
 
 
 def spawn_points(roads: Iterable[Road]) -> tuple[LanePosition, ...]:
-    """Start places, by numeric road id, section, and lane from the outer side inwards."""
+    """Start positions, by numeric road id, section, and lane from the outer side inwards."""
     points: list[LanePosition] = []
     for road in roads:
         if road.junction is not None:

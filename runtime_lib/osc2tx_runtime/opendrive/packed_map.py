@@ -1,8 +1,8 @@
-"""A read map as plain data and back, for snapshots of maps.
+"""Conversion of a map to plain data and back, for snapshots of maps.
 
-The data consist of tuples, lists, dictionaries, strings and numbers only, one column for each field
+The data only consist of tuples, lists, dictionaries, strings and numbers, one column for each field
 of each class of objects. Columns are filled in by loops that run in C, so unpacking takes a
-fraction of the time that reading takes. It executes nothing that the data say.
+fraction of the time that reading takes. Unpacking does not execute code from the data.
 """
 
 from __future__ import annotations
@@ -41,10 +41,10 @@ BLANK: dict[type, Callable[[], Any]] = {
     geometry.Spiral: partial(geometry.Spiral, *_NUMBERS, 0.0, 0.0),
     geometry.ParamPoly: partial(geometry.ParamPoly, *_NUMBERS, _NUMBERS, _NUMBERS, 1.0, True),
 }
-"""How to make an object of each class that maps are made of, its fields to be filled in."""
+"""Constructor of an empty object, for each class of a map."""
 
 CLASSES: dict[str, Any] = {kind.__name__: kind for kind in BLANK}
-_NONE = -1  # the index that stands for `None`
+_NONE = -1  # the index of `None`
 
 
 class PackingError(ValueError):
@@ -52,10 +52,10 @@ class PackingError(ValueError):
 
 
 def pack(content: MapContent) -> Packed:
-    """Return what was read from a map as plain data; the `MapContent` comes first.
+    """Return the content of a map as plain data; the `MapContent` comes first.
 
     Raises:
-        PackingError: There is something in it that is in no map.
+        PackingError: It contains an object that is not part of a map.
     """
     groups: dict[str, list[Any]] = {}
     for found in _objects(content):
@@ -79,7 +79,7 @@ def _fields(name: str) -> tuple[str, ...]:
 
 
 def _objects(content: MapContent) -> Iterator[Any]:
-    """Yield an object before those that it has, each once, without recursion."""
+    """Yield objects before their members, each once, without recursion."""
     seen = {id(content)}
     pending: list[Any] = [content]
     while pending:
@@ -100,7 +100,7 @@ def _objects_in(value: Any) -> Iterator[Any]:
 
 
 def _column(group: list[Any], field: str, indexes: Mapping[int, int]) -> Column:
-    """Return the values of a field in the plainest shape that holds them all."""
+    """Return the values of a field in the simplest form for all of them."""
     values = [getattr(each, field) for each in group]
     if not any(True for value in values for _ in _objects_in(value)):
         return "plain", values
@@ -116,10 +116,10 @@ def _column(group: list[Any], field: str, indexes: Mapping[int, int]) -> Column:
 
 
 def unpack(data: Packed) -> MapContent:
-    """Return what was read from a map from its data.
+    """Return the content of a map from its data.
 
     Raises:
-        PackingError: The data are not what `pack` returns; not all that is wrong is noticed.
+        PackingError: The data are not those of `pack`; not all errors are detected.
     """
     try:
         return _unpack(data)

@@ -11,10 +11,10 @@ Row = tuple[float, float, float, float]
 
 
 class Piecewise:
-    """Cubic pieces; a piece holds from its start to the start of the next one.
+    """Cubic pieces; each is valid from its start to that of the next.
 
-    Before the first start the first piece is extrapolated, after the last start the last one:
-    files with small gaps at the ends then stay continuous.
+    Before the first start the first piece is extrapolated, after the last start the last one, so
+    files with small gaps at the ends remain continuous.
     """
 
     __slots__ = ("rows", "starts")
@@ -25,12 +25,15 @@ class Piecewise:
 
     @classmethod
     def from_records(cls, records: Iterable[tuple[float, Row]]) -> Piecewise | None:
-        """Sorts (start, row) records; of several with one start the last in the file wins."""
+        """Sorts (start, row) records.
+
+        Of several with the same start the last in the file counts.
+        """
         table = dict(sorted(records, key=lambda record: record[0]))
         return cls(list(table), list(table.values())) if table else None
 
     def index(self, s: float) -> int:
-        """Number of the piece that holds at `s`."""
+        """Number of the piece at `s`."""
         return max(bisect_right(self.starts, s) - 1, 0)
 
     def value(self, s: float) -> float:
@@ -80,7 +83,7 @@ class Piecewise:
         return not any(any(row) for row in self.rows)
 
     def shifted_row(self, s: float) -> Row:
-        """The piece that holds at `s`, re-expanded around `s`."""
+        """The piece at `s`, re-expanded around `s`."""
         i = self.index(s)
         a, b, c, d = self.rows[i]
         u = s - self.starts[i]
@@ -93,7 +96,7 @@ class Piecewise:
 
 
 def _roots(a: float, b: float, c: float) -> tuple[float, ...]:
-    """Where a + b u + c u^2 is zero; the form without cancellation."""
+    """The roots of a + b u + c u^2, without cancellation."""
     below = b * b - 4.0 * a * c
     if below < 0.0:
         return ()
@@ -105,7 +108,7 @@ ZERO = Piecewise([0.0], [(0.0, 0.0, 0.0, 0.0)])
 
 
 def between(starts: list[float], begin: float, end: float) -> list[float]:
-    """Those of sorted places that lie between two others, and on neither."""
+    """The sorted positions strictly between two others."""
     return starts[bisect_right(starts, begin) : bisect_left(starts, end)]
 
 

@@ -40,10 +40,10 @@ def surface_pose(
         road: The road.
         s: Road coordinate (m).
         t: Road coordinate (m).
-        slope: dt/ds of the line that is followed.
+        slope: dt/ds of the followed line.
         direction: Of travel: 1 along s, -1 against it.
-        tangent: Heading as the reference line, instead of as the line that is followed.
-        level: Where the place is level, t (m) and dt/ds of the edge that has its height.
+        tangent: Heading of the reference line, instead of that of the followed line.
+        level: For a level lane, t (m) and dt/ds of the edge with its height.
     """
     x, y, h, k = road.reference.at(s)
     lateral, drift = t, slope

@@ -1,4 +1,4 @@
-"""From (x, y) to roads and lanes: guesses of the index of roads, then Newton steps."""
+"""From (x, y) to roads and lanes: candidates of the road index, then Newton steps."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .road_index import RoadIndex
 
 @dataclass(frozen=True, slots=True)
 class Projection:
-    """Foot point on a road: s, t, and how far (m) the point lies beyond the road's ends."""
+    """Foot point on a road: s, t, and the distance (m) of the point beyond the ends of the road."""
 
     road: Road
     s: float
@@ -33,7 +33,7 @@ def project(road: Road, x: float, y: float, s: float) -> Projection:
         along, across = dx * c + dy * n, dy * c - dx * n
         if -1e-10 < along < 1e-10:
             break
-        # Beyond the centre of curvature the exact step would run away from the foot point.
+        # Beyond the centre of curvature the exact step would diverge from the foot point.
         step = along / max(1.0 - k * across, 0.2)
         following = min(max(s + min(max(step, -20.0), 20.0), 0.0), length)
         if following == s:
@@ -76,7 +76,7 @@ def best_place(
     z: float | None = None,
     heading: float | None = None,
 ) -> tuple[Projection, Lane] | None:
-    """Lane that fits a point best: containing it, then by height, heading and centre."""
+    """Best lane for a point: containing it, then by height, heading and centre."""
     x, y = point
     best: tuple[Projection, Lane] | None = None
     best_score: tuple[float, float, tuple[int, int, str]] | None = None
@@ -97,9 +97,10 @@ def best_place(
 def place_score(
     foot: Projection, lane: Lane, distance: float, z: float | None, heading: float | None
 ) -> tuple[float, float, tuple[int, int, str]]:
-    """Order of places that fit a point: distance, height and heading, then nearness to the centre.
+    """Sort key of positions for a point: distance, height and heading, then distance to the centre.
 
-    Half a metre of height is free (slopes, vehicle origins); a lane the other way costs 4 m.
+    Half a metre of height is free (slopes, vehicle origins); a lane in the opposite direction costs
+    4 m.
     """
     cost = distance
     if z is not None:

@@ -1,7 +1,7 @@
-"""OpenDRIVE text to roads and junctions. Queries are elsewhere; see `road_map`.
+"""OpenDRIVE text to roads and junctions. For queries see `road_map`.
 
-Elements that no query needs (road marks, most objects, user data) are skipped unread: real maps
-carry junk there. `geoReference` is kept as text until it is used.
+Elements that no query needs (road marks, most objects, user data) are skipped: in real maps they
+are often invalid. `geoReference` is kept as text until it is used.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from .virtual_junctions import cut_where_roads_branch_off
 from .xml_reader import Attributes, parse_stream, parse_xml, source_line
 
 ROUNDING = 0.01
-"""Metres that numbers of a file may be apart and mean the same."""
+"""Difference (m) of numbers in a file that count as equal."""
 
 LONGEST = 2e7
 """Upper limit of the total length (m) of all roads, which has to fit into memory."""
@@ -40,8 +40,8 @@ LONGEST = 2e7
 class MapContent:
     """The content of a file. Roads and junctions are in numeric order of their ids.
 
-    `header` has the attributes of the element of that name. `remarks` are what is wrong with the
-    file, or matters and is not read, each with its line.
+    `header` has the attributes of the element of that name. `remarks` are errors of the file, and
+    relevant elements that are not read, with their lines.
     """
 
     file: str
@@ -109,7 +109,7 @@ def _read(
 
 
 def _keep_furniture(road: etree._Element) -> None:
-    """Leave of a road what is read when all roads are known: signals and crosswalks."""
+    """Keep the elements of a road that are read after all roads: signals and crosswalks."""
     for child in list(road):
         if child.tag == "objects":
             for each in [each for each in child if each.get("type") != "crosswalk"]:
@@ -170,7 +170,7 @@ def _link(link: etree._Element | None, name: str, attributes: Attributes) -> Lin
     if kind == "road" and element.get("elementS") is not None:
         with_s = element.get("elementDir", "+") != "-"
         return Link(kind, other, "", attributes.length(element, "elementS"), with_s)
-    # A missing contact point is guessed later from the geometry; junction links have none.
+    # A missing contact point is determined later from the geometry; junction links have none.
     return Link(kind, other, element.get("contactPoint", ""))
 
 
@@ -181,7 +181,7 @@ def _profile(parent: etree._Element | None, name: str, attributes: Attributes) -
         (attributes.number(element, "s"), attributes.cubic(element))
         for element in parent.iterchildren(name)
     ]
-    if records and min(records)[0] > ROUNDING:  # zero up to where the first record begins
+    if records and min(records)[0] > ROUNDING:  # zero before the first record
         records.append((0.0, (0.0, 0.0, 0.0, 0.0)))
     profile = Piecewise.from_records(records)
     return None if profile is None or profile.is_zero() else profile
@@ -200,7 +200,7 @@ def _plan_view(road: etree._Element, attributes: Attributes) -> ReferenceLine:
         attributes.remark(road, f"is {length:g} m long, its geometry {end:g} m")
     for (start, segment), (following, _) in pairwise([*kept, (length, kept[-1][1])]):
         end = start + segment.length
-        if following - end > ROUNDING:  # the extension of a curve beyond its end is unintended
+        if following - end > ROUNDING:  # a curve is not extended beyond its end
             told = f"has no geometry from s = {end:g} m to {following:g} m: it goes straight on"
             attributes.remark(road, told)
             kept.append((end, Line(*segment.at(segment.length)[:3], following - end)))

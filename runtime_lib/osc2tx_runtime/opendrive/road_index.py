@@ -1,8 +1,8 @@
-"""Which roads are near a point: tiles touched by stretches of roads, and a grid of samples in each.
+"""Index of roads by position: tiles touched by roads, with a grid of samples in each.
 
-A tile is sampled on the first query in it, so that a large map costs only the used part of it.
-Tiles are chosen by discs that hold a stretch of road whatever its shape: no point of a stretch is
-farther from its middle than half its length, and half the road's width.
+A tile is sampled on the first query in it, so the cost of a large map is that of its used part.
+Tiles are chosen by discs around stretches of road of any shape: no point of a stretch is farther
+from its middle than half its length, and half the road's width.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ _SAMPLE = 4.0  # m between samples along a road
 _ACROSS = 8.0  # m between points of the cross-section of a sample
 _CELL = 16.0  # m, edge of a grid cell
 _TILE = 16  # cells along the edge of a tile
-_REACH = 4.5  # m: a point registers in every cell within this reach
-_HALF_ROAD = 500.0  # m: an absurd width must not fill the memory
+_REACH = 4.5  # m: a point is registered in each cell within this distance
+_HALF_ROAD = 500.0  # m: limits the memory for invalid widths
 _WIDE = 2.0  # m beyond the outermost lanes
 _MOST = 64  # samples of a stretch
 _LARGEST = 1e9  # m: upper limit of all attributes of a map
-_WIDEST = 64  # tiles along the edge of the box of a stretch; a wider one counts as everywhere
+_WIDEST = 64  # tiles along the edge of the box of a stretch; a wider one is in all tiles
 
 _Cell = tuple[int, int]
 _Near = list[tuple[Road, float]]
@@ -77,7 +77,7 @@ class RoadIndex:
         found = self._cell(cx, cy)
         if found:
             return found
-        # Far from all roads, rings that hold none are passed over, and so are the parts of others.
+        # Far from all roads, empty rings and parts of rings are skipped.
         (left, bottom), (right, top) = self._extent
         first = max(1, left - cx, cx - right, bottom - cy, cy - top)
         last = max(abs(left - cx), abs(right - cx), abs(bottom - cy), abs(top - cy))
@@ -98,7 +98,7 @@ class RoadIndex:
         )
 
     def _farthest(self, dx: int, dy: int, boxes: dict[int, _Box]) -> float:
-        """How far (m) edges reach in a direction; what cannot reach farther is not sampled."""
+        """Extent (m) of edges in a direction; stretches that cannot exceed it are not sampled."""
 
         def most(stretch: _Stretch) -> float:
             return stretch.x * dx + stretch.y * dy + stretch.radius
@@ -166,14 +166,14 @@ class RoadIndex:
 
 
 def _extent(stretches: Iterable[_Stretch]) -> tuple[_Cell, _Cell]:
-    """The cells at two corners of a box that holds all cells with samples."""
+    """The cells at two corners of a box around all cells with samples."""
     low, high = [0.0, 0.0], [0.0, 0.0]
     for nth, stretch in enumerate(stretches):
         reach = stretch.radius + 2.0 * _REACH
         for axis, middle in enumerate((stretch.x, stretch.y)):
             low[axis] = min(low[axis], middle - reach) if nth else middle - reach
             high[axis] = max(high[axis], middle + reach) if nth else middle + reach
-    if not all(map(math.isfinite, (*low, *high))):  # the geometry of the map is absurd
+    if not all(map(math.isfinite, (*low, *high))):  # the geometry of the map is invalid
         low, high = [-_LARGEST] * 2, [_LARGEST] * 2
     return (
         (math.floor(low[0] / _CELL), math.floor(low[1] / _CELL)),
@@ -182,7 +182,7 @@ def _extent(stretches: Iterable[_Stretch]) -> tuple[_Cell, _Cell]:
 
 
 def _samples(road: Road) -> int:
-    """Samples of a road after that at its begin."""
+    """Samples of a road after that at its start."""
     return max(1, math.ceil(road.length / _SAMPLE))
 
 
@@ -192,7 +192,7 @@ def _place(road: Road, i: int) -> float:
 
 
 def _stretches(number: int, road: Road) -> Iterator[_Stretch]:
-    """Stretches that hold all samples of a road; those at joints are in both."""
+    """Stretches with all samples of a road; those at joints are in both."""
     count = _samples(road)
     step = road.length / count
     width = min(max(map(_half_width, road.sections)), _HALF_ROAD) + _offset(road) + _WIDE
@@ -202,14 +202,14 @@ def _stretches(number: int, road: Road) -> Iterator[_Stretch]:
         begin = max(own, 0.0) if k > 0 else 0.0
         end = reference.starts[k + 1] if k + 1 < len(reference.starts) else road.length
         if end < 0.0 or begin > road.length:
-            continue  # the road has no place there, whatever its geometry says
+            continue  # the road has no position there
         first = math.floor(begin / step) if step > 0.0 else 0
         last = min(math.ceil(end / step), count) if step > 0.0 else count
         for low in range(first, max(last, first + 1), _MOST):
             high = min(low + _MOST, last)
             a, b = max(low * step, begin), min(high * step, end)
             x, y, _, _ = segment.at(0.5 * (a + b) - own)
-            # One step more, as the speed along a polynomial is even only nearly.
+            # One more step, as the speed along a polynomial is only nearly constant.
             radius = 0.5 * abs(b - a) * segment.stretch + step + width
             yield _Stretch(number, low, high, x, y, radius)
 
@@ -220,7 +220,7 @@ def _offset(road: Road) -> float:
 
 
 def _half_width(section: LaneSection) -> float:
-    """At least the distance (m) of the outermost edge from lane 0."""
+    """Upper bound of the distance (m) of the outermost edge from lane 0."""
     total = 0.0
     for lane in section.lanes.values():
         edge = lane.width if lane.width is not None else lane.border
@@ -243,7 +243,7 @@ def _floor(value: float, edge: float) -> int:
 
 
 def _across(road: Road, s: float, beside: float, step: float) -> Iterator[tuple[float, float]]:
-    """Points of a cross-section, from `beside` metres outside of its right edge to the left one."""
+    """Points of a cross-section, from `beside` metres outside its right edge to the left one."""
     section = road.section_at(s)
     low = high = road.lane_offset.value(s)
     if section.left:
@@ -280,8 +280,8 @@ def _runs(
 
 
 def _cells_of(value: float, tile: int) -> set[int]:
-    """The cells of a tile, along one axis, that a point registers in."""
+    """The cells of a tile, along one axis, in which a point is registered."""
     if not math.isfinite(value):
-        return set()  # the geometry of the map is absurd
+        return set()  # the geometry of the map is invalid
     low, high = math.floor((value - _REACH) / _CELL), math.floor((value + _REACH) / _CELL)
     return {cell for cell in (low, high) if cell // _TILE == tile}

@@ -37,7 +37,7 @@ from .road_index import RoadIndex
 from .seams import Seam, seams
 from .signals import Controller, Signal
 
-_THIN = 0.05  # m: lanes narrower than this do not exist at that place
+_THIN = 0.05  # m: narrower lanes do not exist at that position
 
 
 class RoadMap:
@@ -68,7 +68,7 @@ class RoadMap:
         self._road, self._lane, self._keyed = table.road, table.at, table.keyed
         connect_lanes(content.roads, content.junctions)
 
-    # --- places -------------------------------------------------------------------------------
+    # --- positions ----------------------------------------------------------------------------
 
     def pose(self, p: LanePosition) -> Pose:
         """Pose on a lane, heading in direction of travel including the slope of the lane."""
@@ -93,7 +93,7 @@ class RoadMap:
         """Lane that contains a point, else the nearest one within `max_distance`.
 
         Where lanes overlap (junctions, bridges) the point alone is ambiguous: `z` (m), `heading`
-        (rad, direction of travel) and `hint` (the last known place, which is then tracked along
+        (rad, direction of travel) and `hint` (the last known position, which is then tracked along
         its road and the roads linked to it) decide.
         """
         if hint is not None:
@@ -157,7 +157,7 @@ class RoadMap:
         Args:
             road: Road id.
             s: Road coordinate (m).
-            like: A lane of the wanted direction; default: the direction of s.
+            like: A lane of the required direction; default: the direction of s.
         """
         found = self._road(road)
         s = min(max(s, 0.0), found.length)
@@ -178,15 +178,15 @@ class RoadMap:
         *,
         either_way: bool = False,
     ) -> LanePosition | None:
-        """Place beside `p`, `count` drivable lanes away; None if absent.
+        """Position `count` drivable lanes beside `p`; None if absent.
 
-        Shoulders, medians and the like end the search, lanes without width do not.
+        Shoulders, medians and similar lanes end the search, lanes without width do not.
 
         Args:
-            p: The place.
-            side: As seen in direction of travel of its lane.
-            count: How many lanes.
-            either_way: Lanes of oncoming traffic count as well.
+            p: The position.
+            side: Side in direction of travel of its lane.
+            count: Number of lanes.
+            either_way: Whether lanes of oncoming traffic count as well.
         """
         lane, s = self._lane(p.road, p.lane, p.s)
         step = lane.direction if side == "left" else -lane.direction
@@ -218,24 +218,24 @@ class RoadMap:
         """Lanes that lead here in direction of travel, sorted."""
         return tuple(lane.key for lane in self._keyed(key).predecessors)
 
-    # --- ways ---------------------------------------------------------------------------------
+    # --- motion and distances -----------------------------------------------------------------
 
     def advance(self, p: LanePosition, distance: float, route: Route | None = None) -> Advance:
         """Moves along the lane by an arc length (m) at the offset of `p`; negative: backwards.
 
-        At a fork the branch with the least distance to go on `route` is taken, else the one that
-        turns least. At a dead end the move stops; `travelled` tells how far it went.
+        At a fork the branch with the least remaining distance on `route` is taken, else that with
+        the smallest turn. At a dead end the motion stops; `travelled` is the distance moved.
         """
         lane, s = self._lane(p.road, p.lane, p.s)
         start = p if s == p.s else LanePosition(p.road, p.lane, s, p.offset)
         return advance(lane, start, distance, route, self._forks)
 
     def cursor(self) -> LaneCursor:
-        """What goes along lanes in many small steps, one after the other."""
+        """A cursor for motion along lanes in many small steps."""
         return LaneCursor(self._lane)
 
     def route_to(self, goal: LanePosition) -> Route:
-        """Distance-to-go field to a place."""
+        """Field of remaining distances to a position."""
         lane, s = self._lane(goal.road, goal.lane, goal.s)
         place = LanePosition(goal.road, goal.lane, s, goal.offset)
         return Route(place, lane, self._groups, self._lane)
@@ -261,11 +261,11 @@ class RoadMap:
         return self._crosswalks
 
     def spawn_points(self) -> tuple[LanePosition, ...]:
-        """Default start places: driving lanes outside junctions, every 20 m from 10 m."""
+        """Default start positions: driving lanes outside junctions, every 20 m from 10 m."""
         return self._spawn_points
 
     def with_spawn_points(self, points: Sequence[LanePosition]) -> RoadMap:
-        """Return this map with other default start places."""
+        """Return this map with other default start positions."""
         other = copy(self)
         other.__dict__["_spawn_points"] = tuple(points)
         return other
@@ -281,7 +281,7 @@ class RoadMap:
         return lane_outlines(self._roads.values(), bounds, step)
 
     def seams(self) -> tuple[Seam, ...]:
-        """Joints at which lanes continue beside their end, or in another direction."""
+        """Joints at which lanes continue with a gap or a kink."""
         return self._seams
 
     @cached_property
@@ -293,7 +293,7 @@ class RoadMap:
         return self._seams_by_lane.get((road, lane), ())
 
     def has_seams(self, a: LanePosition, b: LanePosition) -> bool:
-        """Whether there are any in the lanes of two places."""
+        """Whether there are any in the lanes of two positions."""
         found = self._seams_by_lane
         return bool(found) and ((a.road, a.lane) in found or (b.road, b.lane) in found)
 
@@ -325,7 +325,7 @@ class RoadMap:
 
 
 def read_map(path: Path) -> RoadMap:
-    """Reads an OpenDRIVE file; what was read of a large one is kept for other processes.
+    """Reads an OpenDRIVE file; the content of a large one is kept for other processes.
 
     Raises:
         MapError: The file cannot be read or is not a usable map.

@@ -1,7 +1,7 @@
-"""Seams: joints at which a lane continues beside its end, or in another direction.
+"""Seams: joints at which a lane continues with a gap or a kink.
 
-The joints of each lane for vehicles or persons are tested: the pieces that its road is made of, and
-the lanes that follow it.
+The joints of each lane for vehicles or persons are tested: between the pieces of its road, and to
+its successors.
 """
 
 from __future__ import annotations
@@ -17,28 +17,28 @@ from .polynomials import between
 from .poses import lane_pose
 
 SMALLEST_GAP = 0.01
-"""Metres up to which a step counts as rounding in the map."""
+"""Largest gap (m) that counts as rounding in the map."""
 SMALLEST_TURN = math.radians(1.0)
-"""Likewise of headings (rad)."""
+"""Largest change of heading (rad), likewise."""
 
 _USED = DRIVING | {"biking", "shoulder", "sidewalk", "walking"}
-_BEFORE = 1e-6  # m: where a piece ends, as seen from it
+_BEFORE = 1e-6  # m before the end of a piece
 
 
 @dataclass(frozen=True, slots=True)
 class Seam:
-    """A position at which a lane does not continue as it ends.
+    """A gap or kink between a lane and its continuation.
 
     Attributes:
         road: Road id.
         lane: Lane id.
         s: Road coordinate of the joint (m).
-        onto: Road and lane that follow; for a joint inside of a lane, that lane itself.
+        onto: Road and lane that follow; for a joint inside a lane, that lane itself.
         gap: Distance (m) of both ends of the centre line.
         turn: Change of heading there (rad), without sign.
         jump: World x, y (m) and heading (rad) that it adds, in direction of travel.
-        begin: World x, y (m) of the start of the lane behind it.
-        beyond: Roads and lanes that follow those that follow.
+        begin: World x, y (m) of the start of the following lane.
+        beyond: Successors of the following lane.
     """
 
     road: str
@@ -52,7 +52,7 @@ class Seam:
     beyond: tuple[tuple[str, int], ...] = ()
 
     def __str__(self) -> str:
-        """Place and size, for people."""
+        """Position and size, for messages."""
         road, lane = self.onto
         beyond = "" if self.onto == (self.road, self.lane) else f" to lane {lane} of road {road}"
         return (
@@ -100,7 +100,7 @@ def _onward(lane: Lane) -> Iterator[Seam]:
 
 
 def _end(lane: Lane, *, at_exit: bool) -> tuple[float, Pose]:
-    """The s of one end of a lane, just inside of it, and the pose there."""
+    """The s of one end of a lane, just inside, and the pose there."""
     section = lane.section
     if not section.ready:
         section.prepare()

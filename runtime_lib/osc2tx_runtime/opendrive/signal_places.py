@@ -1,4 +1,4 @@
-"""Places on lanes where signals hold."""
+"""Positions on lanes at which signals are valid."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .signals import Signal, SignalReference
 
 
 class SignalPlace(NamedTuple):
-    """A place on a lane where a signal holds.
+    """A position on a lane at which a signal is valid.
 
     Attributes:
         signal: Id of the signal.
@@ -24,10 +24,10 @@ class SignalPlace(NamedTuple):
 def signal_places(
     roads: Mapping[str, Road], signals: Iterable[Signal]
 ) -> dict[tuple[str, int], tuple[SignalPlace, ...]]:
-    """Places by road and driving lane, in order of s.
+    """Positions by road and driving lane, in order of s.
 
-    A signal holds where it stands and where references to it stand, for those lanes of its
-    validity that have its orientation.
+    A signal is valid at its position and at those of its references, for the lanes of its validity
+    with its orientation.
     """
     places: dict[tuple[str, int], list[SignalPlace]] = {}
     for signal in signals:
@@ -55,5 +55,5 @@ def _lanes(roads: Mapping[str, Road], entry: Signal | SignalReference) -> Iterat
         for lane in valid
         if entry.orientation not in ("+", "-") or (lane.direction > 0) == (entry.orientation == "+")
     ]
-    # Maps of CARLA name lanes of the other direction; lanes that are named count then.
+    # Maps of CARLA state lanes of the other direction; the stated lanes count then.
     yield from (lane.id for lane in facing or (valid if ranges else []))

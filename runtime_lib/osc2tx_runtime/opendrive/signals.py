@@ -7,7 +7,7 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(frozen=True, slots=True)
 class SignalReference:
-    """A further place where a signal holds.
+    """A further position at which a signal is valid.
 
     Attributes:
         road: Road id.
@@ -47,7 +47,7 @@ class Signal:
         height: Height (m).
         width: Width (m).
         validity: Lane ranges (from, to); empty means all lanes of the orientation.
-        references: Further places where the signal holds.
+        references: Further positions at which the signal is valid.
     """
 
     id: str
@@ -80,7 +80,7 @@ class Controller:
         name: Name, may be empty.
         sequence: Order among the controllers of a junction, None if not given.
         signals: Ids of the controlled signals, without repetition, in file order.
-        junctions: Ids of the junctions that name this controller.
+        junctions: Ids of the junctions with this controller.
     """
 
     id: str

@@ -1,4 +1,4 @@
-"""Elements of a map that nothing here reads."""
+"""Elements of a map that are not read."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ READ = frozenset(
         *("junction", "connection", "laneLink", "controller", "control"),
     }
 )
-"""The types of objects that the reader takes, besides crosswalks."""
+"""The types of objects that are read, besides crosswalks."""
 
 
 def unread_elements(path: Path) -> tuple[tuple[str, int], ...]:

@@ -1,7 +1,7 @@
 """Roads that branch off within another road (OpenDRIVE 12.7): that road is cut into sections there.
 
-The lanes of a section lead to lanes of sections, so a branch within a section would have no lane to
-come from. A cut changes nothing else: widths and all other profiles are given over s of the road.
+The lanes of a section lead to lanes of sections, so a branch within a section would have no
+predecessor. A cut has no other effect: widths and all other profiles are given over s of the road.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from osc2tx_shared.classes import replace
 from .model import Lane, LaneSection, Road
 
 _SHORT = 0.01
-"""Metres from the end of a section at which a branch begins there."""
+"""Distance (m) from the end of a section within which a branch begins at the end."""
 
 
 def cut_where_roads_branch_off(roads: dict[str, Road]) -> None:
-    """Replace the roads that others branch off from between their ends."""
+    """Replace roads from which others branch off between their ends."""
     places: dict[str, set[float]] = {}
     for road in roads.values():
         for link in (road.predecessor, road.successor):

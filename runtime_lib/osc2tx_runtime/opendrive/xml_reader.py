@@ -1,4 +1,4 @@
-"""Checked access to XML attributes: every complaint names the file, the line and the element."""
+"""Checked access to XML attributes: each error states the file, the line and the element."""
 
 from __future__ import annotations
 
@@ -42,13 +42,13 @@ def parse_stream(
 ) -> etree._Element:
     """Root element of the text of a map.
 
-    Entities are not resolved and nothing is fetched: maps come from third parties.
+    Entities are not resolved and nothing is loaded: maps come from third parties.
 
     Args:
         stream: The text.
         name: Used in messages.
-        take: Called with each road as soon as it is complete; may remove the elements it has read:
-            the elements of a large map are many times larger than the resulting objects.
+        take: Called with each road as soon as it is complete; may remove the elements that it has
+            read, which are many times larger than the resulting objects.
 
     Raises:
         MapError: It is not XML, or not a map.
@@ -81,7 +81,7 @@ def parse_stream(
 
 
 def _take_roads(parser: etree.XMLPullParser, take: Callable[[etree._Element], None]) -> None:
-    """Hand over the roads of the map that are complete by now."""
+    """Pass on the roads of the map that are complete."""
     for event, found in parser.read_events():
         element = cast("etree._Element", found)
         parent = element.getparent()
@@ -119,7 +119,7 @@ class Attributes:
         self._shared: dict[tuple[tuple[float, Row], ...], Piecewise] = {}
 
     def remark(self, element: etree._Element, message: str) -> None:
-        """Note an error of an element that can be used all the same."""
+        """Note an error of an element that can still be used."""
         name = element.get("id")
         what = f"`{element.tag}`" if name is None else f"`{element.tag}` {name}"
         self.remarks[f"line {source_line(element)}: {what} {message}"] = None
@@ -129,7 +129,7 @@ class Attributes:
         return MapError(self.file, f"element `{element.tag}`: {message}", source_line(element))
 
     def text(self, element: etree._Element, name: str, default: str | None = None) -> str:
-        """An attribute as it is; without a default it must be there."""
+        """The text of an attribute; required without a default."""
         value = element.get(name)
         if value is not None:
             return value
@@ -174,7 +174,7 @@ class Attributes:
             raise self.error(element, message) from None
 
     def piecewise(self, records: Iterable[tuple[float, Row]]) -> Piecewise | None:
-        """Of polynomials with their starts; equal ones are one object, as they are frequent."""
+        """From polynomials with their starts; equal ones, which are frequent, share an object."""
         key = tuple(records)
         found = self._shared.get(key)
         if found is None:

@@ -1,4 +1,4 @@
-"""Puts data, style and script into one HTML file that loads nothing."""
+"""Combines data, style and script in one HTML file that loads nothing."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def resource(name: str) -> str:
 
 
 def fill(template: str, style: str, script: str, data: Json) -> str:
-    """Return the page that a template with `$style`, `$script`, `$data` and the hashes gives."""
+    """Return the page of a template with `$style`, `$script`, `$data` and the hashes."""
     return Template(template).substitute(
         style=style,
         script=script,
@@ -28,13 +28,13 @@ def fill(template: str, style: str, script: str, data: Json) -> str:
 
 
 def _csp_hash(content: str) -> str:
-    """The browser runs only the script with this hash: nothing a trace could smuggle in."""
+    """The hash of the only script that the browser runs: no content of a trace is executed."""
     digest = hashlib.sha256(content.encode("utf-8")).digest()
     return "sha256-" + base64.b64encode(digest).decode("ascii")
 
 
 def _embed(data: Json) -> str:
-    r"""JSON that cannot end its script block.
+    r"""JSON that cannot close its script block.
 
     ASCII output writes U+2028 and U+2029 (and lone surrogates) as \u escapes already.
     """

@@ -10,7 +10,7 @@ from .page import Trace
 
 
 def render_index(rows: Sequence[Json]) -> str:
-    """The index of rows (`index_row`) as text; the same arguments give the same text."""
+    """The index of rows (`index_row`) as text; equal arguments give equal text."""
     data: Json = {"runs": list(rows)}
     script = resource("base.js") + "\n" + resource("index.js")
     return fill(resource("index.html"), resource("report.css"), script, data)

@@ -9,14 +9,14 @@ Json = dict[str, object]
 """A JSON object."""
 
 _LARGEST = 1e12
-"""Beyond it, sums of numbers of a page would leave the range of whole numbers of a browser."""
+"""Upper limit: sums of larger numbers would leave the exact whole numbers of a browser."""
 
 _DEEPEST = 100
-"""Levels of lists and objects in each other; traces of ours have three."""
+"""Greatest depth of nested lists and objects; traces of osc2tx have three levels."""
 
 
 def number(value: object) -> float | None:
-    """The value as a float that a page can draw, None if it is anything else."""
+    """The value as a float that a page can draw, None for other values."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         return None
     try:
@@ -27,7 +27,7 @@ def number(value: object) -> float | None:
 
 
 def is_flat(value: object) -> bool:
-    """Whether lists and objects are in each other only as deep as functions can follow."""
+    """Whether the nesting of lists and objects is within the limit."""
     level = [value]
     for _ in range(_DEEPEST):
         level = [inner for each in level for inner in _within(each)]
@@ -54,7 +54,7 @@ def text(value: object) -> str:
 
 
 def plain(value: object) -> object:
-    """A copy that strict JSON can hold: numbers that are not finite become text."""
+    """A copy for strict JSON: numbers that are not finite become text."""
     if isinstance(value, dict):
         return {text(key): plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):

@@ -1,4 +1,4 @@
-"""Texts of the page beside the mark of an instant, for each kind of line."""
+"""Texts of marks on the page, for each kind of line."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from .json_values import Json, number, text
 
 _DEGREES = 180.0 / math.pi
-# Values of the environment: words before, factor and offset from SI units, unit behind.
+# Values of the environment: text before, factor and offset from SI units, unit after.
 _WEATHER = {
     "temperature": ("", 1.0, -273.15, " °C"),
     "pressure": ("pressure ", 0.01, 0.0, " hPa"),
@@ -27,7 +27,7 @@ _WEATHER = {
 
 
 def mark_name(kind: str, line: Json) -> str | None:
-    """Return the words for a line; None for a kind that is not known."""
+    """Return the text of a line; None for an unknown kind."""
     words = _WORDS.get(kind)
     return None if words is None else words(line)
 
@@ -48,7 +48,7 @@ _COMMON = ("t", "kind")
 
 
 def _weather(name: str, value: object) -> str:
-    """A value of the environment in units that people use."""
+    """A value of the environment in common units."""
     amount = number(value)
     if amount is None or name not in _WEATHER:
         return f"{name} {text(value)}"

@@ -9,7 +9,7 @@ from typing import Protocol
 from .json_values import Json, short
 
 MARGIN = 100.0
-"""How far from a path lanes are drawn (m)."""
+"""Distance (m) from a path within which lanes are drawn."""
 
 _CELL = 25.0  # m: size of the grid cells that index nearby paths
 _TOLERANCE = 0.04  # m: greatest error of a thinned edge
@@ -54,7 +54,7 @@ class CrosswalkShape(Protocol):
 
     @property
     def x(self) -> float:
-        """Middle of the way over the road (m)."""
+        """Middle of the path over the road (m)."""
 
     @property
     def y(self) -> float:
@@ -62,11 +62,11 @@ class CrosswalkShape(Protocol):
 
     @property
     def heading(self) -> float:
-        """Direction of the way (rad)."""
+        """Direction of the path (rad)."""
 
     @property
     def length(self) -> float:
-        """Length of the way (m)."""
+        """Length of the path (m)."""
 
     @property
     def width(self) -> float:
@@ -130,7 +130,7 @@ def _bounds(points: Sequence[Point]) -> Bounds:
 
 
 def _near_test(points: Sequence[Point]) -> Callable[[Point], bool]:
-    """A test that says whether a point lies in a grid cell within `MARGIN` of the points."""
+    """A test whether a point is in a grid cell within `MARGIN` of the points."""
     reach = math.ceil(MARGIN / _CELL)
     disc = [
         (i, j)
@@ -152,13 +152,13 @@ _EdgeKey = tuple[str, int, float, float]
 
 
 def _edge_key(shape: LaneShape, *, outer: bool) -> _EdgeKey:
-    """Names one edge of a lane by road, lane and its first point (to a decimetre)."""
+    """Key of one edge of a lane: road, lane and its first point (to a decimetre)."""
     edge = shape.left if (shape.lane > 0) == outer else shape.right
     return shape.road, shape.lane, round(edge[0][0], 1), round(edge[0][1], 1)
 
 
 def _neighbour_key(shape: LaneShape, *, outer: bool) -> _EdgeKey:
-    """The key which the neighbour on that side has for the edge both share."""
+    """The key of the neighbour on that side for the shared edge."""
     road, lane, x, y = _edge_key(shape, outer=outer)
     away = 1 if lane > 0 else -1
     return road, lane + away if outer else lane - away, x, y
@@ -210,7 +210,7 @@ def _distance(point: Point, begin: Point, end: Point) -> float:
 
 
 def _pack(points: Sequence[Point]) -> list[int]:
-    """Centimetres; every point relative to the one before, which keeps the numbers short."""
+    """Centimetres; each point relative to the one before, which keeps the numbers short."""
     packed: list[int] = []
     x = y = 0
     for point in points:

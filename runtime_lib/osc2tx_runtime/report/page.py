@@ -1,4 +1,4 @@
-"""The page of one run, or of two runs over each other."""
+"""The page of one run, or of two overlaid runs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .tracks import DIGITS
 
 
 def render_campaign(data: Json) -> str:
-    """Return the page as text; the same data give the same text.
+    """Return the page as text; equal data give equal text.
 
     Args:
         data: A summary, coverage, and columns of rows, as `osc2tx campaign report` collects them.
@@ -26,7 +26,7 @@ def render_campaign(data: Json) -> str:
 
 
 def render_project(data: Json) -> str:
-    """Return the page of a project as text; the same data give the same text.
+    """Return the page of a project as text; equal data give equal text.
 
     Args:
         data: Verdicts of scenarios, XML by reason, and campaigns, as `osc2tx test --page` and
@@ -67,11 +67,11 @@ class MapSource(OutlineSource, SignalSource, Protocol):
 
 
 class Trace:
-    """A trace that a page is made of, read.
+    """The content of a trace for a page.
 
     Args:
         lines: Its lines; broken and unknown ones are counted on the page.
-        name: What tells it from another on the same page.
+        name: Its name on the page.
 
     Attributes:
         run: Its content; takes further lines.
@@ -89,23 +89,23 @@ def write_report(path: Path, trace_lines: Iterable[str], road_map: MapSource | N
     Args:
         path: The HTML file to write; its folder must exist.
         trace_lines: The lines of the trace. Broken and unknown lines are counted on the page.
-        road_map: The map to draw under the paths (a `RoadMap`), None to leave it out.
+        road_map: The map to draw under the paths (a `RoadMap`), None: no map.
     """
     page = render_report(trace_lines, road_map)
     path.write_text(page, encoding="utf-8", newline="\n")
 
 
 def render_report(trace_lines: Iterable[str], road_map: MapSource | None = None) -> str:
-    """The page of one run as text; the same arguments give the same text."""
+    """The page of one run as text; equal arguments give equal text."""
     return render_runs([Trace(trace_lines)], road_map)
 
 
 def render_runs(traces: Sequence[Trace], road_map: MapSource | None = None) -> str:
-    """The page of one run, or of two runs over each other, as text.
+    """The page of one run, or of two overlaid runs, as text.
 
     Args:
         traces: One or two.
-        road_map: The map under the paths of both; None to leave it out.
+        road_map: The map under the paths of both; None: no map.
     """
     runs = [trace.run for trace in traces]
     paths = [track.points() for run in runs for track in run.tracks.values()]

@@ -44,13 +44,13 @@ class PoseShape(Protocol):
 
 
 class SignalSource(Protocol):
-    """The part of `osc2tx_runtime.opendrive.RoadMap` that knows where lights stand."""
+    """The part of `osc2tx_runtime.opendrive.RoadMap` with the positions of lights."""
 
     def signals(self) -> Sequence[SignalShape]:
         """All signals."""
 
     def road_pose(self, road: str, s: float, t: float) -> PoseShape:
-        """Where a place beside a road is."""
+        """Pose of a position beside a road."""
 
 
 @dataclass
@@ -60,7 +60,7 @@ class Surroundings:
     Attributes:
         signals: Id of a light to its changes: time, meaning, states of its lamps.
         lights: Id of an actor to its changes: time, lit lights.
-        weather: Time, and the values that are new then (SI units).
+        weather: Time, and the values that change then (SI units).
     """
 
     signals: dict[str, list[Json]] = field(default_factory=dict)
@@ -68,7 +68,7 @@ class Surroundings:
     weather: list[Json] = field(default_factory=list)
 
     def add(self, kind: str, time: float, line: Json) -> None:
-        """Take a line of the trace; lines of other kinds are left out."""
+        """Add a line of the trace; lines of other kinds are ignored."""
         t = short(time, 4)
         if kind == "signal":
             bulbs = line.get("bulbs")

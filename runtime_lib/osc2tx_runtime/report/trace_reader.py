@@ -29,7 +29,7 @@ class _Action:
     reason: str = ""
 
     def as_json(self) -> Json:
-        """The form the page reads."""
+        """The data for the page."""
         return {
             "actor": self.actor,
             "name": self.name,
@@ -60,7 +60,7 @@ class ActionLog:
         if status == "start":
             waiting.append(self._begin(actor, name, source, time))
             return
-        # An end without a start happens when a trace is cut: shown as an instant.
+        # An end without a start, in a truncated trace, is shown as an instant.
         action = waiting.pop(0) if waiting else self._begin(actor, name, source, time)
         action.end, action.status = time, status or "end"
         action.reason = text(line.get("reason"))
@@ -77,7 +77,7 @@ class ActionLog:
 
 
 def node_list(value: object) -> list[Json]:
-    """Return the nodes with their drawable data; other values are left out."""
+    """Return the nodes with their drawable data; other values are omitted."""
     nodes = value if isinstance(value, list) else []
     return [_node(each) for each in nodes if isinstance(each, dict)]
 
@@ -94,7 +94,7 @@ def _is_span(run: object) -> bool:
 
 
 def _span(run: list[object]) -> list[object]:
-    """Start (s), end (s, None while it runs), and how it was left."""
+    """Start (s), end (s, None while it runs), and status at the end."""
     start, end = number(run[0]), number(run[1])
     return [short(start or 0.0, 4), None if end is None else short(end, 4), text(run[2])]
 
@@ -117,7 +117,7 @@ def _violation(time: float, line: Json) -> Json:
 
 _FIXED_KINDS = ("stationary", "environment", "map", "traffic_light", "trafficlight")
 _SIZES = {"length": 1.0, "width": 1.0}
-_BRACKETS = 50  # of a line whose depth is looked at
+_BRACKETS = 50  # brackets in a line from which its depth is checked
 _HEADER_KEYS = (
     "version",
     "scenario",
@@ -142,7 +142,7 @@ class Run:
 
     Attributes:
         header: The header line, empty if there is none.
-        result: The result line, None if the run did not get there.
+        result: The result line, None if the run did not reach it.
         tracks: Movement by actor id.
         surroundings: Lights and weather.
         nodes: The behavior tree, each node with the times at which it ran.
@@ -163,7 +163,7 @@ class Run:
     skipped: int = 0
 
     def take(self, lines: Iterable[str]) -> None:
-        """Take lines of the trace; what is broken or of unknown kind is counted, not refused."""
+        """Add lines of the trace; broken lines and those of unknown kind are counted."""
         for line in lines:
             if not line.strip():
                 continue
@@ -220,7 +220,7 @@ class Run:
         return True
 
     def as_json(self) -> Json:
-        """The object the page reads."""
+        """The data for the page."""
         return {
             "header": {key: plain(self.header.get(key)) for key in _HEADER_KEYS},
             "result": plain(self.result),

@@ -16,8 +16,8 @@ Packed = list[int | list[int] | None]
 def pack(values: Sequence[float | None], digits: int) -> Packed:
     """Return a column as second differences, in units of the last digit.
 
-    What moves steadily has differences of zero, so most of a column is runs of equal numbers. A
-    run of more than two is written as `[number, count]`. Unknown values stay None.
+    Steady motion has differences of zero, so most of a column is runs of equal numbers. A run of
+    more than two is written as `[number, count]`. Unknown values stay None.
     """
     scale = 10**digits
     packed: Packed = []
@@ -51,7 +51,7 @@ MAX_SAMPLES = 4000
 """Samples of one actor on the page; longer runs are thinned evenly."""
 
 DIGITS = {"t": 4, "x": 2, "y": 2, "h": 4, "v": 3, "a": 3, "s": 2, "offset": 2}
-"""Columns, and the decimals that are kept: centimetres, 0.01 degrees, millimetres per second."""
+"""Columns, and the kept decimals: centimetres, 0.01 degrees, millimetres per second."""
 
 _Sample = dict[str, float | None]
 _Point = tuple[float, float]
@@ -61,9 +61,9 @@ _Point = tuple[float, float]
 class Track:
     """State lines of one actor in order of time, thinned as they come.
 
-    Every sample is kept at first. Whenever there are twice as many as the page shows, every second
-    one is dropped, and so are the lines between from then on: memory does not grow with the length
-    of a run.
+    At first all samples are kept. Whenever there are twice as many as the page shows, every second
+    one is dropped, and so are further lines in between: memory does not grow with the length of a
+    run.
     """
 
     _samples: list[_Sample] = field(default_factory=list)
@@ -76,7 +76,7 @@ class Track:
     _is_at_rest: bool = True
 
     def add(self, time: float, line: Json) -> bool:
-        """Take one state line at `time` (s); False if it has no usable position."""
+        """Add one state line at `time` (s); False if it has no usable position."""
         x, y = number(line.get("x")), number(line.get("y"))
         if x is None or y is None:
             return False
@@ -98,7 +98,7 @@ class Track:
         return True
 
     def _note_point(self, x: float, y: float) -> None:
-        """Of the points in a cell, and of those at a rim of the path, one is enough."""
+        """Keep one point per cell, and one at each rim of the path."""
         self._passed.setdefault(cell((x, y)), (x, y))
         west, east, south, north = self._rim or ((x, y),) * 4
         self._rim = (
@@ -109,7 +109,7 @@ class Track:
         )
 
     def _note_place(self, time: float, road: str, lane: str) -> None:
-        """Road and lane change seldom, so only the changes are kept."""
+        """Keep only changes of road and lane."""
         if not self._places or self._places[-1][1:] != (road, lane):
             self._places.append((time, road, lane))
 
@@ -127,7 +127,7 @@ class Track:
             return samples[:1] if last == 0 else [samples[0], samples[-1]]
         if last < MAX_SAMPLES:
             return samples
-        # Integer arithmetic: evenly spread, and the same on every machine.
+        # Integer arithmetic: evenly spread, and the same on all machines.
         return [samples[i * last // (MAX_SAMPLES - 1)] for i in range(MAX_SAMPLES)]
 
     def as_json(self) -> Json:

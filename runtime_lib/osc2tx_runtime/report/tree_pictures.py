@@ -12,7 +12,7 @@ from osc2tx_shared.text import visible
 ROW = 26
 STEP = 28
 MARGIN = 16
-CHARACTER = 7.3  # width of one in the font below, as far as it is known
+CHARACTER = 7.3  # approximate width in the font below
 COLORS = {
     "serial": "#2463c9",
     "parallel": "#8e3fb8",
@@ -24,15 +24,15 @@ COLORS = {
 }
 OTHER_COLOR = "#5c6470"
 BOLD, FAINT, RESET = "\x1b[1m", "\x1b[2m", "\x1b[0m"
-LEAST_TEXT = 20  # columns for the nodes, however narrow the terminal
+LEAST_TEXT = 20  # least columns for the nodes
 
 
 def tree_text(root: Behaviour, *, columns: int | None = None, color: bool = False) -> str:
-    """Return the tree as lines of text, with the lines of the scenario in a column of their own.
+    """Return the tree as lines of text, with the source positions in a separate column.
 
     Args:
         root: The result of `create_root` of a generated module.
-        columns: Width of the lines, to which long texts of nodes are cut; None if nothing is cut.
+        columns: Width of the lines, to which texts of nodes are truncated; None: not truncated.
         color: Whether to use the colors of a terminal.
     """
     rows = _rows(root)
@@ -50,7 +50,7 @@ def tree_text(root: Behaviour, *, columns: int | None = None, color: bool = Fals
 
 
 def _painted(line: str, row: OutlineNode) -> str:
-    """The line with the kind of a node, where it says one, in bold."""
+    """The line with the kind of a node, if it has one, in bold."""
     branches = _branches(row.last)
     kind = "" if row.kind == "action" else row.kind
     begins = kind and line.startswith(branches + kind)
@@ -58,10 +58,10 @@ def _painted(line: str, row: OutlineNode) -> str:
 
 
 def tree_svg(root: Behaviour) -> str:
-    """Return the tree as an SVG document; the same tree gives the same text.
+    """Return the tree as an SVG document; equal trees give equal text.
 
     Args:
-        root: What `create_root` of a generated module returns.
+        root: The result of `create_root` of a generated module.
     """
     rows = _rows(root)
     column = max(
@@ -86,7 +86,7 @@ def tree_svg(root: Behaviour) -> str:
 
 
 def _rows(root: Behaviour) -> list[OutlineNode]:
-    """The nodes, with texts that a terminal can show."""
+    """The nodes, with texts for a terminal."""
     return [
         replace(row, text=visible(row.text), source=visible(row.source)) for row in outline(root)
     ]
@@ -107,7 +107,7 @@ def _branches(last: tuple[bool, ...]) -> str:
 
 
 def _draw_branches(svg: ElementTree.Element, rows: list[OutlineNode]) -> None:
-    """Draw a line from each node to those below it."""
+    """Draw a line from each node to its members."""
     parents: dict[int, int] = {}  # depth to the row of the last node there
     path = []
     for index, row in enumerate(rows):

@@ -1,5 +1,5 @@
 """One run of a scenario.
 
-`main` reads the command line by the table of `options`, `runner` makes world, cast and tree, `loop`
-goes from one instant to the next until the verdict.
+`main` reads the command line by the table of `options`, `runner` creates world, cast and tree,
+`loop` settles one instant after the other until the verdict.
 """

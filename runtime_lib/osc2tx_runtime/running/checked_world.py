@@ -1,4 +1,4 @@
-"""A third-party world whose answers are checked, as all of a run computes with them."""
+"""A third-party world whose results are checked, as the run computes with them."""
 
 from __future__ import annotations
 
@@ -41,9 +41,9 @@ ATTRIBUTES = (_OF_A_WORLD.keys() | set(World.__annotations__)) - METHODS
 
 
 def checked_world(world: object) -> World:
-    """Return a world that names itself when it answers garbage or fails.
+    """Return a world whose errors name it when it fails or returns invalid results.
 
-    The world of this package needs no checks: it checks what its plant answers.
+    The embedded world needs no checks: it checks the results of its plant.
     """
     if type(world) is EmbeddedWorld:
         return world
@@ -51,7 +51,7 @@ def checked_world(world: object) -> World:
 
 
 class _CheckedWorld:
-    """Hands every call on to a world of the user's own."""
+    """Passes all calls on to a third-party world."""
 
     def __init__(self, world: object) -> None:
         self._world = world

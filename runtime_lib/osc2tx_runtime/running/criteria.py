@@ -1,8 +1,8 @@
 """Criteria of a failed run, `--fail-on`.
 
-The tree of a scenario states whether its behavior came about. A criterion makes a run fail whatever
-the tree states: a collision, a vehicle that leaves the lanes, one that passes a light that shows
-stop.
+The tree of a scenario determines whether its behavior succeeds. A criterion makes a run fail
+whatever the result of the tree: a collision, a vehicle that leaves the lanes, a vehicle that passes
+a stop line at red.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
     from osc2tx_runtime.world.state import ActorState
 
-_REACH = 1.0  # m beyond the way of one step in which a stop line is looked for
+_REACH = 1.0  # m beyond the distance of one step in which stop lines are searched
 
 
 class Criteria:
@@ -30,7 +30,7 @@ class Criteria:
         is_noted: Whether violations are noted in the trace.
 
     Attributes:
-        broken: What was against a criterion: `collision of a and b at 3.20 s`.
+        broken: The violations of criteria: `collision of a and b at 3.20 s`.
     """
 
     def __init__(

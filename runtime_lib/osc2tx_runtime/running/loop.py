@@ -1,4 +1,4 @@
-"""The loop of a run: one instant after the other until the tree ends or the time is over."""
+"""The loop of a run: one instant after the other until the tree ends, or up to a limit."""
 
 from __future__ import annotations
 
@@ -37,21 +37,21 @@ class Observer(Protocol):
     """Called during a run; its exceptions end the run."""
 
     def begin(self, context: ExecutionContext) -> None:
-        """See the actors where they start, before the first step."""
+        """Observe the actors at their start, before the first step."""
 
     def observe(self, step: int) -> None:
         """Observe the result of a step."""
 
     def sampled(self, kind: str, values: Mapping[str, Any]) -> None:
-        """Take the value of a coverage item, `cover` or `record`, as the trace has it."""
+        """Receive the value of a coverage item, `cover` or `record`, as in the trace."""
 
 
 OnProgress = Callable[[float, float], None]
-"""Takes the time of the run and the time at which it has to end, in seconds."""
+"""Receives the time of the run and its time limit, in seconds."""
 
 
 class Outcome(NamedTuple):
-    """How a tree ended: `success`, `failure` or `timeout`, why, after how many steps, and where."""
+    """The outcome of a tree: `success`, `failure` or `timeout`, reason, steps, and position."""
 
     status: str
     reason: str
@@ -66,19 +66,19 @@ def run_tree(
     observer: Observer | None = None,
     last_step: int | None = None,
 ) -> Outcome:
-    """Run a tree that is set up until it ends or the time is over.
+    """Run a tree after its setup until it ends or the time limit is reached.
 
-    However it ends, no node is RUNNING and no slot is owned afterwards, and the trace is closed.
+    Afterwards no node is RUNNING and no slot is owned in any case, and the trace is closed.
 
     Args:
         root: The tree.
         context: Of the run.
         on_progress: Called about once per simulated second.
         observer: Observes the run.
-        last_step: The step at which the time is over; by default that of `max_time`.
+        last_step: The step of the time limit; default: that of `max_time`.
 
     Raises:
-        ScenarioError: If the scenario cannot continue.
+        ScenarioError: The scenario cannot continue.
     """
     outcome = Outcome("error", "", 0)
     try:
@@ -101,7 +101,7 @@ def run_tree(
 
 
 def judged(outcome: Outcome, criteria: Criteria) -> Outcome:
-    """Return how a run ended, with what was against its criteria: that is a failure."""
+    """Return the outcome of a run; a violated criterion is a failure."""
     if not criteria.broken:
         return outcome
     reasons = [*criteria.broken, outcome.reason] if outcome.reason else criteria.broken
@@ -118,7 +118,7 @@ def close(root: Behaviour, context: ExecutionContext, outcome: Outcome) -> None:
         if root.status is RUNNING:
             root.stop(INVALID)
     finally:
-        for node in root.iterate():  # nodes that a broken `on_stop` left running
+        for node in root.iterate():  # nodes that a failed `on_stop` left running
             if node.status is RUNNING:
                 node.status = INVALID
         context.clear()
@@ -129,7 +129,7 @@ def close(root: Behaviour, context: ExecutionContext, outcome: Outcome) -> None:
 
 
 def overloads(context: ExecutionContext) -> tuple[str, ...]:
-    """Return the motions beyond the limits of tyres, in a run that continued all the same."""
+    """Return the motions beyond the limits of tyres, for a run that continued."""
     if context.settings.physics == "fail":
         return ()
     return tuple(map(str, context.world.overloads()))
@@ -149,7 +149,7 @@ def loop(
     observer: Observer | None,
     last_step: int,
 ) -> Outcome:
-    """Settle one instant after the other until the tree ends or the time is over."""
+    """Settle one instant after the other until the tree ends or the time limit is reached."""
     pulse = pulse_of(root)
     if observer is not None:
         observer.begin(context)
@@ -195,14 +195,15 @@ def settle(
     context: ExecutionContext,
     signals: tuple[PostedEvent, ...],
 ) -> Status:
-    """Pulse the tree until nothing more happens at this instant; not at all while it rests.
+    """Pulse the tree until the instant is settled; not at all while it rests.
 
-    First no event is left pending. Then all pending assignments are applied together, and the
-    evaluation continues with the new snapshot, until nothing more is pending. At the very start
-    conditions are evaluated when that has put the actors into their start positions.
+    First all pending events are processed. Then all pending assignments are applied together, and
+    the evaluation continues with the new snapshot, until nothing is pending. At the start of the
+    run, conditions are evaluated after this has placed the actors.
 
-    Signals are visible from the first pass on, so a wait that starts just now does not see them.
-    Those at the very start become visible one pass later: the first waits do see them.
+    Signals are visible from the first pass, so a wait that starts at this instant does not register
+    them. Those at the start of the run become visible one pass later, so that the first waits
+    register them.
     """
     context.is_placing = context.step == 0 and assigns_at_start(root)
     if signals and context.step > 0:
@@ -225,7 +226,7 @@ def settle(
 
 
 def assigns(context: ExecutionContext) -> bool:
-    """Carry out the assignments that are pending; return whether there were any."""
+    """Apply the pending assignments; return whether there were any."""
     if not context.effects.is_pending():
         return False
     check_effects(context)
@@ -234,7 +235,7 @@ def assigns(context: ExecutionContext) -> bool:
 
 
 def post_all(context: ExecutionContext, signals: tuple[PostedEvent, ...]) -> None:
-    """Post events from outside; their parameters have their defaults."""
+    """Post external events; their parameters have their defaults."""
     for event in signals:
         context.post(event, event.complete({}))
 
@@ -259,7 +260,7 @@ def states(context: ExecutionContext) -> Iterator[tuple[str, ActorState]]:
 
 
 def assigns_at_start(node: Behaviour) -> bool:
-    """Return whether a tree may assign the state of an actor at the instant in which it starts."""
+    """Return whether a tree may assign the state of an actor at the instant of its start."""
     if isinstance(node, BaseAction):
         return _assigns(node)
     for child in node.children:

@@ -42,12 +42,11 @@ def main(*scenarios: type[Scenario], argv: Sequence[str] | None = None) -> int:
 
     Args:
         *scenarios: The classes of the module; `--scenario` chooses one of several.
-        argv: Arguments; those of the process by default.
+        argv: Arguments; default: those of the process.
 
     Returns:
-        0 success, 5 ran and failed or ran out of time, 4 unreadable input or no simulator, 4 also
-        for derived code of a user that fails, 2 usage, 130 when the user interrupts it, 70 an
-        internal error.
+        0 success, 5 failure or timeout, 4 unreadable input, no simulator or failing user code, 2
+        usage, 130 interrupted by the user, 70 internal error.
     """
     try:
         as_usual()
@@ -56,7 +55,7 @@ def main(*scenarios: type[Scenario], argv: Sequence[str] | None = None) -> int:
         return INTERRUPTED
     except OutputError as error:
         return explain(error)
-    except OSError as error:  # the folder that we work in is gone
+    except OSError as error:  # the current folder does not exist any more
         complain(f"error: {error}")
         return EXIT_UNREADABLE
     except Exception as error:  # the edge of the process
@@ -70,9 +69,9 @@ def main(*scenarios: type[Scenario], argv: Sequence[str] | None = None) -> int:
 
 
 def place_in_own_code(error: Exception, scenarios: Sequence[type[Scenario]]) -> str | None:
-    """Return the position at which user code fails, `FILE:LINE`; None if none of it does.
+    """Return the position at which user code fails, `FILE:LINE`; None if none does.
 
-    User code are the modules of the classes and of their bases that no compiler made.
+    User code are the modules of the classes and their bases that the compiler did not write.
     """
     bases = {base.__module__ for scenario in scenarios for base in scenario.__mro__}
     modules = [sys.modules[name] for name in bases if name in sys.modules]
@@ -91,7 +90,7 @@ def run(scenarios: Sequence[type[Scenario]], argv: Sequence[str]) -> int:
     """Run a scenario from a command line; return the exit code.
 
     Raises:
-        OutputError: If its output cannot be written.
+        OutputError: Its output cannot be written.
     """
     progress = show_progress if is_watched() else None
     try:
@@ -122,10 +121,10 @@ def run(scenarios: Sequence[type[Scenario]], argv: Sequence[str]) -> int:
 
 
 def choose_scenario(scenarios: Sequence[type[Scenario]], wanted: str | None) -> type[Scenario]:
-    """Return the scenario that was asked for, else `top`, `main`, `is_main` or the only one.
+    """Return the requested scenario, else `top`, `main`, `is_main` or the only one.
 
     Raises:
-        SettingsError: If there is no such scenario, or several to choose from.
+        SettingsError: There is no such scenario, or no unique choice.
     """
     by_name = {scenario.name: scenario for scenario in scenarios}
     names = ", ".join(by_name) or "none"
@@ -145,14 +144,14 @@ def choose_scenario(scenarios: Sequence[type[Scenario]], wanted: str | None) -> 
 
 
 def chosen_world(argv: Sequence[str], default: str = EMBEDDED.name) -> WorldType:
-    """Return the world that a command line asks for: it has options of its own.
+    """Return the world of a command line, which has further options.
 
     Args:
         argv: The command line.
-        default: The world if it does not say.
+        default: The world if it states none.
 
     Raises:
-        SettingsError: If there is no such world.
+        SettingsError: There is no such world.
     """
     parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False, exit_on_error=False)
     parser.add_argument("--world", default=default)
@@ -164,7 +163,7 @@ def chosen_world(argv: Sequence[str], default: str = EMBEDDED.name) -> WorldType
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser that prints as all of the runtime does."""
+    """A parser with the output of the runtime."""
 
     def _print_message(self, message: str, file: Any = None) -> None:
         put(message, err=file is not sys.stdout)
@@ -194,7 +193,7 @@ def make_parser(
 
 
 def _plain(text: str) -> str:
-    """Return a text in which argparse finds no format."""
+    """Return a text without formats of argparse."""
     return visible(text).replace("%", "%%")
 
 
@@ -213,11 +212,11 @@ def add_option(group: argparse._ActionsContainer, option: Option) -> None:
 def verdict(
     name: str, result: RunResult, file: str = "", given: str | None = None
 ) -> Iterator[str]:
-    """Yield the lines that say how a run ended.
+    """Yield the lines of the verdict of a run.
 
     Args:
         name: Of the scenario.
-        result: How it ended.
+        result: Its result.
         file: The scenario file, as the module knows it.
         given: The same file, as the user has written it.
     """
@@ -237,7 +236,7 @@ def verdict(
 
 
 def failure(name: str, result: RunResult) -> tuple[str, str]:
-    """Return the code and the message that tell why a run is no success."""
+    """Return the code and the message of an unsuccessful run."""
     place = result.place
     reason = result.reason.replace(f" ({place})", "", 1) if place else result.reason
     code = NOT_MET if any(each.fails(place) for each in result.violations) else RUN_FAILED
@@ -254,6 +253,6 @@ def show_progress(time: float, most: float) -> None:
 
 
 def clear_progress(progress: Callable[[float, float], None] | None) -> None:
-    """Wipe the line of the progress."""
+    """Clear the line of the progress."""
     if progress is not None:
         clear_status()

@@ -1,4 +1,4 @@
-"""The options of a run: the table that both command lines are built from, and their texts."""
+"""The options of a run: the table for both command lines, and their parsers."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def parse_destination(text: str) -> tuple[str, str]:
 
 
 def parse_set(text: str) -> tuple[str, float | str]:
-    """Read `v=12.5`; other texts stay text: `v=60kph` is read where the unit is known."""
+    """Read `v=12.5`; other texts are unchanged: `v=60kph` is read when the unit is known."""
     name, value = parse_pair(text, "--set", "NAME=VALUE", "v=12.5")
     try:
         return name, to_float(value)
@@ -185,13 +185,13 @@ def read_options(
     """Build settings from the texts of a command line or of a settings file.
 
     Args:
-        texts: Option name (`map-path` or `map_path`) to what was written: one text, a sequence
-            for repeatable options, None or nothing at all for the default. Flags: `true`.
-        is_trusted: Whether the user wrote them, as on a command line.
+        texts: Option name (`map-path` or `map_path`) to its text: one text, a sequence for
+            repeatable options, None or missing for the default. Flags: `true`.
+        is_trusted: Whether they come from the user, as on a command line.
 
     Raises:
-        SettingsError: If a text does not have the form of its option, no option of the chosen
-            world has this name, or only the command line may give it.
+        SettingsError: A text does not have the form of its option, the chosen world has no such
+            option, or only the command line may state it.
     """
     given = {
         name.replace("_", "-"): [text] if isinstance(text, str) else list(text)
@@ -211,7 +211,7 @@ def read_options(
 def _take(
     options: Iterable[Option], given: dict[str, list[str]], is_trusted: bool
 ) -> dict[str, Any]:
-    """Read what was given of some options, and take it away."""
+    """Read the given options of a list, and remove them."""
     found = {}
     for option in options:
         if option.name in given:

@@ -23,14 +23,14 @@ BEGINS = {
         for rest in (b'UTF-8"?>\n', b'utf-8"?>')
     ),
 }
-"""Begins of the files that are written; a file to overwrite must have the same begin."""
+"""First characters of the written files; a file to overwrite must start with them."""
 
 
 def check_outputs(settings: RunSettings) -> None:
-    """Refuse to overwrite what no run has written: a scenario, a map, a report by a trace.
+    """Reject overwriting files that no run has written: a scenario, a map, a report by a trace.
 
     Raises:
-        SettingsError: An output would.
+        SettingsError: An output would overwrite one.
     """
     places = {"trace": settings.trace, "report": settings.report}
     try:
@@ -46,10 +46,9 @@ def check_outputs(settings: RunSettings) -> None:
 
 
 def problem_of(name: str, path: Path) -> str | None:
-    """Return why a file must not be written, if so.
+    """Return why a file must not be written; empty if it may.
 
-    It replaces only a file that was written by this name, and does not follow a link out of the
-    current folder.
+    It only replaces a file of the same kind, and does not follow a link out of the current folder.
     """
     try:
         target = target_outside(path)
@@ -63,7 +62,7 @@ def problem_of(name: str, path: Path) -> str | None:
 
 
 def _may_replace(name: str, path: Path) -> bool:
-    """Return whether a file is missing, or was written by this name."""
+    """Return whether a file is missing, or of the same kind."""
     begins = BEGINS[name]
     try:
         if not path.is_file() or path.stat().st_size == 0:
@@ -77,11 +76,11 @@ def _may_replace(name: str, path: Path) -> bool:
 class OutputFile:
     """A file that is written line by line, and the folders above it.
 
-    It has a temporary name until it is whole, and then replaces the one that is there at once. It
+    It has a temporary name until it is complete, and then replaces an existing file atomically. It
     is opened with its first lines.
 
     Args:
-        name: What it is, for messages.
+        name: Its kind, for messages.
         path: Its path.
     """
 
@@ -98,7 +97,7 @@ class OutputFile:
         """Write lines, which have no line ends.
 
         Raises:
-            InputError: If that is not possible; the file that was there still is.
+            InputError: It cannot be written; an existing file is unchanged.
         """
         self.write("".join(f"{line}\n" for line in lines))
 
@@ -110,10 +109,10 @@ class OutputFile:
                 self._file.write(text)
 
     def close(self) -> None:
-        """Put the file to its place, if anything was written.
+        """Move the file to its path, if anything was written.
 
         Raises:
-            InputError: If that is not possible; the file that was there still is.
+            InputError: It cannot be written; an existing file is unchanged.
         """
         if self._file is not None and not self._is_given_up:
             with self._giving_up():
@@ -129,7 +128,7 @@ class OutputFile:
 
     @contextmanager
     def _giving_up(self) -> Iterator[None]:
-        """Remove what is written of a file that cannot be written to its end."""
+        """Remove an incomplete file."""
         try:
             yield
         except (OSError, ValueError) as error:
@@ -143,10 +142,10 @@ class OutputFile:
 
 
 def write_output(name: str, path: Path, text: str) -> None:
-    """Write a file and the folders above it; one that is there is replaced at once.
+    """Write a file and the folders above it; an existing file is replaced atomically.
 
     Raises:
-        InputError: If that is not possible; the file that was there still is.
+        InputError: It cannot be written; an existing file is unchanged.
     """
     file = OutputFile(name, path)
     file.write(text)

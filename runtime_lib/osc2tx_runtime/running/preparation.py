@@ -1,4 +1,4 @@
-"""What a run does before its first step: `check` does the same."""
+"""Preparation of a run before its first step; `check` does the same."""
 
 from __future__ import annotations
 
@@ -45,16 +45,16 @@ def prepared(
     """Place the actors, set up the tree, and check what it requires; close the world at the end.
 
     Args:
-        scenario_class: Makes further ones, for rehearsals.
-        scenario: With the values that are drawn.
+        scenario_class: Creates further scenarios, for rehearsals.
+        scenario: The scenario with its drawn values.
         root: Its tree.
-        world: The world; by default the one of the settings, on the scenario's map.
+        world: The world; default: that of the settings, on the scenario's map.
         read: Reads the map.
         trace: Takes the trace.
-        is_last: There are no other values to draw.
+        is_last: Whether there are no other values to draw.
 
     Raises:
-        BeyondMapError: The map surely has no room for the request, unless it `is_last`.
+        BeyondMapError: The map certainly has no room for the request, unless it `is_last`.
         ScenarioError: The scenario cannot start.
     """
     settings = scenario.settings
@@ -81,7 +81,7 @@ def rehearsed(
     actors: Sequence[str],
     road_map: RoadMap,
 ) -> dict[str, WayIn]:
-    """Return how actors enter that come later, from rehearsals without any output."""
+    """Return the ways in of actors that enter, from rehearsals without output."""
     quiet = replace(settings, trace=None, report=None)
 
     def play(rehearsal: Rehearsal) -> None:
@@ -91,7 +91,7 @@ def rehearsed(
         context.entries, rehearsal.implied = rehearsal, scenario.implied_starts
         place_actors(scenario, context)
         setup_tree(root, context)
-        with suppress(AllEnteredError, ScenarioError):  # what is wrong, the run itself tells
+        with suppress(AllEnteredError, ScenarioError):  # the run itself reports the error
             run_tree(root, context, observer=rehearsal)
 
     return ways_in(play, actors, road_map, quiet.dt)
@@ -105,7 +105,7 @@ def make_monitors(context: ExecutionContext) -> Monitors:
 
 
 def look_ahead(root: Behaviour) -> None:
-    """Let every action check that the map has the elements it requires."""
+    """Let all actions check that the map has the elements that they require."""
     for node in root.iterate():
         if isinstance(node, BaseAction):
             node.look_ahead()
@@ -130,7 +130,7 @@ def make_context(
 
 
 def place_actors(scenario: Scenario, context: ExecutionContext) -> None:
-    """Put the actors where the scenario wants them."""
+    """Place the actors as the scenario states."""
     from osc2tx_runtime.domain.map.geodetic_points import check_globe
     from osc2tx_runtime.domain.placing.initializer import ScenarioInitializer
     from osc2tx_runtime.domain.scenario import bind_all
@@ -141,7 +141,7 @@ def place_actors(scenario: Scenario, context: ExecutionContext) -> None:
 
 
 def setup_tree(root: Behaviour, context: ExecutionContext) -> None:
-    """Give every node the context, members before their compositions."""
+    """Set up all nodes with the context, members before their compositions."""
     choose_alternatives(root, context)
     for node in root.iterate():
         node.setup(context=context)

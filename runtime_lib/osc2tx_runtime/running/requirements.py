@@ -19,14 +19,14 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.tree.base import Behaviour
 
 STARTS = frozenset({"assign_orientation", "assign_position", "assign_speed"})
-"""Actions that say how an actor starts, if they come first."""
+"""Actions that state the start of an actor, if they come first."""
 
 
 def check_requirements(root: Behaviour, context: ExecutionContext) -> None:
-    """Compare the actions of a tree that is set up with the capabilities of the world.
+    """Compare the actions of a tree, after its setup, with the capabilities of the world.
 
     Raises:
-        CapabilityError: With all that cannot be, and where.
+        CapabilityError: All unsupported requests, with their positions.
     """
     actions = [node for node in root.iterate() if isinstance(node, BaseAction)]
     first = set(at_start(root))
@@ -41,9 +41,10 @@ def check_requirements(root: Behaviour, context: ExecutionContext) -> None:
 
 
 def at_start(node: Behaviour) -> Iterator[Behaviour]:
-    """Yield the leaves that start in the first instant whatever happens.
+    """Yield the leaves that certainly start at the first instant.
 
-    Unlike in `started_at_once` an assignment takes no time here, though it waits for its effect.
+    Unlike in `started_at_once`, an assignment counts as instantaneous, although it waits for its
+    effect.
     """
     match node:
         case Serial():
@@ -61,12 +62,12 @@ def at_start(node: Behaviour) -> Iterator[Behaviour]:
 def problems_of(
     action: BaseAction, context: ExecutionContext, *, is_start: bool = False
 ) -> Iterator[str]:
-    """Yield why the world of a run does not carry out an action.
+    """Yield why the world of a run cannot execute an action.
 
     Args:
         action: The action.
         context: The run.
-        is_start: Whether it starts in the first instant.
+        is_start: Whether it starts at the first instant.
     """
     needed = {need: action.action_name for need in action.registered.needs}
     if isinstance(action, Action):

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class TraceDigest:
-    """The SHA-256 of a trace, as a file of it has it."""
+    """The SHA-256 of a trace, equal to that of its file."""
 
     def __init__(self) -> None:
         self._hash = hashlib.sha256()
@@ -33,14 +33,14 @@ class RunOutputs:
     """The outputs of one run.
 
     Args:
-        settings: Of the run; they name the files.
+        settings: Settings of the run, with the files.
         keep_lines: Keep the lines; memory then grows with the length of the run.
         digest: Compute the digest.
 
     Attributes:
-        takers: What takes the lines of the trace.
+        takers: The receivers of the lines of the trace.
         lines: Kept lines.
-        digest: The digest, if it is asked for.
+        digest: The digest, if requested.
     """
 
     def __init__(self, settings: RunSettings, *, keep_lines: bool, digest: bool) -> None:
@@ -60,10 +60,10 @@ class RunOutputs:
             self.takers.append(self._shown.run.take)
 
     def close(self, road_map: RoadMap) -> None:
-        """Put trace and report where the settings want them.
+        """Move trace and report to the paths of the settings.
 
         Raises:
-            InputError: If that is not possible; the files that were there still are.
+            InputError: They cannot be written; existing files are unchanged.
         """
         if self._trace is not None:
             self._trace.close()

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 ResultT = TypeVar("ResultT", covariant=True)
 
-REDRAWS = 100  # draws of one seed, where the map has no room for the drawn values
+REDRAWS = 100  # draws of one seed, if the map has no room for the drawn values
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,10 +40,10 @@ class RunResult:
         steps: Steps the world made.
         time: Simulated seconds.
         trace_lines: Lines of the trace, without line ends, if they are kept.
-        digest: SHA-256 of the trace, if it is asked for.
+        digest: SHA-256 of the trace, if requested.
         collisions: Time in seconds and the two actors of each new contact.
-        warnings: Warnings of a run that continues all the same.
-        place: Position of the failed element in the scenario; empty where it has none.
+        warnings: Warnings, which do not end the run.
+        place: Source position of the failed element; empty without one.
         violations: Conditions that did not hold in their phases.
     """
 
@@ -77,21 +77,21 @@ def run_scenario(
         scenario_class: A generated class.
         settings: Of the run.
         on_progress: Called about once per simulated second with time and `max_time`, in seconds.
-        world: The world to run in; by default the one of the settings, on the scenario's map. It
-            is closed at the end.
+        world: The world; default: that of the settings, on the scenario's map. It is closed at the
+            end.
         keep_trace: Keep the lines of the trace; memory then grows with the length of the run.
         digest: Compute the digest of the trace.
         observer: Observes the run.
-        on_states: Takes the states of each instant, which the trace then leaves out. Values are
-            drawn again where a map has no room for them: a run starts anew at 0 s.
+        on_states: Receives the states of each instant, which the trace then omits. If a map has no
+            room for drawn values, they are drawn again, and the run restarts at 0 s.
         read: Reads the map; callers with many runs can cache it.
 
     Raises:
-        ScenarioError: If the scenario cannot start, or cannot continue.
+        ScenarioError: The scenario cannot start, or cannot continue.
     """
     settings = settings or RunSettings()
     check_outputs(settings)
-    read = cache(read)  # other values that are drawn are for the same map
+    read = cache(read)  # further draws use the same map
 
     def run(scenario: Scenario, *, is_last: bool) -> RunResult:
         root = scenario.create_tree()
@@ -121,7 +121,7 @@ def check_start(
     settings: RunSettings,
     read: Callable[[Path], RoadMap] = read_map,
 ) -> RunResult:
-    """Do what a run does before its first step, in the embedded world and without outputs.
+    """Prepare a run up to its first step, in the embedded world and without outputs.
 
     Args:
         scenario_class: A generated class.
@@ -129,10 +129,10 @@ def check_start(
         read: Reads the map.
 
     Returns:
-        How it ended; `timeout` if the run would go on.
+        The result; `timeout` if the run would continue.
 
     Raises:
-        ScenarioError: What the run would refuse.
+        ScenarioError: The run would be rejected.
     """
     quiet = replace(settings, trace=None, report=None)
     read = cache(read)
@@ -148,7 +148,7 @@ def check_start(
 
 
 class _Play(Protocol[ResultT]):
-    """Plays a scenario with the values that are drawn; `BeyondMapError` ends all but the last."""
+    """Runs a scenario with drawn values; `BeyondMapError` ends all draws but the last."""
 
     def __call__(self, scenario: Scenario, *, is_last: bool) -> ResultT: ...
 
@@ -160,7 +160,7 @@ def _with_draws(
     *,
     may_redraw: bool,
 ) -> ResultT:
-    """Play a scenario with the first values that the map surely has room for, else the first."""
+    """Run a scenario with the first draw that certainly fits the map, else the first."""
     for draw in range(REDRAWS if may_redraw and settings.draws is None else 0):
         scenario = scenario_class(replace(settings, draw=settings.draw + draw))
         try:
@@ -226,7 +226,7 @@ def write_header(scenario: Scenario, context: ExecutionContext) -> None:
 
 
 def _path(parameter: tuple[str, Any]) -> str:
-    """The owner of a parameter: own ones first, those of invocations by path."""
+    """Sort key of a parameter: own ones first, those of invocations by path."""
     return parameter[0].rpartition(".")[0]
 
 

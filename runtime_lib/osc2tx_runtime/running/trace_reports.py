@@ -1,4 +1,4 @@
-"""Pages of traces that were written before: one run, two over each other, or all of a folder."""
+"""Pages of existing traces: one run, two overlaid runs, or all of a folder."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from osc2tx_runtime.running.output_files import problem_of, write_output
 
 
 class _Maps:
-    """The maps of traces, each read once; one that is not found is a warning.
+    """The maps of traces, each read once; a missing map is a warning.
 
     Args:
-        folders: Where to look, before the maps of this package.
+        folders: Folders to search, before the maps of this package.
 
     Attributes:
         warnings: Reasons for missing parts.
@@ -50,7 +50,7 @@ def trace_report(
 
     Args:
         traces: One or two files.
-        page: Path of the page; beside the first trace if it is None.
+        page: Path of the page; default: beside the first trace.
         map_path: Folders with maps, or the map itself.
 
     Returns:
@@ -73,8 +73,8 @@ def folder_report(
     """Write a page for each trace below a folder, and an index of them.
 
     Args:
-        folder: It and the folders below it hold traces, `*.jsonl`.
-        out: Folder for the pages; None for beside the traces.
+        folder: The folder of traces, `*.jsonl`, at any depth.
+        out: Folder for the pages; default: beside the traces.
         map_path: Folders with maps, or the map itself.
 
     Returns:

@@ -1,4 +1,4 @@
-"""Checks a finished trace: the conditions of its scenario, on its states alone."""
+"""Checks an existing trace: the conditions of its scenario, on its states alone."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ Line: TypeAlias = Mapping[str, Any]
 
 @dataclass(frozen=True, slots=True)
 class RecordedRun:
-    """A trace, read but for its states.
+    """A trace without its states.
 
     Attributes:
         header: The first line.
-        states: `state` lines of each step, by actor; of a file they are read when they are asked
-            for, as there are many.
+        states: `state` lines of each step, by actor; those of a file are read on demand, as there
+            are many.
         nodes: Nodes of the tree, with their runs.
         failed: Time and name of actions that failed because a condition did not hold.
-        overridden: Time and name of nodes that another one has ended.
+        overridden: Time and name of overridden nodes.
     """
 
     header: Line
@@ -47,10 +47,10 @@ class RecordedRun:
 
 @dataclass(frozen=True, slots=True)
 class _File:
-    """The lines of a trace, read anew each time.
+    """The lines of a trace, read on each iteration.
 
     Raises:
-        InputError: On iteration, if they are none.
+        InputError: On iteration, if the file is not a trace.
     """
 
     path: Path
@@ -92,16 +92,16 @@ def _step_of(state: Line, dt: float, before: int) -> int:
 
 
 def _unreadable(path: Path, error: Exception) -> InputError:
-    """Return the error about a trace that is none."""
+    """Return the error for an invalid trace."""
     return InputError(f"trace {path} cannot be read: {error}")
 
 
 @dataclass(frozen=True, slots=True)
 class Verification:
-    """What was found in a trace.
+    """The findings of a trace.
 
     Attributes:
-        phases: Number of phases that were checked.
+        phases: Number of checked phases.
         violations: Conditions that do not hold in their phases.
     """
 
@@ -118,7 +118,7 @@ def read_trace(path: Path) -> RecordedRun:
     """Read a trace; its states are read by `verify`.
 
     Raises:
-        InputError: It is none, or not a whole one.
+        InputError: It is not a trace, or incomplete.
     """
     try:
         return recorded_run(_File(path))
@@ -127,10 +127,10 @@ def read_trace(path: Path) -> RecordedRun:
 
 
 def recorded_run(lines: Iterable[Line]) -> RecordedRun:
-    """Return a run from the lines of its trace, which are gone through more than once.
+    """Return a run from the lines of its trace, which are iterated more than once.
 
     Raises:
-        KeyError, TypeError, ValueError: They are none, or not all of them.
+        KeyError, TypeError, ValueError: They are not a trace, or incomplete.
     """
     header: Line | None = None
     dt, step = 0.0, -1
@@ -166,7 +166,7 @@ def verify(
 
     Args:
         run: The trace.
-        scenario_class: The scenario that it is a run of.
+        scenario_class: The scenario of the run.
         map_path: Folders with maps, or the map itself.
 
     Raises:
@@ -219,7 +219,7 @@ def _show(world: RecordedWorld, states: Mapping[str, Line], time: float) -> None
 
 
 def _settings(header: Line, map_path: tuple[Path, ...]) -> RunSettings:
-    """Return the settings of a run: the same values, whatever they were drawn from."""
+    """Return the settings of a run, with its values."""
     values = {
         name: value
         for name, value in header.get("parameters", {}).items()
@@ -237,10 +237,10 @@ def _settings(header: Line, map_path: tuple[Path, ...]) -> RunSettings:
 def _runs(
     run: RecordedRun, root: Behaviour
 ) -> tuple[dict[int, list[Action]], dict[int, list[tuple[Action, str]]]]:
-    """Return the actions that begin and end at each step, with how they end.
+    """Return the actions that begin and end at each step, with their results.
 
     Raises:
-        InputError: The tree is another one.
+        InputError: The tree differs.
     """
     nodes = list(outline(root))
     same = len(nodes) == len(run.nodes) and all(

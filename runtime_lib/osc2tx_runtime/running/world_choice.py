@@ -1,4 +1,4 @@
-"""The world that the settings choose: made for a run, or compared with what runs rely on."""
+"""The world of the settings: created for a run, or checked against the requirements of runs."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 
 
 def make_world(scenario: Scenario, read: Callable[[Path], RoadMap] = read_map) -> object:
-    """Make the world that the settings choose, for the scenario's map.
+    """Create the world of the settings, for the scenario's map.
 
     Raises:
-        SimulatorError: It cannot be made, whatever keeps it from that.
+        SimulatorError: It cannot be created.
     """
     settings = scenario.settings
     request = _request(scenario.map_file(), settings, read)
@@ -45,17 +45,17 @@ def check_world(
     drives: bool = False,
     fixes: bool = False,
 ) -> Iterator[CheckResult]:
-    """Compare the simulator of a world with what runs rely on.
+    """Check the simulator of a world against the requirements of runs.
 
     Args:
-        scenario_class: A generated class whose requirements count; None: those of any run.
+        scenario_class: A generated class with requirements; None: those of all runs.
         settings: Of a run; they choose the world.
-        drives: Actors may be spawned and moved.
-        fixes: What other clients have left behind is removed.
+        drives: Whether actors may be spawned and moved.
+        fixes: Whether remnants of other clients are removed.
 
     Raises:
         SettingsError: The world has no such check.
-        SimulatorError: It cannot be looked at.
+        SimulatorError: It cannot be inspected.
     """
     found = find_world(settings.world)
     if found.check is None:

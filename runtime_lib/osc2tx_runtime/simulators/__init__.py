@@ -1,1 +1,1 @@
-"""Simulators behind the seam of `world.plant`; each is imported when a run asks for it."""
+"""Simulators behind the interface `world.plant`; each is imported when a run requests it."""

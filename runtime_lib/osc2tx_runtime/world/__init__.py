@@ -4,7 +4,7 @@ Input: placed actors and one command per actor and slot. Output: states, collisi
 at `protocol` (the interface of every world); `embedded` implements it. Folders, in the order of a
 step:
 
-- `commands` are given by actions, `checks` examine those of foreign code.
+- `commands` are given by actions, `checks` check those of user code.
 - `motion` moves one actor over one step, with `longitudinal`, `lateral`, `geometry` and `grip`.
 - `plant` hands the commanded states to the system that moves the actors (a simulator, or none) and
   takes its measurements back; `tracking` decides from them whether goals are reached; `drivers` let
@@ -12,7 +12,7 @@ step:
 - `measuring` computes distances, velocities and contacts; `surroundings` traffic lights and sky.
 
 Invariants: fixed step, sequences and ordered dicts only, no clock, no random numbers. Commands
-given at step k act from k to k+1; everything one can read is the state of step k.
+given at step k act from k to k+1; all readable values are those of step k.
 """
 
 from __future__ import annotations

@@ -13,20 +13,20 @@ from typing import cast
 from osc2tx_runtime.enums import VehicleCategory
 from osc2tx_shared.classes import dataclass
 
-COMFORT = 0.5  # share of the limits that is used where nothing asks for more
+COMFORT = 0.5  # share of the limits that is used unless more is required
 GENTLE = 0.9
-"""Of the comfortable rate: the peak of a smooth change of speed that names none."""
+"""Share of the comfortable rate: the peak of a smooth speed change without a stated peak."""
 
 MAX_STEERING = 0.6
-"""Radians between the front wheels of a vehicle and its axis."""
+"""Largest angle (rad) between the front wheels of a vehicle and its axis."""
 
-TOP_SPEED = 69.0  # m/s: nothing in a scenario goes faster by itself; the DSL knows no top speed
-RATE_CAP = 12.0  # m/s^2: more than tyres can transmit; explicit rates above it are refused
+TOP_SPEED = 69.0  # m/s: no actor drives faster on its own; the DSL defines no top speed
+RATE_CAP = 12.0  # m/s^2: more than tyres can transmit; explicit rates above it are rejected
 
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """Bounding box of an actor and where its reference point is.
+    """Bounding box and reference point of an actor.
 
     Attributes:
         length: Metres along x.
@@ -34,7 +34,7 @@ class Shape:
         height: Metres along z.
         rear: Metres from the rear end to the reference point (rear axle centre of vehicles, box
             centre of everything else; DSL 8.3.2, 8.3.3).
-        wheelbase: Metres between the axles; 0 where there are none.
+        wheelbase: Metres between the axles; 0 without axles.
         steering: Largest angle between the front wheels and the axis (rad).
         hitch: Metres from the reference point back to the hitch for a trailer; None: the rear end.
         drawbar: Metres from the axle of a trailer to its coupler; None: half a metre before it.
@@ -75,7 +75,7 @@ class Limits:
         jerk: Largest change of acceleration (m/s^3).
         lateral: Largest lateral acceleration of a lane change (m/s^2), and comfortable in bends.
         road: Condition of the road that reduces them, for messages: " on a wet road".
-        overturn: Lateral acceleration (m/s^2) at which it tips over; infinite: its tyres slide
+        overturn: Lateral acceleration (m/s^2) at which it rolls over; infinite: its tyres slide
             before.
     """
 
@@ -88,15 +88,15 @@ class Limits:
 
 
 TYRES = Limits(RATE_CAP, RATE_CAP)
-"""Limits that also actors keep whose vehicle limits are switched off."""
+"""Limits of actors whose vehicle limits are switched off."""
 
-# Where vehicles tip over in a steady bend: one round number for each kind, a choice of ours,
-# as the thresholds spread with load and build. Heavy ones: several authorities ask for at least
-# 0.40 g of tank trucks, and of 17 that were tilted 14 would be below it at their maximum load
-# (J. R. Billing, J. D. Patten, An Assessment of Tank Truck Roll Stability, National Research
-# Council of Canada); the influences on it are in C. B. Winkler, R. D. Ervin, Rollover of Heavy
-# Commercial Vehicles (UMTRI-99-19, 1999). Half the track of a car is more than the height of its
-# centre of gravity, so it slides first; vans stand higher, and get a little less than dry grip.
+# Rollover thresholds in a steady bend: one round number for each kind, chosen here, as thresholds
+# vary with load and design. Heavy vehicles: several authorities ask for at least 0.40 g of tank
+# trucks, and of 17 that were tilted 14 would be below it at their maximum load (J. R. Billing, J.
+# D. Patten, An Assessment of Tank Truck Roll Stability, National Research Council of Canada); the
+# influences on it are in C. B. Winkler, R. D. Ervin, Rollover of Heavy Commercial Vehicles
+# (UMTRI-99-19, 1999). Half the track of a car is more than the height of its centre of gravity, so
+# it slides first; vans stand higher, and get a little less than dry grip.
 _LIGHT = 0.8 * 9.80665
 _HEAVY = 0.4 * 9.80665
 
@@ -182,7 +182,7 @@ MODELS: dict[str, tuple[str, float, float, float]] = {
 
 
 def category_of(model: str | None) -> VehicleCategory | None:
-    """The category of a model of a vehicle; None if the model is not known."""
+    """The category of a model of a vehicle; None if the model is unknown."""
     return cast(VehicleCategory, MODELS[model][0]) if model in MODELS else None
 
 

@@ -50,12 +50,12 @@ NOBODY: frozenset[str] = frozenset()
 
 
 class EmbeddedWorld:
-    """Turns commands into states in closed form, and reads what has become of them.
+    """Turns commands into states in closed form, and reads the measured states.
 
     Args:
         road_map: The road map.
         dt: Length of a step (s).
-        plant: What moves the actors; by default they are where the closed forms put them.
+        plant: The plant that moves the actors; default: they follow the closed forms exactly.
 
     Attributes:
         map: The road map.
@@ -93,7 +93,7 @@ class EmbeddedWorld:
 
     @property
     def name(self) -> str:
-        """What moves its actors: `embedded`, or a simulator."""
+        """Name of its plant: `embedded`, or a simulator."""
         return self._plant.name
 
     def control(self, actor: str) -> ControlMode:
@@ -101,7 +101,7 @@ class EmbeddedWorld:
         return self._plant.control(actor)
 
     def begin(self) -> None:
-        """Puts the actors where they were placed, before step 0."""
+        """Sets the actors to their start, before step 0."""
         members = self._members
         for member in members:
             member.follows = self._plant.control(member.spec.id) not in EXTERNAL
@@ -114,13 +114,13 @@ class EmbeddedWorld:
             self._contacts.begin()
 
     def close(self) -> None:
-        """Leaves the simulator, if there is one."""
+        """Closes the simulator, if there is one."""
         self._plant.close()
 
     # --- cast ---------------------------------------------------------------------------------
 
     def add(self, spec: ActorSpec) -> None:
-        """Makes an actor known; it has a state from its placement on."""
+        """Adds an actor; it has a state after its placement."""
         shape = self._plant.shape(spec)
         self._specs[spec.id] = spec if shape is None else replace(spec, shape=shape)
 
@@ -146,7 +146,7 @@ class EmbeddedWorld:
         return self._ids
 
     def set_route(self, actor: str, route: Route | None) -> None:
-        """Decides which branch the actor takes at forks."""
+        """Sets the route that decides at forks."""
         self._member(actor).route = route
 
     # --- reading ------------------------------------------------------------------------------
@@ -167,7 +167,10 @@ class EmbeddedWorld:
         return projected(self.map, state, seconds)
 
     def outlook(self, actor: str, steps: int) -> Outlook | None:
-        """How an actor will go on for so many steps; None if its command does not tell."""
+        """The expected motion of an actor over a number of steps.
+
+        None if its command does not determine it.
+        """
         moved = self._ids.index(actor) < len(self._commanding)
         return self._member(actor).outlook(steps, self.dt, moved=moved)
 
@@ -176,11 +179,11 @@ class EmbeddedWorld:
         return along_lanes(self.map, a, b)
 
     def aside(self, a: ActorState, b: ActorState) -> float | None:
-        """How far (m) b is left of a, across the lane of a; None if not connected."""
+        """Lateral distance (m) of b to the left of a, in the lane of a; None if not connected."""
         return lateral_on_road(self.map, a, b)
 
     def obstacle(self, me: ActorState) -> tuple[float, float] | None:
-        """Free metres to the nearest actor ahead in the way, and its speed (m/s) along it."""
+        """Gap (m) to the nearest actor ahead on the path, and its speed (m/s) along it."""
         cast = self._cast.values()
         others = [me if member.reference is me else member.state for member in cast]
         return nearest_ahead(self.map, me, others, self._surroundings.sight)
@@ -224,7 +227,7 @@ class EmbeddedWorld:
         return self._member(actor).reference
 
     def deviation(self, actor: str, slots: Sequence[str]) -> Deviation | None:
-        """How far an actor is from its reference; None unless it is driven towards it."""
+        """Deviation of an actor from its reference; None unless it is driven."""
         tracking = self._member(actor).tracking
         return None if tracking is None else tracking.deviation(slots)
 
@@ -241,7 +244,7 @@ class EmbeddedWorld:
         return self._contacts.new
 
     def overloads(self) -> Sequence[Overload]:
-        """Motions up to now that no tyre can transmit."""
+        """Motions so far beyond the grip or rollover limit."""
         return self._friction.overloads
 
     def warnings(self) -> Sequence[str]:
@@ -253,7 +256,7 @@ class EmbeddedWorld:
         return self._plant.capabilities()
 
     def take_notes(self) -> Sequence[Note]:
-        """Hands over the reports of a simulator on the last step."""
+        """Returns the reports of a simulator since the last call."""
         return self._scene.take_notes()
 
     # --- writing ------------------------------------------------------------------------------
@@ -275,7 +278,7 @@ class EmbeddedWorld:
         heading: float | None = None,
         tilt: Tilt = LEVEL,
     ) -> None:
-        """Changes a state at once; what one instant assigns holds together.
+        """Changes a state instantly; assignments of one instant are combined.
 
         Raises:
             ScenarioError: The actor has an external driver, and has started.
@@ -322,11 +325,11 @@ class EmbeddedWorld:
         return self._lights.switch(actor, mode, self._surroundings.automatic_light)
 
     def begin_under(self, sky: Sky) -> None:
-        """Puts sun and moon where they stand at a place and time, before step 0."""
+        """Sets sun and moon to their positions at a place and time, before step 0."""
         self._surroundings.begin_under(sky)
 
     def set_environment(self, values: Mapping[str, float]) -> Mapping[str, LightState]:
-        """Changes the environment at once; returns the lights that switch."""
+        """Changes the environment instantly; returns the lights that switch."""
         self._surroundings.set(values)
         for member in self._cast.values():
             if member.wheels is not None:
@@ -337,9 +340,9 @@ class EmbeddedWorld:
     # --- time ---------------------------------------------------------------------------------
 
     def step(self) -> None:
-        """Goes from step k to k+1."""
+        """Advances from step k to k+1."""
         members, ids = self._members, self._ids
-        # All read the snapshot; none is replaced before every actor has moved.
+        # All actors read the snapshot; it is replaced after all have moved.
         before = [member.state for member in members]
         coupled = self._couplings.pairs()
         towed = self._couplings.towed() if coupled else NOBODY
@@ -384,7 +387,7 @@ class EmbeddedWorld:
             self._lights.follow(self._surroundings.automatic_light)
 
     def _take_changes(self) -> tuple[frozenset[str], frozenset[str]]:
-        """Hands over the actors that were placed or turned, and those with an assigned speed."""
+        """Returns the actors that were placed or turned, and those with an assigned speed."""
         changes, self._changes = self._changes, {}
         return (
             frozenset([each for each, change in changes.items() if change.jumps or change.turns]),

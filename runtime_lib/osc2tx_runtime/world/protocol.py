@@ -22,13 +22,13 @@ from .state import ActorState
 Feature = Literal["driver_starts", "lanes", "lights", "map", "towing", "traffic_lights", "weather"]
 """Capability of a world that an action or modifier may require.
 
-`driver_starts`: at step 0 a place and a speed can be assigned to actors with external drivers.
+`driver_starts`: at step 0 position and speed can be assigned to actors with external drivers.
 """
 
 FEATURES: frozenset[Feature] = frozenset(get_args(Feature))
 
 
-# The same words as in `language.actions.registry`; a world does not know the registry.
+# As in `language.actions.registry`, which a world does not import.
 LONGITUDINAL = "longitudinal"
 LATERAL = "lateral"
 
@@ -36,11 +36,11 @@ LOW_BEAM_SUN_ELEVATION = 0.2617993877991494
 """Sun elevation (rad, 15 degrees) below which lights in mode `auto` are low beams."""
 
 FOG_LIGHT_RANGE = 100.0
-"""Visual range (m) below which they are so, too (UK Highway Code, rule 226)."""
+"""Visual range (m) below which they are low beams as well (UK Highway Code, rule 226)."""
 
 ControlMode = Literal["exact", "exact-physics", "driven", "external", "autopilot"]
-"""How an actor moves: exactly as commanded, without or with rigid-body physics in the simulator; by
-a controller that follows the commands; by another driver, external or of the simulator."""
+"""Control of an actor: exactly as commanded, without or with rigid-body physics in the simulator;
+by a controller that follows the commands; by another driver, external or of the simulator."""
 EXACT: frozenset[ControlMode] = frozenset({"exact", "exact-physics"})
 """The modes in which an actor has the commanded state, and nothing is measured."""
 EXTERNAL: frozenset[ControlMode] = frozenset({"external", "autopilot"})
@@ -62,10 +62,10 @@ class ActorSpec:
         shape: Bounding box and reference point.
         limits: Its limits.
         model: Blueprint or other name of a model; None if the scenario leaves it open.
-        lane_bound: True if it follows lanes where it can (vehicles).
+        lane_bound: Whether it follows lanes (vehicles).
         movable: False for stationary objects.
-        color: As written in the scenario.
-        role: Name by which others find it in a simulator; None: its id.
+        color: As stated in the scenario.
+        role: Name for other clients of a simulator; None: its id.
     """
 
     id: str
@@ -81,7 +81,7 @@ class ActorSpec:
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """How far the command of a slot has got at the present step.
+    """Progress of the command of a slot at the present step.
 
     Attributes:
         done: The goal is reached; the command continues to hold it.
@@ -101,8 +101,8 @@ class LightState:
     """Lights of a vehicle.
 
     Attributes:
-        mode: What was asked for.
-        lit: What shines: for mode `auto` "low_beam" or "off", depending on sun and fog.
+        mode: The requested mode.
+        lit: The shining lights: in mode `auto` "low_beam" or "off", depending on sun and fog.
     """
 
     mode: LightMode = "off"
@@ -113,7 +113,7 @@ class World(Protocol):
     """A world in steps of fixed length.
 
     Commands given at step k act from k to k+1; progress is that of step k until `step` is called.
-    Values that are assigned, attached, switched or set at step k are valid at once, and readable.
+    Values that are assigned, attached, switched or set at step k are valid and readable at step k.
     """
 
     dt: float
@@ -122,19 +122,19 @@ class World(Protocol):
 
     @property
     def name(self) -> str:
-        """What moves its actors: `embedded`, or a simulator."""
+        """Name of its plant: `embedded`, or a simulator."""
 
     def control(self, actor: str) -> ControlMode:
         """The control mode of an actor."""
 
     def begin(self) -> None:
-        """Puts the actors where they were placed, before step 0."""
+        """Sets the actors to their start, before step 0."""
 
     def close(self) -> None:
-        """Leaves the simulator, if there is one, however the run ended."""
+        """Closes the simulator, if there is one."""
 
     def add(self, spec: ActorSpec) -> None:
-        """Makes an actor known; it has a state from its placement on."""
+        """Adds an actor; it has a state after its placement."""
 
     def place(
         self,
@@ -145,7 +145,10 @@ class World(Protocol):
         tilt: Tilt = LEVEL,
         aside: float = 0.0,
     ) -> None:
-        """Places an actor before step 0; one not aligned with its lane is in none yet."""
+        """Places an actor before step 0.
+
+        An actor that is not aligned with a lane is not in it yet.
+        """
 
     def state(self, actor: str) -> ActorState:
         """State of an actor at the present step."""
@@ -154,7 +157,7 @@ class World(Protocol):
         """State that commands start from: the commanded one, abreast of the actor."""
 
     def deviation(self, actor: str, slots: Sequence[str]) -> Deviation | None:
-        """How far an actor is from its reference; None unless it is driven towards it."""
+        """Deviation of an actor from its reference; None unless it is driven."""
 
     def motion(self, actor: str) -> Motion:
         """Velocity and acceleration of an actor at the present step, in its own axes."""
@@ -184,7 +187,7 @@ class World(Protocol):
         heading: float | None = None,
         tilt: Tilt = LEVEL,
     ) -> None:
-        """Changes a state at once; what one instant assigns holds together."""
+        """Changes a state instantly; assignments of one instant are combined."""
 
     def attach(self, tow: str, trailer: str | None) -> None:
         """Couples a trailer to a vehicle; None uncouples its trailer."""
@@ -193,7 +196,7 @@ class World(Protocol):
         """Id of the trailer that a vehicle tows."""
 
     def set_route(self, actor: str, route: Route | None) -> None:
-        """Decides which branch the actor takes at forks."""
+        """Sets the route that decides at forks."""
 
     def limits(self, actor: str, *, of_vehicle: bool = True) -> Limits:
         """Limits of an actor on the present road: of its vehicle and tyres, or of tyres alone."""
@@ -211,10 +214,10 @@ class World(Protocol):
         """Lights at the present step."""
 
     def begin_under(self, sky: Sky) -> None:
-        """Puts sun and moon where they stand at a place and time, before step 0."""
+        """Sets sun and moon to their positions at a place and time, before step 0."""
 
     def set_environment(self, values: Mapping[str, float]) -> Mapping[str, LightState]:
-        """Changes the environment at once; names that are left out stay.
+        """Changes the environment instantly; other values are unchanged.
 
         Returns the actors whose automatic lights switch, with their new states.
         """
@@ -223,19 +226,19 @@ class World(Protocol):
         """Environment at the present step, SI units: `sun_azimuth`, `sun_elevation`, ..."""
 
     def step(self) -> None:
-        """Goes from step k to k+1."""
+        """Advances from step k to k+1."""
 
     def collisions(self) -> Sequence[tuple[str, str]]:
         """Pairs of actors (ids sorted) whose contact began during the last step, sorted."""
 
     def overloads(self) -> Sequence[Overload]:
-        """Motions up to now that no tyre can transmit, in order of time."""
+        """Motions so far beyond the grip or rollover limit, in order of time."""
 
     def warnings(self) -> Sequence[str]:
         """Deviations of the world from the commands so far, in a run that continues."""
 
     def take_notes(self) -> Sequence[Note]:
-        """Hands over lines for the trace, as kind and values, since the last call."""
+        """Returns lines for the trace, as kind and values, since the last call."""
 
     def capabilities(self) -> frozenset[Feature]:
         """Its capabilities besides moving actors."""

@@ -1,4 +1,4 @@
-"""A world that shows the states of a trace: it can be read, not moved."""
+"""A world with the states of a trace: it can be read, not moved."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .state import ActorState
 
 
 class RecordedWorld(EmbeddedWorld):
-    """Holds the states of one instant of a trace at a time; its actors are placed as ever.
+    """Holds the states of one instant of a trace; its actors are placed as in a run.
 
     Args:
         road_map: The road map.
@@ -31,14 +31,14 @@ class RecordedWorld(EmbeddedWorld):
         return self._controls.get(actor, "exact")
 
     def unsteady(self) -> tuple[str, ...]:
-        """Any of them may have changed."""
+        """All of them: any may have changed."""
         return self._ids
 
     def show(self, lines: Mapping[str, Mapping[str, Any]]) -> None:
         """Take the states of an instant: `state` lines of the trace, by actor.
 
         Raises:
-            KeyError, TypeError, ValueError: A line is not one of a state.
+            KeyError, TypeError, ValueError: A line is not a state.
         """
         before = [member.state for member in self._members]
         for actor, line in lines.items():
@@ -48,7 +48,7 @@ class RecordedWorld(EmbeddedWorld):
         self._track.add(self._ids, before, NOBODY)
 
     def _read(self, known: ActorState, line: Mapping[str, Any]) -> ActorState:
-        """The state of a line; its shape is known, its lateral speed follows from the heading."""
+        """The state of a line, with the known shape; the lateral speed follows from the heading."""
         x, y, z, h, v, a = (_number(line[name]) for name in ("x", "y", "z", "h", "v", "a"))
         place, aside = None, 0.0
         if line["road"] is not None and line["s"] is not None:
@@ -71,5 +71,5 @@ class RecordedWorld(EmbeddedWorld):
 
 
 def _number(value: Any) -> float:
-    """A number of a trace; NaN if it is unknown there."""
+    """A number of a trace; nan if it is unknown there."""
     return math.nan if value is None else float(value)

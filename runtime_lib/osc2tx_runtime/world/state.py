@@ -10,7 +10,7 @@ from .actor_dimensions import Shape
 
 
 class ActorState(NamedTuple):
-    """State of an actor at a step; a tuple because one is made per actor and step.
+    """State of an actor at a step; a tuple for speed.
 
     Attributes:
         x: World x of the reference point (m).
@@ -19,8 +19,8 @@ class ActorState(NamedTuple):
         h: Heading (rad), counter-clockwise from x.
         v: Speed along the heading (m/s), negative in reverse.
         a: Acceleration (m/s^2): change of `v` over the last step.
-        lane_position: Place on the lane graph; None off the road.
-        lateral_speed: Metres per second to the left of the lane's centre line.
+        lane_position: Position on the lane graph; None off the road.
+        lateral_speed: Lateral speed (m/s), to the left in the lane.
         shape: Bounding box and reference point.
         pitch: Nose down (rad).
         roll: Right side down (rad).
@@ -40,7 +40,7 @@ class ActorState(NamedTuple):
 
     @property
     def road(self) -> str | None:
-        """Road under the reference point; None where there is none."""
+        """Road under the reference point; None off the roads."""
         return None if self.lane_position is None else self.lane_position.road
 
     @property
@@ -55,7 +55,7 @@ class ActorState(NamedTuple):
 
     @property
     def offset(self) -> float | None:
-        """Metres left of the lane's centre in its direction of travel."""
+        """Metres to the left of the lane centre in direction of travel."""
         return None if self.lane_position is None else self.lane_position.offset
 
     @property

@@ -12,11 +12,11 @@ from .state import ActorState
 
 
 class Outlook(NamedTuple):
-    """How an actor will go on for a time.
+    """Expected motion of an actor over a time.
 
     Attributes:
-        mean: Its mean speed until then (m/s).
-        speed: Its speed then (m/s).
+        mean: Its mean speed over the time (m/s).
+        speed: Its speed at the end (m/s).
     """
 
     mean: float
@@ -39,16 +39,19 @@ class StepInputs(Protocol):
         """The position of an actor after a time if it continued in its lane at its speed."""
 
     def outlook(self, actor: str, steps: int) -> Outlook | None:
-        """How an actor will go on for so many steps; None if its command does not tell."""
+        """The expected motion of an actor over a number of steps.
+
+        None if its command does not determine it.
+        """
 
     def along(self, a: ActorState, b: ActorState) -> float | None:
         """Route distance (m) from a to b; None if not connected."""
 
     def aside(self, a: ActorState, b: ActorState) -> float | None:
-        """How far (m) b is left of a, across the lane of a; None if not connected."""
+        """Lateral distance (m) of b to the left of a, in the lane of a; None if not connected."""
 
     def obstacle(self, me: ActorState) -> tuple[float, float] | None:
-        """Free metres to the nearest actor ahead in the way, and its speed (m/s) along it."""
+        """Gap (m) to the nearest actor ahead on the path, and its speed (m/s) along it."""
 
     def stop_line(self, me: ActorState, route: Route | None, reach: float) -> StopLine | None:
         """First line within a distance (m) at which a light requires a stop; None without one."""

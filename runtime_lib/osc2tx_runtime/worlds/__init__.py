@@ -1,8 +1,8 @@
 """The worlds that a run can choose from, by name: `--world NAME`.
 
-A world is described by a `WorldType`: its options, and the function that makes it from a
-`WorldRequest`. `embedded` describes the one of this package; `registry` finds those that installed
-packages name in the entry point group `osc2tx.worlds`. See docs/extending.md.
+A world is described by a `WorldType`: its options, and the function that creates it from a
+`WorldRequest`. `embedded` describes that of this package; `registry` finds those of installed
+packages in the entry point group `osc2tx.worlds`. See docs/extending.md.
 """
 
 from __future__ import annotations

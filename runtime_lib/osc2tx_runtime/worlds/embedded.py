@@ -27,10 +27,10 @@ def parse_ego(text: str) -> tuple[str, str]:
 
 
 def make(request: WorldRequest) -> EmbeddedWorld:
-    """Make the world on the map of the scenario.
+    """Create the world on the map of the scenario.
 
     Raises:
-        SettingsError: A driver cannot be made, or an actor has none.
+        SettingsError: A driver cannot be created, or an actor has none.
     """
     egos: Mapping[str, str] = request.options.get("ego", {})
     for actor, control in request.control.items():
@@ -46,10 +46,10 @@ def make(request: WorldRequest) -> EmbeddedWorld:
 
 
 def driver_of(actor: str, path: str) -> Driver:
-    """Make the driver of an actor.
+    """Create the driver of an actor.
 
     Raises:
-        SettingsError: If that cannot be.
+        SettingsError: It cannot be created.
     """
     module, _, name = path.partition(":")
     try:

@@ -1,4 +1,4 @@
-"""What describes a world: its name, its options, and how it is made."""
+"""The description of a world: its name, its options, and its creation."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ class Option:
     """One option of `python scenario.py` and `osc2tx run`.
 
     Attributes:
-        name: As written after `--`.
-        metavar: Form of its value; empty for a flag, which is written without one.
+        name: Its name after `--`.
+        metavar: Form of its value; empty for a flag.
         help: One line.
         parse: Reads one text.
-        gather: Puts the values together of an option that may be given several times: `tuple`,
-            `dict` of (key, value) pairs; None: the last one counts.
-        default: For the help page; None where there is nothing to say.
+        gather: Combines the values of a repeatable option: `tuple`, `dict` of (key, value) pairs;
+            None: the last value counts.
+        default: Default for the help page; None: not shown.
         is_trusted: Whether only the command line may give it: it names Python code, or a file to
-            write. Settings files come with repositories of other people.
+            write. Settings files come with third-party repositories.
     """
 
     name: str
@@ -53,7 +53,7 @@ class Option:
 
     @property
     def is_flag(self) -> bool:
-        """Whether it stands without a value."""
+        """Whether it has no value."""
         return not self.metavar
 
     @classmethod
@@ -85,10 +85,10 @@ def parse_pair(text: str, option: str, form: str, example: str) -> tuple[str, st
     """Read `KEY=VALUE`.
 
     Args:
-        text: What was written.
+        text: The given text.
         option: As `--spawn`.
-        form: What to write: `ACTOR=ROAD,LANE,S`.
-        example: One of that form.
+        form: The required form: `ACTOR=ROAD,LANE,S`.
+        example: An example of the form.
     """
     key, equals, value = (part.strip() for part in text.partition("="))
     if not (equals and key and value):
@@ -101,12 +101,12 @@ class WorldRequest:
     """The request of a run to its world.
 
     Attributes:
-        map_file: The map as the scenario names it; None if it leaves the map open.
-        find_map: Returns the path of that map on this machine; InputError if it is not there.
+        map_file: The map as stated in the scenario; None if it leaves the map open.
+        find_map: Returns the path of that map on this machine; InputError if it does not exist.
         dt: Length of a step (s).
-        seed: Of all random values.
+        seed: Seed of all random values.
         control: Control mode of an actor, by its id; `""` stands for all others.
-        options: Values of the world's own options that were given, by `Option.field`.
+        options: Given values of the options of the world, by `Option.field`.
         read: Reads the map; callers with many runs can cache it.
     """
 
@@ -122,7 +122,7 @@ class WorldRequest:
         """Read the map of the scenario.
 
         Raises:
-            InputError: It is not there, or no usable map.
+            InputError: It does not exist, or is not a usable map.
         """
         path = self.find_map()
         try:
@@ -132,7 +132,7 @@ class WorldRequest:
 
 
 CheckStatus = Literal["ok", "differs", "unknown"]
-"""`unknown`: it was not tried, or cannot be found out."""
+"""`unknown`: not tried, or cannot be determined."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,9 +141,9 @@ class CheckRequest:
 
     Attributes:
         world: The request of a run to the world.
-        actors: The actors of the scenario; none if no scenario is named.
-        drives: Actors may be spawned and moved, which takes over the simulator for a while.
-        fixes: Remnants of other clients are removed.
+        actors: The actors of the scenario; empty without a scenario.
+        drives: Whether actors may be spawned and moved, which takes over the simulator.
+        fixes: Whether remnants of other clients are removed.
     """
 
     world: WorldRequest
@@ -157,12 +157,12 @@ class CheckResult:
     """One line of a check.
 
     Attributes:
-        number: Of the line.
+        number: Number of the line.
         name: The compared property.
         status: The result.
         found: The finding, in one line.
-        meaning: What that means for runs; empty where there is nothing to say.
-        blocks: A run cannot begin.
+        meaning: Its effect on runs; empty without one.
+        blocks: Whether it prevents runs.
     """
 
     number: int
@@ -178,10 +178,10 @@ class WorldType:
     """A world that runs can choose.
 
     Attributes:
-        name: As in `--world NAME`.
-        make: Makes it for a run. Exceptions other than ScenarioError are its internal errors.
+        name: Its name in `--world NAME`.
+        make: Creates it for a run. Exceptions other than ScenarioError are its internal errors.
         controls: Control modes of its actors; the first one is the default.
-        options: Its own options, besides those of every run.
+        options: Its own options, besides those of all runs.
         check: Checks its simulator against the requirements of runs, line by line; None without
             one.
     """

@@ -1,9 +1,9 @@
 """Files that osc2tx and its runtime keep between two runs, in the user's cache folder.
 
-`own_files` reads only files that the user alone can have written; `snapshots` keeps plain data made
-by code, as long as that code is the same. Missing, damaged and foreign files count as missing:
-nothing depends on the cache but time, and the repair of a simulator after a run that was killed.
-The package imports nothing but the standard library.
+`own_files` only reads files that no other user can have written; `snapshots` keeps plain data
+computed by code, valid while that code is unchanged. Damaged and foreign files count as missing:
+only speed depends on the cache, and the repair of a simulator after a killed run. The package only
+imports the standard library.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """Files in the user's cache folder, read only if no other user can have written them.
 
-Their content decides the results of osc2tx and its runtime, so a folder or a file that belongs to
-another user, or that others may write to, is not read. `OSC2TX_NO_CACHE=1` neither reads nor writes
-any.
+Their content affects the results of osc2tx and its runtime, so a folder or a file that belongs to
+another user, or that others may write, is not read. `OSC2TX_NO_CACHE=1` disables the cache.
 """
 
 from __future__ import annotations
@@ -13,19 +12,19 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-# No link is followed, and a pipe in place of the file does not block.
+# Links are not followed, and a pipe instead of the file does not block.
 _READ_FLAGS = os.O_RDONLY
 for _flag in ("O_NOFOLLOW", "O_NONBLOCK", "O_BINARY"):
     _READ_FLAGS |= getattr(os, _flag, 0)
 
 
 def cache_folder(wanted: Path | None = None) -> Path | None:
-    """Return the folder of osc2tx in the user's cache, as the platform has it.
+    """Return the folder of osc2tx in the user's cache, by the conventions of the platform.
 
-    `platformdirs` would say the same, and takes longer to import than a snapshot to load.
+    `platformdirs` gives the same result, but its import takes longer than loading a snapshot.
 
     Args:
-        wanted: Another folder that is to be used instead.
+        wanted: Another folder to use instead.
     """
     if os.environ.get("OSC2TX_NO_CACHE"):
         return None
@@ -55,7 +54,7 @@ def read_own(path: Path) -> bytes | None:
 
 
 def write_own(path: Path, data: bytes) -> bool:
-    """Put a file in place in one step; return whether that was possible."""
+    """Write a file atomically; return whether that was possible."""
     from tempfile import mkstemp  # rarely needed
 
     folder = path.parent
@@ -77,7 +76,7 @@ def write_own(path: Path, data: bytes) -> bool:
 
 
 def forget_the_oldest(folder: Path, most: int) -> None:
-    """Keep only this number of files of a folder, the last ones written; their sources change."""
+    """Keep only this number of files of a folder, the most recent ones."""
     try:
         files = [(entry.stat().st_mtime_ns, entry.path) for entry in os.scandir(folder)]
         for _, path in sorted(files, reverse=True)[most:]:
@@ -91,5 +90,5 @@ def _is_ours(status: os.stat_result, is_kind: Callable[[int], bool]) -> bool:
     if not is_kind(status.st_mode):
         return False
     if sys.platform in ("win32", "emscripten"):
-        return True  # the profile of a user, or the memory of a page, is closed to others
+        return True  # user profiles and page memory are not accessible to others
     return status.st_uid == os.geteuid() and not status.st_mode & 0o022

@@ -1,8 +1,8 @@
-"""Snapshots: plain data made by code, kept for the next process.
+"""Snapshots: plain data computed by code, kept for the next process.
 
-A snapshot is data, not code: a forged one could at most falsify the data read from it, and even
-that takes write access to a folder of the user's own (`own_files`). A snapshot that is damaged, or
-was made from other inputs, by other code or by another Python, is not used.
+A snapshot is data, not code: a forged one could at most falsify the data read from it, which
+requires write access to a folder of the user (`own_files`). A snapshot is not used if it is
+damaged, or comes from other inputs, other code or another Python.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from zlib import crc32
 
 from osc2tx_shared.cache.own_files import cache_folder, read_own, write_own
 
-_CHECKSUM = 4  # bytes of the checksum behind the magic word
+_CHECKSUM = 4  # bytes of the checksum after the magic word
 _STARTED = time.time_ns()
 
 Stamp = tuple[object, ...]
@@ -29,8 +29,8 @@ class Snapshots:
     Args:
         kind: The first line of their files: their content, the number of their format, and the
             version of the code if it has one.
-        code: The folder of the code that makes them.
-        parts: The folders below it whose modules decide their content.
+        code: The folder of the code that computes them.
+        parts: The folders below it whose modules affect their content.
     """
 
     def __init__(self, kind: str, code: Path, parts: tuple[str, ...]) -> None:
@@ -38,7 +38,7 @@ class Snapshots:
         self._code, self._parts = code, parts
 
     def path(self, name: str) -> Path | None:
-        """Return the file of a snapshot, `None` if there is no cache.
+        """Return the file of a snapshot, `None` without a cache.
 
         Each installation has its own file.
         """
@@ -70,7 +70,7 @@ class Snapshots:
         return data if (found_stamp, found_source) == (stamp, made_of) else None
 
     def save(self, name: str, made_of: Any, data: Any) -> Path | None:
-        """Keep plain data for the next process; return the file if that was possible."""
+        """Keep plain data for the next process; return the file if possible."""
         path, stamp = self.path(name), self._stamp()
         if path is None or stamp is None:
             return None

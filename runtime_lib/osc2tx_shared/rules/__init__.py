@@ -2,7 +2,7 @@
 
 The runtime states the rules with its classes and checks calls when a module runs; the compiler
 reads them from its catalogue and checks the same calls before. Both use the interpreters here,
-which see a call through a small protocol. The package imports nothing but the standard library.
+which see a call through a small protocol. The package only imports the standard library.
 """
 
 from __future__ import annotations

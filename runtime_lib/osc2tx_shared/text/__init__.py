@@ -5,8 +5,8 @@ characters that steer a terminal, turn the direction of writing or begin a line 
 escapes (`\x1b`, `\u202e`, `\n`), and commands of CI servers (`::error::`) are broken up.
 
 `printing` writes a text in a line, in JSON and in XML. It is the only place where osc2tx and its
-runtime write to standard output and standard error, and cleans all of it.
-The package imports nothing but the standard library.
+runtime write to standard output and standard error, and cleans all of it. The package only imports
+the standard library.
 """
 
 from __future__ import annotations

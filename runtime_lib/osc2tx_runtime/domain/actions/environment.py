@@ -1,7 +1,7 @@
 """Environment actions: weather and light that last until changed again (DSL 8.11).
 
-The standard lets them end "when the same type is invoked again", which would block a serial for
-ever; here they take no time and their effect stays.
+The standard lets them end "when the same type is invoked again", which would block a serial
+forever; here they take no time, and their effect persists.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ BOUNDS: Mapping[str, tuple[float, float, str]] = {
     "snow_intensity": (0.0, math.inf, " m/s"),
     "wind_speed": (0.0, math.inf, " m/s"),
     "visual_range": (0.0, math.inf, " m"),
-    "cloudiness": (0.0, 9.0, " okta"),  # 9: the sky cannot be seen
+    "cloudiness": (0.0, 9.0, " okta"),  # 9: sky obscured
 }
-"""Least and greatest value of the environment, and its unit; angles can be any."""
+"""Least and greatest value of the environment, and its unit; angles are unlimited."""
 
 
 class _Weather(Action):
@@ -50,7 +50,7 @@ class _Weather(Action):
         self._refused: str | None = None
 
     def on_start(self) -> None:
-        """Sets them, if they can be; values that depend on the world are known by now."""
+        """Sets the values, if they are possible; values that depend on the world are known now."""
         values = {n: value() if callable(value) else value for n, value in self.values.items()}
         problems = (_impossible(name, value) for name, value in values.items())
         self._refused = next(filter(None, problems), None)
@@ -60,7 +60,7 @@ class _Weather(Action):
             self.effect(f"environment {name}", value, partial(self._set, name, value))
 
     def on_update(self) -> Status:
-        """Ends at once."""
+        """Ends in the same step."""
         return Status.SUCCESS if self._refused is None else self.fail(self._refused)
 
     def _set(self, name: str, value: float) -> None:
@@ -72,7 +72,7 @@ class _Weather(Action):
 
 
 def _impossible(name: str, value: float) -> str | None:
-    """Why a value cannot be; None if it can."""
+    """Why a value is impossible; None if it is possible."""
     least, most, unit = BOUNDS.get(name, (-math.inf, math.inf, ""))
     if least <= value <= most:
         return None

@@ -1,8 +1,8 @@
 """Actors of the domain model: their fields, methods and actions.
 
-Constructor keywords are the fields a scenario may fix. Live fields and methods read the snapshot
-of the present step. All other calls on an actor are actions: `methods` declares those of the
-library, the registry executes them.
+Constructor keywords are the fields that a scenario may state. Live fields and methods read the
+snapshot of the present step. All other calls on an actor are actions: `methods` declares those of
+the library, the registry executes them.
 """
 
 from __future__ import annotations

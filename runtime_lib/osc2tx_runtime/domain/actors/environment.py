@@ -28,12 +28,12 @@ class Environment(Actor, EnvironmentMethods):
 
     Args:
         name: Role name.
-        geodetic_position: Where on the globe the origin of the world is.
+        geodetic_position: The origin of the world on the globe.
         datetime: Unix time (s) when the scenario starts.
 
     Attributes:
-        sun: Its position, and to name it in `assign_celestial_position`.
-        moon: Likewise.
+        sun: The sun; its position, and the argument of `assign_celestial_position`.
+        moon: The moon, likewise.
     """
 
     kinds = ("environment", *Actor.kinds)
@@ -53,7 +53,7 @@ class Environment(Actor, EnvironmentMethods):
         self.moon = CelestialLightSource(lambda: self._place_of("moon"), "moon")
 
     def bind(self, context: ExecutionContext) -> None:
-        """Joins a run; place and time say where sun and moon stand, until an action does."""
+        """Joins a run; place and time determine sun and moon until an action sets them."""
         super().bind(context)
         if self._geodetic_position is not None and self._datetime is not None:
             place = self._geodetic_position
@@ -61,10 +61,10 @@ class Environment(Actor, EnvironmentMethods):
 
     @property
     def geodetic_position(self) -> GeodeticPosition:
-        """Where on the globe the origin of the world is.
+        """The origin of the world on the globe.
 
         Raises:
-            ScenarioError: The scenario says nothing about it.
+            ScenarioError: The scenario does not state it.
         """
         if self._geodetic_position is None:
             raise ScenarioError(f"nothing says the geodetic_position of {self.id}", self.source)
@@ -75,7 +75,7 @@ class Environment(Actor, EnvironmentMethods):
         """Unix time (s) when the scenario starts.
 
         Raises:
-            ScenarioError: The scenario says nothing about it.
+            ScenarioError: The scenario does not state it.
         """
         if self._datetime is None:
             raise ScenarioError(f"nothing says the datetime of {self.id}", self.source)
@@ -102,7 +102,7 @@ class Environment(Actor, EnvironmentMethods):
         """Unix time (s) of a local date and time (DSL 8.10.2.1.1); time zone in hours east of UTC.
 
         Raises:
-            ScenarioError: There is no such date, time or zone.
+            ScenarioError: The date, time or zone is invalid.
         """
         try:
             zone = timezone(timedelta(hours=time_zone))

@@ -20,7 +20,7 @@ class Map(Actor, RoadNetwork, TrafficLightControl):
             among the maps of the runtime.
         driving_rule: The required rule of the map: `left_hand_traffic` or `right_hand_traffic`.
         traffic_light_control: Cycles from which `sync` of the traffic light actions takes the
-            states of synchronized lights; they are not played by themselves.
+            states of synchronized lights; they are not played automatically.
     """
 
     kinds = ("map", *Actor.kinds)

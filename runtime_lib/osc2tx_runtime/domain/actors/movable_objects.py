@@ -1,4 +1,4 @@
-"""Movable objects, and those of them that are not vehicles (DSL 8.7.4 to 8.7.6, 8.7.9, 8.7.10)."""
+"""Movable objects, except vehicles (DSL 8.7.4 to 8.7.6, 8.7.9, 8.7.10)."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ class ParticipantFields(ObjectFields, total=False):
 
 
 class TrafficParticipant(MovableObject):
-    """A movable object that matters to traffic.
+    """A movable object that takes part in traffic.
 
     Args:
         intended_infrastructure: The infrastructure it moves on, or single elements of that list;
             default: that of its kind or category.
-        role: The role that others can see; default: the role of the model, if it has one.
+        role: The externally visible role; default: the role of the model, if it has one.
         **fields: As of `PhysicalObject`.
     """
 
@@ -67,17 +67,17 @@ class TrafficParticipant(MovableObject):
 
     @property
     def role(self) -> TrafficParticipantRole:
-        """The role that others can see."""
+        """The externally visible role."""
         return self._said("role", self._role or default_role(self.model))
 
 
 class Person(TrafficParticipant, PersonMethods):
-    """A human being on foot; walks straight on, not bound to lanes."""
+    """A pedestrian; walks straight ahead, independent of lanes."""
 
     kinds = ("person", *TrafficParticipant.kinds)
 
 
 class Animal(TrafficParticipant, AnimalMethods):
-    """An animal; moves like a person."""
+    """An animal; moves like a pedestrian."""
 
     kinds = ("animal", *TrafficParticipant.kinds)

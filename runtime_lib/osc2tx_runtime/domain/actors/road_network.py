@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 
 
 class RoadNetwork:
-    """What one can ask a map; mixed into the actor class."""
+    """Methods of a map; mixed into the actor class."""
 
     named_file: str | None
 
@@ -91,7 +91,7 @@ class RoadNetwork:
         """The point on the axis of the driving lane under it.
 
         Raises:
-            ScenarioError: No driving lane is there.
+            ScenarioError: There is no driving lane at the point.
         """
         on = self._map.locate(x, y, z, max_distance=1e-3)
         if on is None:
@@ -115,7 +115,7 @@ class RoadNetwork:
         return "left" if self._right_hand() else "right"
 
     def get_map_file(self) -> str:
-        """Name of the map file, as written in the scenario; else the name of the map."""
+        """Name of the map file as stated in the scenario; else the name of the map."""
         return self.named_file or self._map.name
 
     @property
@@ -125,7 +125,7 @@ class RoadNetwork:
 
     @property
     def routes(self) -> tuple[Road, ...]:
-        """The roads outside of junctions, by their numbers; they have the rest of it."""
+        """The roads outside junctions, by their numbers."""
         graph = graph_of(self._map)
         return self._seen(Road, graph.roads)
 
@@ -157,7 +157,7 @@ class RoadNetwork:
             raise ScenarioError(f"map {self._map.name} has roads of both driving rules")
         return rules.pop()
 
-    # --- paths: brought into the world where they are used ----------------------------------
+    # --- paths: converted to world coordinates where they are used ----------------------------
 
     def create_path(
         self, points: Sequence[Pose], interpolation: PathInterpolation = "straight_line"
@@ -171,7 +171,7 @@ class RoadNetwork:
         interpolation: PathInterpolation = "straight_line",
         on_road_network: bool = False,
     ) -> Path:
-        """A path through points in road coordinates, along the lanes if it is to stay on them."""
+        """A path through points in road coordinates, along the lanes if it has to stay on them."""
         return NetworkPath((), interpolation, tuple(points), on_road_network, self)
 
     def create_path_route_points(
@@ -189,12 +189,12 @@ class RoadNetwork:
         connect_points_by: ConnectRoutePoints = "waypoint",
         legal_route: bool = True,
     ) -> MadeRoute:
-        """The way through points, roads, lanes, crossings and paths, in order (DSL 8.5.7).
+        """The route through points, roads, lanes, crossings and paths, in order (DSL 8.5.7).
 
         Args:
             routes: Its elements in order; gaps are filled.
-            connect_points_by: What points stand for: themselves, or the element under them.
-            legal_route: Lanes of vehicles are followed in direction of travel in any case.
+            connect_points_by: Meaning of points: themselves, or the element under them.
+            legal_route: No effect: lanes of vehicles are always followed in direction of travel.
         """
         return MadeRoute((), "smooth", (), True, self, tuple(_elements(routes)), connect_points_by)
 
@@ -202,7 +202,7 @@ class RoadNetwork:
         """A path through poses of this map.
 
         Raises:
-            PathError: A point is not on the map, or no way along lanes leads to it.
+            PathError: A point is not on the map, or no route along lanes leads to it.
         """
         return path_in_world(self._map, path)
 
@@ -240,7 +240,7 @@ class RoadNetwork:
     def resolve_relative_path(
         self, relative_path: RelativePath, reference: Measures, transform: RelativeTransform
     ) -> Path:
-        """The absolute path, at the present place of the reference."""
+        """The absolute path, at the present pose of the reference."""
         poses = absolute(self._map, relative_path.points, reference.state, transform)
         return Path(poses, relative_path.interpolation)
 
@@ -250,7 +250,7 @@ class RoadNetwork:
         reference: Measures,
         transform: RelativeTransform,
     ) -> Trajectory:
-        """The absolute trajectory, at the present place of the reference; times stay."""
+        """The absolute trajectory, at the present pose of the reference; times are unchanged."""
         poses = absolute(self._map, relative_trajectory.points, reference.state, transform)
         return Trajectory(poses, relative_trajectory.time_stamps, relative_trajectory.interpolation)
 

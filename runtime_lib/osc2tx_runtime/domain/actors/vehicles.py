@@ -39,18 +39,18 @@ class TrailerFields(VehicleFields, total=False):
 
 
 class Vehicle(TrafficParticipant, VehicleMethods):
-    """A land vehicle; follows lanes where it stands on one.
+    """A land vehicle; follows lanes if it starts on one.
 
     Args:
         vehicle_category: `car`, `heavy_truck`, ...; default: that of the model, else `car`.
         axles: From front to rear, or deviations from the category by numbers of axles; default:
             those of the category.
         rear_overhang: Metres from the rear end to the rear axle.
-        trailer_receiver: The half of the hitch on this vehicle; default: one at its rear end.
+        trailer_receiver: The receiver of the hitch; default: at the rear end of the vehicle.
         **fields: As of `TrafficParticipant`.
 
     Attributes:
-        said_receiver: The half of the hitch, as far as the scenario says it.
+        said_receiver: The receiver of the hitch as stated in the scenario.
     """
 
     kinds = ("vehicle", *TrafficParticipant.kinds)
@@ -76,12 +76,12 @@ class Vehicle(TrafficParticipant, VehicleMethods):
 
     @property
     def category(self) -> VehicleCategory | None:
-        """Category that the scenario names."""
+        """Category that the scenario states."""
         return self._category
 
     @property
     def vehicle_category(self) -> VehicleCategory:
-        """What sort of vehicle it is, as the scenario says or by its model."""
+        """Category of the vehicle, as stated in the scenario or by its model."""
         return self._said("vehicle_category", self._category or category_of(self.model))
 
     @property
@@ -96,7 +96,7 @@ class Vehicle(TrafficParticipant, VehicleMethods):
 
     @property
     def trailer_receiver(self) -> HitchReceiver:
-        """The half of the hitch on this vehicle."""
+        """The receiver of the hitch."""
         receiver = completed(
             self.said_receiver, default_receiver(self.shape, self.said_receiver.hitch_type)
         )
@@ -104,10 +104,10 @@ class Vehicle(TrafficParticipant, VehicleMethods):
 
     @property
     def shape(self) -> Shape:
-        """As of `PhysicalObject`, with what axles and hitch mean for the way it moves."""
+        """As of `PhysicalObject`, with the effects of axles and hitch on the motion."""
         shape = super().shape
         hitch = self.said_receiver.position_x
-        if hitch == hitch:  # else it is left open
+        if hitch == hitch:  # nan: not stated
             shape = replace(shape, hitch=-hitch)
         if self._axles is None:
             return shape
@@ -143,7 +143,7 @@ class Vehicle(TrafficParticipant, VehicleMethods):
         return self._category or category_of(self.model) or "car"
 
     def _rear(self, known: float) -> float:
-        """The rear overhang, or what follows from the middle of the box."""
+        """The rear overhang, stated or derived from the middle of the box."""
         said, middle = self._rear_overhang, self._box.center.x
         if said is None:
             return 0.5 * self._box.length - middle if middle == middle else known
@@ -156,11 +156,11 @@ class Vehicle(TrafficParticipant, VehicleMethods):
 
 
 class Trailer(Vehicle):
-    """A vehicle without propulsion that another one tows.
+    """A vehicle without propulsion, towed by another vehicle.
 
     Args:
         trailer_category: `semi_trailer`, `full_trailer` or `central_axle_trailer`.
-        coupler: The half of the hitch on this trailer; default: one before its box.
+        coupler: The coupler of the hitch; default: in front of the box.
         **fields: As of `Vehicle`.
     """
 
@@ -180,19 +180,19 @@ class Trailer(Vehicle):
 
     @property
     def trailer_category(self) -> TrailerCategory:
-        """What sort of trailer it is, as the scenario says or by its category as a vehicle."""
+        """Category of the trailer, as stated in the scenario or by its category as a vehicle."""
         known = default_trailer_category(self._known_category)
         return self._said("trailer_category", self._trailer_category or known)
 
     @property
     def coupler(self) -> HitchCoupler:
-        """The half of the hitch on this trailer."""
+        """The coupler of the hitch."""
         known = default_coupler(self._known_category, self.shape, self._coupler.hitch_type)
         return replace(completed(self._coupler, known), connected=self._is_towed)
 
     @property
     def shape(self) -> Shape:
-        """As of `Vehicle`, with the place of the coupler."""
+        """As of `Vehicle`, with the position of the coupler."""
         shape, coupler = super().shape, self._coupler.position_x
         return replace(shape, drawbar=coupler) if coupler == coupler else shape
 
@@ -211,7 +211,7 @@ class Trailer(Vehicle):
         return vehicle
 
     def misfit(self, receiver: HitchReceiver) -> str | None:
-        """Why it cannot hang on a receiver; None if it can, as far as the scenario says."""
+        """Why it does not fit a receiver; None if it fits, as far as the scenario states."""
         return misfit(receiver, self._coupler)
 
     def _is_towed(self) -> bool:

@@ -16,10 +16,10 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.map.lane_graph import LaneGraph
 
 _BEYOND = 4.0  # m behind the ends of a crosswalk where a sidewalk may have its centre line
-_SAMPLE = 0.25  # m along a crosswalk between looks at the lane under it
-_COARSE = 4.0  # m along a lane between looks at the side on which a crossing is
+_SAMPLE = 0.25  # m along a crosswalk between samples of the lane under it
+_COARSE = 4.0  # m along a lane between samples of the side on which a crossing is
 _EXACT = 1e-9  # m
-_ALIGNED = math.radians(10.0)  # between a crossing and the crosswalk that it is
+_ALIGNED = math.radians(10.0)  # between a crossing and its crosswalk
 
 
 class _Meeting(NamedTuple):
@@ -37,9 +37,9 @@ class _Meeting(NamedTuple):
 
 
 def on_crosswalk(graph: LaneGraph, crosswalk: Crosswalk) -> Iterator[MapSegment]:
-    """Crossings on a crosswalk, those from one end to the other first, in either direction.
+    """Crossings on a crosswalk in either direction, those from end to end first.
 
-    The lanes that they join are any two of those that the crosswalk leads over or up to.
+    They join any two of the lanes that the crosswalk crosses or touches.
     """
     line = Pose(crosswalk.x, crosswalk.y, 0.0, crosswalk.heading)
     half = 0.5 * crosswalk.length
@@ -68,15 +68,15 @@ def on_crosswalk(graph: LaneGraph, crosswalk: Crosswalk) -> Iterator[MapSegment]
 def laid(
     graph: LaneGraph, start: MapSegment, end: MapSegment, start_s: float, angle: float
 ) -> MapSegment | None:
-    """A crossing that begins on a lane; None if it does not reach the other one.
+    """A crossing that begins on a lane; None if it does not reach the end lane.
 
     Args:
         graph: The map.
         start: Lane on whose centre line it begins.
         end: Lane on whose centre line it ends.
         start_s: Metres along the first lane.
-        angle: Between the direction of the first lane and the crossing (rad), to the side on
-            which the other lane is.
+        angle: Between the direction of the first lane and the crossing (rad), towards the side of
+            the other lane.
     """
     s = graph.s_at(start, start_s)
     if s is None:
@@ -97,7 +97,7 @@ def laid(
 
 
 def _as_crosswalk(graph: LaneGraph, segment: MapSegment) -> MapSegment:
-    """Notes the crosswalk of the map on which a crossing lies, if there is one."""
+    """Sets the crosswalk of the map on which a crossing lies, if any."""
     line = segment.line
     assert line is not None
     for crosswalk in graph.map.crosswalks():
@@ -110,7 +110,7 @@ def _as_crosswalk(graph: LaneGraph, segment: MapSegment) -> MapSegment:
 
 
 def _lanes_under(graph: LaneGraph, crosswalk: Crosswalk, reach: float) -> list[MapSegment]:
-    """Lanes of all kinds on which a crosswalk lies, or up to which it leads."""
+    """Lanes of all kinds that a crosswalk crosses or touches."""
     c, n = math.cos(crosswalk.heading), math.sin(crosswalk.heading)
     steps = math.ceil(2.0 * reach / _SAMPLE)
     found: dict[MapSegment, None] = {}
@@ -140,7 +140,7 @@ def _meetings(graph: LaneGraph, lane: MapSegment, line: Pose) -> list[_Meeting]:
 
 
 def _bisect(graph: LaneGraph, lane: MapSegment, line: Pose, low: float, high: float) -> float:
-    """Road coordinate between two at which the centre of a lane is on a straight line."""
+    """Road coordinate between two others at which a lane centre is on a straight line."""
     left = _aside(_centre(graph, lane, low), line) > 0.0
     while high - low > _EXACT:
         middle = 0.5 * (low + high)

@@ -1,4 +1,4 @@
-"""Declared crossings, on crosswalks of the map or elsewhere (DSL 8.12.11)."""
+"""Declared crossings, on crosswalks of the map or at other positions (DSL 8.12.11)."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.opendrive import Crosswalk
 from osc2tx_shared.classes import dataclass
 
-_SAME = 0.1  # m between a width that is asked for and that of a crosswalk
+_SAME = 0.1  # m between a required width and that of a crosswalk
 _ON_ROAD = 0.01  # m above the road
 
 
 @dataclass(frozen=True, slots=True)
 class CrossingType:
-    """The type of a crossing; None is left open.
+    """The type of a crossing; None: not stated.
 
     Attributes:
         marking: Its marking on the road.
@@ -50,17 +50,17 @@ def type_of(crosswalk: Crosswalk) -> CrossingType:
 
 
 class Crossing(Route):
-    """A straight way across lanes: a crosswalk of the map, or where `crossing_connects` lays it.
+    """A straight path across lanes: a crosswalk of the map, or stated by `crossing_connects`.
 
     Args:
         start_lane: Lane in whose middle it begins.
         end_lane: Lane in whose middle it ends.
-        start_s_coord: Metres along the first at which it begins.
-        end_s_coord: Metres along the other at which it ends.
-        width: Its width (m), or the range that it is in; also where no crosswalk has one.
+        start_s_coord: Metres along the start lane at which it begins.
+        end_s_coord: Metres along the end lane at which it ends.
+        width: Its width (m) or range of widths; also that of a crossing without crosswalk.
         crossing_type: Its type.
         anchors: Id or name of the crosswalk in the map.
-        length: Its length (m), or the range that it is in.
+        length: Its length (m) or range of lengths.
     """
 
     kind = "crossing"
@@ -101,7 +101,7 @@ class Crossing(Route):
         return () if found is None else (found.id, *filter(None, [found.name]))
 
     def suits(self, graph: RoadGraph, segment: MapSegment) -> bool:
-        """Whether a crosswalk that lies there is as asked for; without one nothing mentions it."""
+        """Whether its crosswalk fulfils the requirements; without a crosswalk none may exist."""
         found = _crosswalk(graph, segment)
         if found is None:
             is_free = not self._anchors and self._type == CrossingType()
@@ -120,7 +120,7 @@ class Crossing(Route):
 
     @property
     def line(self) -> CrossingLine:
-        """Where it lies."""
+        """Its centre line."""
         line = self.found.line
         assert line is not None
         return line
@@ -149,10 +149,10 @@ class Crossing(Route):
 
     @property
     def width(self) -> float:
-        """Its width (m): of the crosswalk, else as the scenario says.
+        """Its width (m): of the crosswalk, else as stated in the scenario.
 
         Raises:
-            ScenarioError: Nothing says it.
+            ScenarioError: It is not stated.
         """
         if self.stated_width is None:
             raise ScenarioError(f"nothing says the width of {self.found}", self.source)
@@ -160,7 +160,7 @@ class Crossing(Route):
 
     @property
     def stated_width(self) -> float | None:
-        """Its width (m); None if nothing says it."""
+        """Its width (m); None if it is not stated."""
         if self.line.width is not None:
             return self.line.width
         return self._width if isinstance(self._width, int | float) else None
@@ -191,7 +191,7 @@ class KnownCrossingType:
 
     @property
     def marking(self) -> CrossingMarking:
-        """How it is marked on the road."""
+        """Its marking on the road."""
         if self._known.marking is None:
             raise self._missing("marking")
         return self._known.marking
@@ -205,7 +205,7 @@ class KnownCrossingType:
 
     @property
     def elevation(self) -> CrossingElevation:
-        """Its height against the road."""
+        """Its height above the road."""
         if self._known.elevation is None:
             raise self._missing("elevation")
         return self._known.elevation

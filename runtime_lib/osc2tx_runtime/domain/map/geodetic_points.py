@@ -14,10 +14,10 @@ if TYPE_CHECKING:
 
 
 def place_of_geodetic(road_map: RoadMap, point: GeodeticPoint) -> Pose:
-    """Place of a point on the globe, so high above the nearest road as it says.
+    """Position of a point on the globe, at its height above the nearest road.
 
     Raises:
-        PlacementError: The map does not say where on the globe it is.
+        PlacementError: The map has no georeference.
     """
     try:
         x, y = road_map.geo_reference.project(point.latitude, point.longitude)
@@ -29,10 +29,10 @@ def place_of_geodetic(road_map: RoadMap, point: GeodeticPoint) -> Pose:
 
 
 def check_globe(scenario: ScenarioParts, road_map: RoadMap) -> None:
-    """Looks whether the points of the globe that a scenario declares have a place on its map.
+    """Checks that the geodetic points of a scenario can be projected to its map.
 
     Raises:
-        PlacementError: One has none.
+        PlacementError: A point cannot be projected.
     """
     for name, value in vars(scenario).items():
         if isinstance(value, GeodeticPoint):

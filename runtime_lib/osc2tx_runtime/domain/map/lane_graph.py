@@ -14,9 +14,9 @@ _INSIDE = 1e-6  # m from the end of a lane section, to be in it
 
 
 class LaneGraph:
-    """Roads, lane sections and lanes of a map, and which follow which.
+    """Roads, lane sections and lanes of a map, with their successors.
 
-    Only lanes that vehicles drive on count; `other_lanes` has those beside them.
+    Only lanes for vehicles count; `other_lanes` has the others.
 
     Args:
         road_map: The map.
@@ -76,7 +76,7 @@ class LaneGraph:
 
     @cached_property
     def other_lanes(self) -> tuple[MapSegment, ...]:
-        """Lanes outside of junctions that vehicles do not drive on, by road and from the right."""
+        """Lanes outside junctions that are not for vehicles, by road and from the right."""
         return tuple(
             self.segment_of(LaneKey(road.id, section.index, lane.id))
             for road in self.map.roads.values()
@@ -116,7 +116,7 @@ class LaneGraph:
         return tuple(ids if forwards else reversed(ids))
 
     def lanes_of(self, segment: MapSegment) -> tuple[MapSegment, ...]:
-        """Lanes of a segment: of its first section, where it has several."""
+        """Lanes of a segment; of its first section if it has several."""
         match segment.kind:
             case "lane":
                 return (segment,)
@@ -133,7 +133,7 @@ class LaneGraph:
         )
 
     def chains_of(self, road: MapSegment) -> tuple[tuple[MapSegment, ...], ...]:
-        """Drivable lanes over a whole road, each with those that follow it on the road.
+        """Drivable lanes over a whole road, each with its successors on the road.
 
         Those in the direction of the road come first.
         """
@@ -152,11 +152,11 @@ class LaneGraph:
         )
 
     def begin(self, segment: MapSegment) -> LanePosition:
-        """Where a segment begins; on the outermost lane that leads on where it has several."""
+        """Start of a segment; on the outermost lane with a successor if it has several."""
         return next(self.beginnings(segment))
 
     def beginnings(self, segment: MapSegment) -> Iterator[LanePosition]:
-        """Where a segment begins: on each of its lanes that lead on, from the right."""
+        """Starts of a segment: on each of its lanes with a successor, from the right."""
         lanes = self._directed(segment.parts[0]) if segment.parts else self.lanes_of(segment)
         onward = [each.road for each in segment.parts[1:2]]
         for first in [each for each in lanes if self._leads_to(each, onward)] or lanes:
@@ -166,7 +166,7 @@ class LaneGraph:
             yield LanePosition(first.road, first.lane, s)
 
     def _directed(self, part: MapSegment) -> tuple[MapSegment, ...]:
-        """Lanes at the begin of a part of a route, in its direction."""
+        """Lanes at the start of a part of a route, in its direction."""
         index = part.section
         if index is None:
             index = 0 if part.forwards else len(self.map.roads[part.road].sections) - 1
@@ -174,7 +174,7 @@ class LaneGraph:
         return (part,) if part.kind == "lane" else self.lanes_of(section)
 
     def _leads_to(self, lane: MapSegment, roads: list[str]) -> bool:
-        """Whether one can go from a lane to one of the roads without changing lanes."""
+        """Whether a lane leads to one of the roads without a lane change."""
         reached, seen = [lane], {lane}
         for each in reached:
             for after in self.after(each):
@@ -186,7 +186,7 @@ class LaneGraph:
         return not roads
 
     def end(self, segment: MapSegment) -> LanePosition:
-        """Where a segment ends; on its outermost lane where it has several."""
+        """End of a segment; on its outermost lane if it has several."""
         if segment.parts:
             return self.end(segment.parts[-1])
         index = segment.section
@@ -200,7 +200,7 @@ class LaneGraph:
         return LanePosition(segment.road, lane, s)
 
     def seen_from(self, segment: MapSegment, place: LanePosition | None) -> MapSegment:
-        """A road in the direction of an actor on it; other segments unchanged."""
+        """A road in the direction of an actor on it; other segments are unchanged."""
         if segment.kind != "road" or place is None or place.road != segment.road:
             return segment
         forwards = self.map.travel_direction(place.road, place.lane) > 0
@@ -235,7 +235,7 @@ class LaneGraph:
         return section.lanes[lane.lane]
 
     def width_of(self, lane: MapSegment) -> float:
-        """Width (m) of a lane where it begins."""
+        """Width (m) of a lane at its start."""
         found = self.lane(lane)
         section = found.section
         return found.width_at(section.begin if lane.forwards else section.end)
@@ -258,7 +258,7 @@ class LaneGraph:
         return tuple(self.segment_of(key) for key in self.map.predecessors(self.key(lane)))
 
     def heading(self, lane: MapSegment, *, at_end: bool) -> float:
-        """Heading (rad) of a lane where it begins or ends."""
+        """Heading (rad) of a lane at its start or end."""
         assert lane.lane is not None and lane.section is not None
         section = self.map.roads[lane.road].sections[lane.section]
         last = lane.forwards == at_end

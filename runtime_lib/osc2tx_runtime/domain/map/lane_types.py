@@ -57,7 +57,7 @@ _KINDS: Mapping[str, LaneKind] = {
 
 
 LANE_TYPES = frozenset(_KINDS) - {"none"}
-"""Types of OpenDRIVE that are lanes at all, for vehicles or not."""
+"""OpenDRIVE types of lanes, for vehicles and others."""
 
 
 def kind_of_lane(type_: str) -> LaneKind:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class MapObject(DeclaredObject):
-    """Something of the map; its live members can be read while the scenario runs."""
+    """An element of the map; its live members can be read while the scenario runs."""
 
     word = ""
 
@@ -45,7 +45,7 @@ class MapObject(DeclaredObject):
         """The OpenDRIVE id.
 
         Raises:
-            ScenarioError: It has none.
+            ScenarioError: It has no id.
         """
         if self.map_id is None:
             raise ScenarioError(

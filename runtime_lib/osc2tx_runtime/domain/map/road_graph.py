@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Passage(NamedTuple):
-    """A way through a junction, from lane to lane.
+    """A connection through a junction, from lane to lane.
 
     Attributes:
         junction: The junction.
@@ -43,7 +43,7 @@ class Passage(NamedTuple):
 
 
 def passages_of(graph: LaneGraph) -> tuple[Passage, ...]:
-    """All ways through the junctions of a map, by the lanes that enter them."""
+    """All connections through the junctions of a map, by entering lane."""
     found = []
     for lane in graph.lanes:
         for via in graph.after(lane):
@@ -76,7 +76,7 @@ def arms_of(
 
 @lru_cache(maxsize=4)
 def graph_of(road_map: RoadMap) -> RoadGraph:
-    """The graph of a map; the same one as long as it is in use."""
+    """The graph of a map; the same one while it is in use."""
     return RoadGraph(road_map)
 
 
@@ -112,7 +112,7 @@ class RoadGraph(LaneGraph):
 
     @cached_property
     def passages(self) -> tuple[Passage, ...]:
-        """Ways through junctions."""
+        """Connections through junctions."""
         return passages_of(self)
 
     def arms(self, junction: MapSegment) -> Iterator[tuple[float, str]]:

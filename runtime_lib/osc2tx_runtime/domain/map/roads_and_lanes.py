@@ -75,7 +75,7 @@ class Road(Route):
 
 
 class LaneSection(Route):
-    """The lanes of one direction, side by side, as long as their number stays the same."""
+    """Adjacent lanes of one direction, while their number is constant."""
 
     kind = "lane_section"
 
@@ -118,13 +118,13 @@ class LaneSection(Route):
 
 
 class Lane(Route):
-    """A lane of a lane section; a drivable one, if nothing else is asked for.
+    """A lane of a lane section; a drivable lane by default.
 
     Args:
         lane_section: The section that it belongs to.
         lane_type: Its users, roughly.
         lane_use: Its use, in more detail.
-        width: Its width at its start (m), or the range of the width.
+        width: Its width at its start (m) or range of widths.
         anchors: As of `RoadPart`.
         length: Likewise.
         directionality: Likewise.
@@ -157,7 +157,7 @@ class Lane(Route):
         return " and ".join(filter(None, own))
 
     def candidates(self, graph: RoadGraph) -> tuple[MapSegment, ...]:
-        """Drivable lanes; those beside them only if their kind is asked for."""
+        """Drivable lanes; other lanes only if their kind is required."""
         if self._type is None and self._use is None:
             return graph.lanes
         return (*graph.lanes, *graph.other_lanes)
@@ -190,7 +190,7 @@ class Lane(Route):
 
     @property
     def width(self) -> float:
-        """Its width where it begins (m)."""
+        """Its width at its start (m)."""
         return self.graph.width_of(self.found)
 
 
@@ -250,16 +250,16 @@ class Junction(RoadPart):
 
 
 class RoadPath(RoadPart):
-    """A piece of road for the scenario to begin on, as ScenarioRunner's `Path` asks for one.
+    """A piece of road on which the scenario begins, as `Path` of ScenarioRunner.
 
-    It is the longest lane section that has everything asked of it.
+    It is the longest lane section that fulfils its requirements.
 
     Args:
         min_lanes: As of `RoadPart`.
         max_lanes: Likewise.
         min_length: Least length (m).
-        different_dest: A path that ends elsewhere.
-        different_origin: A path that begins elsewhere.
+        different_dest: A path with a different end.
+        different_origin: A path with a different start.
     """
 
     kind = "path"
@@ -284,5 +284,5 @@ class RoadPath(RoadPart):
         return " and ".join(filter(None, [super().requirements, own]))
 
     def suits(self, graph: RoadGraph, segment: MapSegment) -> bool:
-        """Whether it is long enough as well."""
+        """Whether it also has the required length."""
         return graph.length(segment) >= self._min_length and super().suits(graph, segment)

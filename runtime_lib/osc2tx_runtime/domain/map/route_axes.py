@@ -1,7 +1,7 @@
 """Axes of routes, along which `s` runs (DSL 8.5.9): length, direction, lane counts.
 
 The axis of a lane is its centre line, that of a lane section the centre of its rightmost lane, that
-of a road its reference line; a compound route is measured along its lanes from end to end.
+of a road its reference line; that of a compound route runs along its lanes.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from osc2tx_runtime.enums import Directionality
 
 
 def axis_lanes(graph: RoadGraph, segment: MapSegment) -> tuple[MapSegment, ...]:
-    """Lanes whose centre lines are the axis, in order; none of roads, routes and crossings."""
+    """Lanes whose centre lines are the axis, in order; empty for roads, routes and crossings."""
     match segment.kind:
         case "lane":
             return (segment,)
@@ -41,7 +41,7 @@ def length_of(graph: RoadGraph, segment: MapSegment) -> float:
 
 
 def directionality_of(graph: RoadGraph, segment: MapSegment) -> Directionality:
-    """In which directions the lanes of a route are used."""
+    """Directions in which the lanes of a route are used."""
     if segment.kind == "crossing":
         return "free"
     lanes = [lane for each in _sections(graph, segment) for lane in graph.lanes_of(each)]
@@ -53,7 +53,7 @@ def directionality_of(graph: RoadGraph, segment: MapSegment) -> Directionality:
 
 
 def widths_of(graph: RoadGraph, segment: MapSegment) -> list[int]:
-    """How many drivable lanes there are side by side, along a route."""
+    """Numbers of adjacent drivable lanes along a route."""
     if segment.kind == "crossing":
         return [0]
     return [
@@ -63,7 +63,7 @@ def widths_of(graph: RoadGraph, segment: MapSegment) -> list[int]:
 
 
 def _sections(graph: RoadGraph, segment: MapSegment) -> Iterator[MapSegment]:
-    """Pieces of a route with the same lanes side by side; of compound routes their direction."""
+    """Pieces of a route with the same adjacent lanes; of compound routes their direction."""
     if segment.kind == "compound_route":
         for part in segment.parts:
             yield from graph.sections_of_road(part.road, forwards=part.forwards)

@@ -1,7 +1,7 @@
 """Bases of declared roads, lanes and routes: constraints, and values of the map.
 
 A scenario constrains its roads (`number_of_lanes`, `lane_side`, ...); before the start the
-`MapSolver` chooses for each of them a segment of the map for which all that holds.
+`MapSolver` chooses for each of them a segment of the map that fulfils all constraints.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def fulfils(
     at_least: bool = False,
     at_most: bool = False,
 ) -> bool:
-    """Whether a number of the map is as asked for.
+    """Whether a number of the map fulfils a requirement.
 
     Args:
         required: The required value; None: no requirement.
@@ -73,13 +73,13 @@ PartT = TypeVar("PartT", bound="RoadPart")
 
 
 class RoadPart(MapObject, RouteAxis):
-    """Something of the road network that a scenario declares.
+    """An element of the road network that a scenario declares.
 
     Args:
-        anchors: Where it is in the map file: the id or the name of its road, or `road:lane`.
-        min_lanes: Least number of drivable lanes, or the range that it is in.
-        max_lanes: Largest number of drivable lanes, or the range that it is in.
-        length: Its length (m), or the range that it is in.
+        anchors: Its position in the map file: the id or the name of its road, or `road:lane`.
+        min_lanes: Least number of drivable lanes, or its range.
+        max_lanes: Largest number of drivable lanes, or its range.
+        length: Its length (m) or range of lengths.
         directionality: Directions of its lanes.
         within: A longer part that it belongs to.
         listed: Its elements, by the name of the member.
@@ -112,13 +112,13 @@ class RoadPart(MapObject, RouteAxis):
 
     @property
     def found(self) -> MapSegment:
-        """The segment of the map that was chosen."""
+        """The chosen segment of the map."""
         if self._found is None:
             raise ScenarioError(f"a {self.kind} is used before the map is known")
         return self._found
 
     def choose(self, segment: MapSegment) -> None:
-        """Takes the segment of the map that was chosen."""
+        """Sets the chosen segment of the map."""
         self._found = segment
 
     @property
@@ -133,11 +133,11 @@ class RoadPart(MapObject, RouteAxis):
         return " and ".join(filter(None, requirements))
 
     def candidates(self, graph: RoadGraph) -> tuple[MapSegment, ...]:
-        """Segments of the map that it could be, in the order in which they are tried."""
+        """Segments of the map to choose from, in order of trial."""
         return graph.all(self.kind)
 
     def suits(self, graph: RoadGraph, segment: MapSegment) -> bool:
-        """Whether a segment is as this part alone asks for."""
+        """Whether a segment fulfils the requirements of this part alone."""
         if not all(anchor in self.names_of(graph, segment) for anchor in self._anchors):
             return False
         if not fulfils(self._long, length_of(graph, segment) if self._long else 0.0, SAME):
@@ -161,7 +161,7 @@ class RoadPart(MapObject, RouteAxis):
 
     @property
     def graph(self) -> RoadGraph:
-        """The map and what hangs together on it."""
+        """The map with its connections."""
         if self._context is None:
             raise ScenarioError(f"a {self.kind} is read before the scenario runs", self.source)
         return graph_of(self._context.world.map)
@@ -177,9 +177,9 @@ class RoadPart(MapObject, RouteAxis):
 
 
 class Route(RoadPart):
-    """An element with an axis of its own, to move along (DSL 8.12.5).
+    """An element with an axis to move along (DSL 8.12.5).
 
-    Its kind decides the modifier that it is used in; without one it is a road.
+    The modifier in which it is used determines its kind; without one it is a road.
     """
 
     kind: ClassVar[PartKind] = "route"
@@ -196,12 +196,12 @@ class Route(RoadPart):
 
     @property
     def min_lanes(self) -> int:
-        """Least number of drivable lanes side by side along it."""
+        """Least number of adjacent drivable lanes along it."""
         return min(widths_of(self.graph, self.found))
 
     @property
     def max_lanes(self) -> int:
-        """Largest number of drivable lanes side by side along it."""
+        """Largest number of adjacent drivable lanes along it."""
         return max(widths_of(self.graph, self.found))
 
     @property
@@ -210,9 +210,9 @@ class Route(RoadPart):
         return list(self._anchors or self.names_of(self.graph, self.found))
 
     def start_point(self) -> RoutePoint:
-        """Where it begins (DSL 8.12.5.1.1)."""
+        """Its start (DSL 8.12.5.1.1)."""
         return RoutePoint(self, 0.0, 0.0)
 
     def end_point(self) -> RoutePoint:
-        """Where it ends (DSL 8.12.5.1.2)."""
+        """Its end (DSL 8.12.5.1.2)."""
         return RoutePoint(self, self.length, 0.0)

@@ -22,11 +22,11 @@ def find_map(name: str | None, folders: Sequence[Path]) -> Path:
         folders: Of the settings.
 
     Raises:
-        InputError: If there is no such file; the message says where it was searched.
+        InputError: There is no such file; the message lists the searched folders.
     """
     try:
         return _find(name, folders)
-    except (OSError, ValueError) as error:  # a name that no file can have
+    except (OSError, ValueError) as error:  # not a possible file name
         why = error.strerror if isinstance(error, OSError) else error
         raise InputError(
             f"map `{_short(name or DEFAULT_MAP)}` cannot be searched: {why}"
@@ -52,5 +52,5 @@ def _find(name: str | None, folders: Sequence[Path]) -> Path:
 
 
 def _short(name: str) -> str:
-    """Return a name in the length that one reads."""
+    """Return a name, shortened if it is long."""
     return name if len(name) <= LONGEST_SHOWN else f"{name[:LONGEST_SHOWN]}…"

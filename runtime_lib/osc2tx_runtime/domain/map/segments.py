@@ -22,16 +22,16 @@ PartKind = Literal[
 
 @dataclass(frozen=True, slots=True)
 class CrossingLine:
-    """The straight way of a crossing, from the centre of a lane to that of another.
+    """The straight path of a crossing, from the centre of a lane to that of another.
 
     Attributes:
-        x: Where it begins (m).
+        x: Its start (m).
         y: Likewise.
         z: Likewise.
         heading: Its direction (rad).
         length: Its length (m).
-        climb: How much higher its end is than its begin (m).
-        start_s: Metres along the lane at which it begins, from where that begins.
+        climb: Height of its end above its start (m).
+        start_s: Metres along the start lane, from the start of that lane.
         end_s: Likewise of the lane at which it ends.
         crosswalk: Id of the crosswalk of the map that lies there; None without one.
         width: Width of that crosswalk (m).
@@ -55,7 +55,7 @@ class CrossingLine:
         return self.x + s * c - t * n, self.y + s * n + t * c, self.z + climbed
 
     def place_of(self, x: float, y: float) -> tuple[float, float]:
-        """How far along it and to the left of it (m) a point is."""
+        """Distances (m) of a point along it and to the left of it."""
         c, n = math.cos(self.heading), math.sin(self.heading)
         dx, dy = x - self.x, y - self.y
         return dx * c + dy * n, dy * c - dx * n

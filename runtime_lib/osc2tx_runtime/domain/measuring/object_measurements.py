@@ -51,7 +51,7 @@ from osc2tx_runtime.world.state import ActorState
 
 
 class Measures(MeasuredObject):
-    """What one can read of a physical object; mixed into the actor classes."""
+    """Measurements of a physical object; mixed into the actor classes."""
 
     # --- fields -------------------------------------------------------------------------------
 
@@ -62,17 +62,17 @@ class Measures(MeasuredObject):
 
     @property
     def velocity(self) -> Velocity:
-        """Velocity in the own axes, against the world."""
+        """Velocity over ground, in the axes of the object."""
         return self.context.world.motion(self.id).velocity
 
     @property
     def acceleration(self) -> Acceleration:
-        """Acceleration in the own axes, against the world."""
+        """Acceleration over ground, in the axes of the object."""
         return self.context.world.motion(self.id).acceleration
 
     @property
     def position(self) -> RoutePosition:
-        """Place of the reference point."""
+        """Position of the reference point."""
         return RoutePosition(self)
 
     @property
@@ -83,7 +83,7 @@ class Measures(MeasuredObject):
 
     @property
     def pose(self) -> Pose:
-        """Place and orientation of the reference point."""
+        """Pose of the reference point."""
         place = Point(*map(Measured, self.state[:3]))
         return Pose(position=place, orientation=self.orientation)
 
@@ -95,7 +95,10 @@ class Measures(MeasuredObject):
         direction: DistanceDirection,
         mode: DistanceMode = "reference_points",
     ) -> float:
-        """Distance (m) in the own axes; positive if the reference is in front, left, above."""
+        """Distance (m) in the axes of the object.
+
+        Positive if the reference is ahead, left or above.
+        """
         return Measured(object_distance(self.state, reference.state, direction, mode))
 
     def road_distance(
@@ -118,8 +121,8 @@ class Measures(MeasuredObject):
     def space_gap(self, reference: Measures, direction: RoadDistanceDirection) -> float:
         """Space (m) between facing ends or sides; positive if the caller is ahead or left.
 
-        0 while both overlap in this direction. Lateral moves are free: vehicles in neighbouring
-        lanes have a longitudinal gap as well.
+        0 while both overlap in this direction. Vehicles in adjacent lanes also have a longitudinal
+        gap.
         """
         world = self.context.world
         me, other = world.state(self.id), world.state(reference.id)
@@ -140,12 +143,15 @@ class Measures(MeasuredObject):
         return Measured(time_to_cover(gap, -to_left if gap > 0.0 else to_left))
 
     def space_headway(self, reference: Measures) -> float:
-        """Distance (m) from front to front; positive if the caller trails."""
+        """Distance (m) from front to front; positive if the caller is the follower."""
         along = self._distance_along(reference)
         return Measured(-headway_between(-along, self.state.shape, reference.state.shape))
 
     def time_headway(self, reference: Measures) -> float:
-        """Space headway over the speed of the trailing one (s); positive if the caller trails."""
+        """Space headway over the speed of the follower (s).
+
+        Positive if the caller is the follower.
+        """
         headway = self.space_headway(reference)
         return Measured(time_to_cover(headway, self.speed if headway > 0.0 else reference.speed))
 
@@ -154,15 +160,15 @@ class Measures(MeasuredObject):
         return Measured(time_to_collision(self.state, reference.state))
 
     def get_s_coord(self, route_type: OnRouteType = "on_road") -> float:
-        """Own s (m) on the road, or along the centre line of the lane from where it begins."""
+        """Road coordinate (m), or distance along the lane centre from the start of the lane."""
         return Measured(self.get_route_point(route_type).s)
 
     def get_t_coord(self, route_type: OnRouteType = "on_road") -> float:
-        """Own t (m): left of the reference line of the road, or of the lane's centre line."""
+        """Distance (m) to the left of the reference line of the road, or of the lane centre."""
         return Measured(self.get_route_point(route_type).t)
 
     def get_route_point(self, route_type: OnRouteType = "on_road") -> RoutePoint:
-        """Own place in coordinates of the road, lane section, lane or crossing."""
+        """Position in coordinates of the road, lane section, lane or crossing."""
         try:
             return place_in_route(self.context, self.state, route_type)
         except ScenarioError as error:
@@ -245,7 +251,7 @@ class Measures(MeasuredObject):
         return -side_gap(distance, here.shape, there.shape)
 
     def _standing_at(self, point: Point, heading: float) -> ActorState:
-        """A point as something without extent."""
+        """A point as an object without extent."""
         on = self.context.world.map.locate(point.x, point.y, point.z)
         shape = Shape(0.0, 0.0, 0.0, 0.0)
         return ActorState(point.x, point.y, point.z, heading, 0.0, 0.0, on, 0.0, shape)

@@ -38,14 +38,14 @@ class MeasuredObject:
     def _way(
         self, road_map: RoadMap, me: ActorState, reference: MeasuredObject, there: ActorState
     ) -> float:
-        """Route distance (m) from one state to another one, of the reference."""
+        """Route distance (m) from one state to that of the reference."""
         along = along_lanes(road_map, me, there)
         if along is None:
             raise self._no_way(reference)
         return along
 
     def _distance_across(self, reference: MeasuredObject) -> float:
-        """How far (m) the reference is to the left."""
+        """Distance (m) of the reference to the left."""
         lateral = lateral_on_road(self.context.world.map, self.state, reference.state)
         if lateral is None:
             raise self._no_way(reference)
@@ -59,7 +59,7 @@ class MeasuredObject:
 
 
 class RoutePosition:
-    """Place of an object, with its relation to others along the road."""
+    """Position of an object, with its relation to others along the road."""
 
     __slots__ = ("_object",)
 
@@ -67,11 +67,11 @@ class RoutePosition:
         self._object = of
 
     def ahead_of(self, reference: MeasuredObject) -> float:
-        """How far (m) it is ahead of another object along the road; negative if behind."""
+        """Distance (m) ahead of another object along the road; negative if behind."""
         return Measured(-self._object._distance_along(reference))
 
     def behind(self, reference: MeasuredObject) -> float:
-        """How far (m) it is behind another object along the road; negative if ahead."""
+        """Distance (m) behind another object along the road; negative if ahead."""
         return Measured(self._object._distance_along(reference))
 
     @property

@@ -1,7 +1,7 @@
 """Weather values that expressions read (DSL 8.10), SI units.
 
-What no action has set is not known: it is nan, so no comparison with it holds. Only rain and snow
-do not fall then, and fog hides nothing.
+Values that no action has set are nan, so no comparison with them holds. Without an action, rain and
+snow are zero and the visual range is infinite.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class Fog:
     """Fog.
 
     Attributes:
-        visual_range: How far one sees (m).
+        visual_range: Visual range (m).
     """
 
     visual_range: float = _UNTOUCHED["visual_range"]
@@ -71,7 +71,7 @@ class Clouds:
     """Clouds.
 
     Attributes:
-        cloudiness: Okta; 9 when the sky cannot be seen.
+        cloudiness: Okta; 9: sky obscured.
     """
 
     cloudiness: float = math.nan
@@ -79,7 +79,7 @@ class Clouds:
 
 @dataclass(frozen=True, slots=True)
 class Weather:
-    """All of it."""
+    """All values of the weather."""
 
     air: Air = Air()
     rain: Precipitation = Precipitation()
@@ -104,7 +104,7 @@ class GeodeticPosition:
 
 @dataclass(frozen=True, slots=True)
 class CelestialPosition:
-    """Where the sun or the moon stands.
+    """Position of the sun or the moon.
 
     Attributes:
         azimuth: rad from +y, clockwise.
@@ -119,7 +119,7 @@ class CelestialLightSource:
     """The sun or the moon.
 
     Args:
-        position: Tells where it stands at the present step.
+        position: Returns its position at the present step.
         name: `sun` or `moon`.
     """
 
@@ -131,7 +131,7 @@ class CelestialLightSource:
 
     @property
     def position(self) -> CelestialPosition:
-        """Where it stands now."""
+        """Its present position."""
         return self._position()
 
 
@@ -154,7 +154,7 @@ def weather_of(values: Mapping[str, float]) -> Weather:
 def celestial_position(
     name: Literal["sun", "moon"], values: Mapping[str, float]
 ) -> CelestialPosition:
-    """Return where the sun or the moon stands by the values of an environment."""
+    """Return the position of the sun or the moon by the values of an environment."""
     azimuth, elevation = (values.get(f"{name}_{angle}") for angle in ("azimuth", "elevation"))
     return CelestialPosition(
         Measured(math.nan if azimuth is None else azimuth),

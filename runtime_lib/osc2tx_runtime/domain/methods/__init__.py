@@ -1,8 +1,8 @@
 """The actions of the library as methods of actors, for editors and type checkers.
 
-A class for each kind of actors that has actions; `modifiers` names groups of modifiers. All of it
-is made by tools/make_actor_methods.py from the classes that carry the actions out. These are not
-imported here: a method asks the registry.
+One class per actor type with actions; `modifiers` names groups of modifiers.
+tools/make_actor_methods.py writes them from the classes that execute the actions. These classes are
+not imported here: a method calls the registry.
 """
 
 from __future__ import annotations

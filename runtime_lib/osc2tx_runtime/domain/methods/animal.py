@@ -51,4 +51,4 @@ class AnimalMethods:
         | PhysicalMovement,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Walk as the modifiers say, straight on or along a path."""
+        """Walk as the modifiers state, straight ahead or along a path."""

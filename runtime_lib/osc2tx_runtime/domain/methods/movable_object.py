@@ -50,7 +50,7 @@ class MovableObjectMethods:
     def assign_acceleration(
         self, label: str | None = None, /, *, acceleration: Value, duration: Duration | None = None
     ) -> Behaviour:
-        """Have an acceleration (m/s^2) at once, whatever the limits (§8.8.2.7)."""
+        """Set an acceleration (m/s^2) instantly, whatever the limits (§8.8.2.7)."""
 
     def assign_orientation(
         self,
@@ -60,10 +60,11 @@ class MovableObjectMethods:
         orientation: Orientation | Callable[[], Orientation],
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Have a heading, pitch and roll at once (§8.8.2.5).
+        """Set heading, pitch and roll instantly (§8.8.2.5).
 
-        A vehicle returns to its lane from there, and to its wheels as soon as they roll; other
-        actors keep the assigned pose. A pitch or roll of zero leaves it to the road.
+        A vehicle then returns to the direction of its lane, and to the attitude of the road as soon
+        as its wheels roll; other actors keep the assigned pose. A pitch or roll of zero follows the
+        road.
         """
 
     def assign_position(
@@ -76,7 +77,7 @@ class MovableObjectMethods:
         odr_point: OdrPoint | Callable[[], OdrPoint] | None = None,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Be somewhere else at once; the speed stays (§8.8.2.4).
+        """Teleport to a position; the speed remains (§8.8.2.4).
 
         Args:
             *modifiers: position, lane, speed, yaw, orientation: instead of a point.
@@ -88,7 +89,7 @@ class MovableObjectMethods:
     def assign_speed(
         self, label: str | None = None, /, *, speed: Value, duration: Duration | None = None
     ) -> Behaviour:
-        """Have a speed (m/s) at once, whatever the limits (§8.8.2.6)."""
+        """Set a speed (m/s) instantly, whatever the limits (§8.8.2.6)."""
 
     def change_acceleration(
         self,
@@ -100,12 +101,12 @@ class MovableObjectMethods:
         rate_peak: Value | None = None,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Reach an acceleration; fails if the actor comes to a stand before (§8.8.2.14).
+        """Reach an acceleration; fails if the actor reaches standstill before (§8.8.2.14).
 
         Args:
             *modifiers: Modifiers of the lane.
             target: Acceleration (m/s^2), within the limits of the actor.
-            rate_profile: Course of the jerk; `constant`, `none` and `asap` keep it constant.
+            rate_profile: Profile of the jerk; `constant`, `none` and `asap` keep it constant.
             rate_peak: Its peak (m/s^3); default: the duration, else the limits of the actor.
         """
 
@@ -122,7 +123,7 @@ class MovableObjectMethods:
         on_road_network: bool | None = None,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Move to a position; the speed is free, from standstill it becomes `CRUISE`.
+        """Move to a position; the speed is free; from standstill it becomes `CRUISE`.
 
         Section §8.8.2.11.
 
@@ -132,8 +133,8 @@ class MovableObjectMethods:
             target_xyz: Point in the world.
             target_st: Point in route coordinates.
             target_odr: Point in road coordinates.
-            interpolation: `smooth` starts in the present direction; off the road network only.
-            on_road_network: Along lanes; default: for vehicles on a lane.
+            interpolation: `smooth` starts in the present heading; only off the road network.
+            on_road_network: Whether to move along lanes; default: vehicles on a lane do.
         """
 
     def change_speed(
@@ -151,7 +152,7 @@ class MovableObjectMethods:
         Args:
             *modifiers: Modifiers of the lane.
             target: Speed (m/s).
-            rate_profile: Course of the acceleration.
+            rate_profile: Profile of the acceleration.
             rate_peak: Its peak (m/s^2); default: the duration, else the limits of the actor.
         """
 
@@ -176,8 +177,8 @@ class MovableObjectMethods:
             relative: Or a path relative to the pose of a reference at the start.
             reference: Default: the actor itself.
             transform: Frame of the relative points.
-            start_offset: Metres of the path that are left out at its start.
-            end_offset: Metres that are left out at its end.
+            start_offset: Metres of the path to omit at its start.
+            end_offset: Metres to omit at its end.
         """
 
     def follow_trajectory(
@@ -193,18 +194,18 @@ class MovableObjectMethods:
         end_offset: Value = 0.0,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Follow a trajectory as the limits of the actor allow; late arrival is no failure.
+        """Follow a trajectory as the limits of the actor allow; late arrival is not a failure.
 
         Section §8.8.2.17.
 
         Args:
             *modifiers: Only `physical_movement`.
             absolute: The trajectory; its times count from the start of the action.
-            relative: Or one relative to a reference, where that is at the start.
+            relative: Or a trajectory relative to the pose of a reference at the start.
             reference: Default: the actor itself.
             transform: Frame of the relative points.
-            start_offset: Metres left out at the start: the action begins at their end, at once.
-            end_offset: Metres that are left out at its end.
+            start_offset: Metres to omit at the start: the action begins at their end, instantly.
+            end_offset: Metres to omit at its end.
         """
 
     def keep_acceleration(
@@ -214,7 +215,10 @@ class MovableObjectMethods:
         *modifiers: SideModifier | StartModifier,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Hold the present acceleration; an actor that comes to a stand stays there (§8.8.2.15)."""
+        """Hold the present acceleration; an actor that reaches standstill remains there.
+
+        Section §8.8.2.15.
+        """
 
     def keep_speed(
         self,
@@ -234,7 +238,7 @@ class MovableObjectMethods:
         *modifiers: SpeedModifier | SideModifier | PathModifier | Distance | KeepPosition,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Move as the modifiers say (§8.8.2.3)."""
+        """Move as the modifiers state (§8.8.2.3)."""
 
     def remain_stationary(
         self,
@@ -243,11 +247,10 @@ class MovableObjectMethods:
         *modifiers: TurnModifier | StartModifier | PhysicalMovement,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Stand still; a moving actor first brakes as hard as it can, unless physics must hold.
+        """Remain at standstill (§8.8.2.10).
 
-        Section §8.8.2.10.
-
-        Where a modifier states the position at standstill, the actor has to be there at the start.
+        A moving actor first brakes with its greatest deceleration, unless physics must hold. If a
+        modifier states the position, the actor has to be there at the start.
         """
 
     def replay_path(
@@ -263,7 +266,7 @@ class MovableObjectMethods:
         end_offset: Value = 0.0,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Be on a path exactly, whatever the limits; arguments as of `follow_path` (§8.8.2.8)."""
+        """Follow a path exactly, whatever the limits; arguments as of `follow_path` (§8.8.2.8)."""
 
     def replay_trajectory(
         self,
@@ -278,7 +281,7 @@ class MovableObjectMethods:
         end_offset: Value = 0.0,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Be on a trajectory at its times exactly; arguments as of `follow_trajectory`.
+        """Follow a trajectory exactly in position and time; arguments as of `follow_trajectory`.
 
         Section §8.8.2.9.
         """

@@ -51,4 +51,4 @@ class PersonMethods:
         | PhysicalMovement,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Walk as the modifiers say, straight on or along a path (§8.8.4.1)."""
+        """Walk as the modifiers state, straight ahead or along a path (§8.8.4.1)."""

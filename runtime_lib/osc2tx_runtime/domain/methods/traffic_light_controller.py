@@ -35,9 +35,7 @@ class TrafficLightControllerMethods:
         cycles: Sequence[TrafficLightCycle],
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Run cycles, again and again, until another action switches one of the lights.
-
-        Section §8.15.9.7.1.
+        """Repeat cycles until another action switches one of the lights (§8.15.9.7.1).
 
         Args:
             *modifiers: None are taken.
@@ -56,7 +54,7 @@ class TrafficLightControllerMethods:
         sync: bool = False,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Switch one lamp of a box, chosen by its color and symbol (§8.15.9.1.1)."""
+        """Switch one lamp of a traffic light, chosen by its color and symbol (§8.15.9.1.1)."""
 
     def set_group_bulb_state(
         self,
@@ -70,7 +68,7 @@ class TrafficLightControllerMethods:
         sync: bool = False,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Switch one lamp in every box of the group that a light belongs to (§8.15.9.4.1)."""
+        """Switch one lamp of each traffic light in the group of a light (§8.15.9.4.1)."""
 
     def set_group_semantic_state(
         self,
@@ -82,9 +80,9 @@ class TrafficLightControllerMethods:
         sync: bool = False,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Let every box of a group say something; boxes without lamps for it ignore it.
+        """Set the semantic state of each traffic light in a group (§8.15.9.6.1).
 
-        Section §8.15.9.6.1.
+        Lights without lamps for it ignore it.
         """
 
     def set_group_state(
@@ -97,7 +95,7 @@ class TrafficLightControllerMethods:
         sync: bool = False,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Switch all lamps of every box of a group (§8.15.9.5.1)."""
+        """Switch all lamps of each traffic light in a group (§8.15.9.5.1)."""
 
     def set_semantic_state(
         self,
@@ -109,7 +107,10 @@ class TrafficLightControllerMethods:
         sync: bool = False,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Let a box say something; ignored if it has no lamps for it (§8.15.9.3.1)."""
+        """Set the semantic state of a traffic light; ignored if it has no lamps for it.
+
+        Section §8.15.9.3.1.
+        """
 
     def set_state(
         self,
@@ -121,4 +122,4 @@ class TrafficLightControllerMethods:
         sync: bool = False,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Switch all lamps of a box, in their order (§8.15.9.2.1)."""
+        """Switch all lamps of a traffic light, in their order (§8.15.9.2.1)."""

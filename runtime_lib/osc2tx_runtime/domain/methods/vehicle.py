@@ -55,7 +55,7 @@ class VehicleMethods:
         target: Lane | None = None,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """End in another lane, aligned with it (§8.8.3.3).
+        """Change to another lane, and end aligned with it (§8.8.3.3).
 
         Without a rate or a duration it takes `LANE_CHANGE_TIME` (3 s) for 3.5 m. The lane may be
         one of oncoming traffic: there the actor continues in its own direction.
@@ -64,12 +64,12 @@ class VehicleMethods:
             *modifiers: Modifiers of the speed.
             num_of_lanes: Number of lanes from the reference.
             side: Side of the reference; `inside` is towards opposing traffic, `same` its own lane.
-                Without a side one is drawn from the seed among those with a lane of its direction.
+                Default: drawn from the seed among the sides with a lane of its direction.
             reference: Default: the actor itself.
-            offset: Metres left of the centre of the target lane at the end.
-            rate_profile: Course of the lateral speed.
+            offset: Metres to the left of the target lane centre at the end.
+            rate_profile: Profile of the lateral speed.
             rate_peak: Its peak (m/s).
-            target: Instead of a number and a side: a lane of the map beside the present one.
+            target: Instead of a number and a side: a lane of the map beside the present lane.
         """
 
     def change_space_gap(
@@ -82,7 +82,7 @@ class VehicleMethods:
         reference: PhysicalObject,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Reach a space (m) between facing ends or sides, in a direction from the reference.
+        """Reach a space gap (m) between facing ends or sides, in a direction from the reference.
 
         Section §8.8.3.6.
         """
@@ -97,7 +97,10 @@ class VehicleMethods:
         reference: PhysicalObject,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Reach a distance (m) between fronts, `ahead` of or `behind` the reference (§8.8.3.10)."""
+        """Reach a space headway (m) between fronts, `ahead` of or `behind` the reference.
+
+        Section §8.8.3.10.
+        """
 
     def change_time_gap(
         self,
@@ -109,7 +112,7 @@ class VehicleMethods:
         reference: PhysicalObject,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Reach a time (s) between facing ends at the speed of the one behind, or between sides.
+        """Reach a time gap (s) between facing ends at the speed of the follower, or between sides.
 
         Section §8.8.3.4.
         """
@@ -124,12 +127,12 @@ class VehicleMethods:
         reference: PhysicalObject,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Reach a time (s) between fronts, at the speed of the one behind (§8.8.3.8)."""
+        """Reach a time headway (s) between fronts, at the speed of the follower (§8.8.3.8)."""
 
     def connect_trailer(
         self, label: str | None = None, /, *, trailer: Towable, duration: Duration | None = None
     ) -> Behaviour:
-        """Couple a trailer whose coupler is within `COUPLING_REACH` of the own rear end.
+        """Couple a trailer whose coupler is within `COUPLING_REACH` of the rear end of the vehicle.
 
         Section §8.8.3.12.
         """
@@ -137,7 +140,7 @@ class VehicleMethods:
     def disconnect_trailer(
         self, label: str | None = None, /, *, duration: Duration | None = None
     ) -> Behaviour:
-        """Uncouple the trailer, which brakes and stands (§8.8.3.13)."""
+        """Uncouple the trailer, which brakes to standstill (§8.8.3.13)."""
 
     def drive(
         self,
@@ -148,9 +151,9 @@ class VehicleMethods:
         *modifiers: SpeedModifier | SideModifier | PathModifier | Distance | KeepPosition,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Drive as the modifiers say; without any, on in the lane at the same speed, less in bends.
+        """Drive as the modifiers state (§8.8.3.1).
 
-        Section §8.8.3.1.
+        Without modifiers along the lane at the present speed, slower in bends.
         """
 
     def follow_lane(
@@ -169,11 +172,11 @@ class VehicleMethods:
 
         Args:
             *modifiers: Modifiers of the speed.
-            offset: Metres left of its centre.
-            offset_range: Instead of it: its range at all times.
-            rate_profile: Course of the lateral speed on the way there.
+            offset: Metres to the left of its centre.
+            offset_range: Instead of the offset: its range at all times.
+            rate_profile: Profile of the lateral speed until it is reached.
             rate_peak: Its peak (m/s).
-            target: The lane of the map in which it is; None: whichever that is.
+            target: The lane of the map; None: the present lane.
         """
 
     def keep_space_gap(
@@ -185,7 +188,7 @@ class VehicleMethods:
         direction: RoadDistanceDirection = "longitudinal",
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Hold the present space between facing ends, or sides (§8.8.3.7)."""
+        """Hold the present space gap between facing ends or sides (§8.8.3.7)."""
 
     def keep_space_headway(
         self,
@@ -195,7 +198,7 @@ class VehicleMethods:
         reference: PhysicalObject,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Hold the present distance between fronts (§8.8.3.11)."""
+        """Hold the present space headway between fronts (§8.8.3.11)."""
 
     def keep_time_gap(
         self,
@@ -206,7 +209,7 @@ class VehicleMethods:
         direction: RoadDistanceDirection = "longitudinal",
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Hold the present time between facing ends, or sides (§8.8.3.5)."""
+        """Hold the present time gap between facing ends or sides (§8.8.3.5)."""
 
     def keep_time_headway(
         self,
@@ -216,7 +219,7 @@ class VehicleMethods:
         reference: PhysicalObject,
         duration: Duration | None = None,
     ) -> Behaviour:
-        """Hold the present time between fronts (§8.8.3.9)."""
+        """Hold the present time headway between fronts (§8.8.3.9)."""
 
     def set_lights(
         self, label: str | None = None, /, *, mode: LightMode, duration: Duration | None = None
@@ -225,6 +228,6 @@ class VehicleMethods:
 
         Args:
             *modifiers: None are accepted.
-            mode: `off`, `auto` (low beams while the sun is lower than 15 degrees or one sees less
-                than 100 m far), `daytime`, `position`, `low_beam` or `high_beam`.
+            mode: `off`, `auto` (low beams while the sun is lower than 15 degrees or the visual
+                range is below 100 m), `daytime`, `position`, `low_beam` or `high_beam`.
         """

@@ -1,4 +1,4 @@
-"""Modifiers: how an action is to be carried out, where an actor starts, what roads are like.
+"""Modifiers: constraints on the execution of actions, on the start of actors, and on roads.
 
 Each is a small value with the parameters of the DSL in their order. Numbers are SI floats, or
 functions that are called when the action starts. Each registers itself in `registry` by its name in

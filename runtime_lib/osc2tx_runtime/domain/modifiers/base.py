@@ -43,7 +43,7 @@ _SAME = 1e-3  # between the value that a shape reaches and the required one
 
 
 def now(value: ValueT | Callable[[], ValueT]) -> ValueT:
-    """A value that may be read late.
+    """Return a value that may be evaluated late.
 
     Raises:
         ScenarioError: The expression has no value, as in a division by zero.
@@ -57,10 +57,10 @@ def now(value: ValueT | Callable[[], ValueT]) -> ValueT:
 
 
 def settled(modifiers: Sequence[Modifier]) -> tuple[Modifier, ...]:
-    """The modifiers with the present values of arguments that are read late.
+    """The modifiers with the present values of arguments that are evaluated late.
 
     Raises:
-        ScenarioError: An argument has no value, or one that the modifier does not take.
+        ScenarioError: An argument has no value, or one that the modifier does not accept.
     """
     return tuple(map(_settled, modifiers))
 
@@ -71,14 +71,14 @@ def _settled(modifier: Modifier) -> Modifier:
 
 
 def value_of(value: Value) -> float:
-    """The number now."""
+    """The present number."""
     return float(now(value))
 
 
 def band_of(
     value: Value | None, band: Range[float] | Callable[[], Range[float]] | None
 ) -> tuple[float, float]:
-    """The least and the greatest allowed number now; both the same for a plain one.
+    """The least and the greatest allowed number now; equal for a single number.
 
     Args:
         value: The scalar parameter; 0 if neither is given.
@@ -96,10 +96,10 @@ def wanted(
     band: Range[float] | Callable[[], Range[float]] | None,
     shape: Shape | None,
 ) -> tuple[float, float]:
-    """The least and the greatest allowed number now, or the value that a shape reaches.
+    """The least and the greatest allowed number now, or the target of a shape.
 
     Raises:
-        ScenarioError: The shape reaches something else than is given.
+        ScenarioError: The target of the shape contradicts the given value.
     """
     target = target_of(shape)
     if value is None and band is None:
@@ -112,19 +112,19 @@ def wanted(
 
 
 def course_of(shape: Shape | None) -> tuple[DynamicProfile, float | None]:
-    """Profile and peak of the rate that a common shape gives."""
+    """Profile and peak of the rate of a common shape."""
     if isinstance(shape, CommonShape):
         return shape.rate_profile, shape.rate_peak
     return "none", None
 
 
 def own_course(shape: Shape | None) -> Computed | None:
-    """The course that a shape of the scenario computes; None for others."""
+    """The profile that a shape of the scenario computes; None for others."""
     return shape.course() if isinstance(shape, OwnShape) else None
 
 
 def target_of(shape: Shape | None) -> float | None:
-    """The value that a shape reaches; None if it says none, or never ends."""
+    """The target of a shape; None if it states none, or never ends."""
     if isinstance(shape, OwnShape):
         course = shape.course()
         return None if math.isinf(course.duration) else course.end
@@ -139,9 +139,9 @@ class MovementModifier(Modifier):
         at: When it holds.
         movement_mode: `monotonous`: within the limits of the actor, and the controlled quantity
             never reverses; an infeasible motion fails.
-        track: The motion of the reference that counts: the actual one, or (`projected`) the one
-            extrapolated in its lane at its speed at the start of the action.
-        shaped_by: The base of shapes that give the course of its value; None: there are none.
+        track: The motion of the reference that counts: the actual motion, or (`projected`) the
+            motion extrapolated in its lane at its speed at the start of the action.
+        shaped_by: The base of the shapes of its value; None: it has no shapes.
     """
 
     shaped_by: ClassVar[type[AnyShape] | None] = None
@@ -157,11 +157,11 @@ class MovementModifier(Modifier):
 
     @property
     def monotonous(self) -> bool:
-        """Whether it has to go without surprise."""
+        """Whether the motion has to be monotonous."""
         return self.movement_mode == "monotonous"
 
     def check(self) -> None:
-        """Checks that the shape is one of the value; one that computes keeps its methods by it."""
+        """Checks that the shape is one of the value."""
         shape: AnyShape | OwnShape[AnyShape] | None = getattr(self, "shape", None)
         if isinstance(shape, AnyShape):
             shape = with_methods(shape)

@@ -1,4 +1,4 @@
-"""Groups of modifier classes, as types and as tuples: along the road, across it, turns, paths."""
+"""Groups of modifier classes, as types and as tuples."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ from osc2tx_runtime.domain.modifiers import (
 
 SpeedShaper: TypeAlias = Speed | ChangeSpeed | KeepSpeed | Acceleration | Position | AvoidCollisions
 SpeedModifier: TypeAlias = SpeedShaper | PhysicalMovement
-"""What actions on the lane or the pose take."""
+"""Modifiers of actions on the lane or the pose."""
 
 LaneShaper: TypeAlias = Lane | Lateral | ChangeLane | KeepLane
 TurnModifier: TypeAlias = Yaw | Orient
 SideModifier: TypeAlias = LaneShaper | TurnModifier | Along | AvoidCollisions | PhysicalMovement
-"""What actions on the speed take."""
+"""Modifiers of actions on the speed."""
 
 PathModifier: TypeAlias = Along | AlongTrajectory
 StartModifier: TypeAlias = Lane | Lateral | Yaw | Orient | Along | Position | Speed
-"""What actions take `at: start` alone: all that can hold at an instant."""
+"""Modifiers that actions only accept `at: start`: all that can hold at an instant."""
 
 SPEED_SHAPERS = get_args(SpeedShaper)
 LANE_SHAPERS = get_args(LaneShaper)
@@ -43,4 +43,4 @@ SPEED_FREE = get_args(SpeedModifier)
 SIDE_FREE = get_args(SideModifier)
 
 PLACES = (Position, Lane, Lateral, Yaw, Orient)
-"""What says where an actor is."""
+"""Modifiers that state the position of an actor."""

@@ -42,7 +42,7 @@ def modifier(
     `shaped_by` are attributes of the class.
 
     Raises:
-        ValueError: If there is a modifier of that name.
+        ValueError: There already is a modifier of that name.
     """
 
     def register(kind: ModifierT) -> ModifierT:

@@ -71,7 +71,7 @@ def follow_lane(action: lane.FollowLane, phase: Phase) -> Sequence[Modifier]:
 
 @stands_for("change_lane")
 def change_lane(action: lane.ChangeLane, phase: Phase) -> Iterator[Modifier | Condition]:
-    """Another lane at the end (DSL 8.8.3.3), that which is asked for, and the offset in it."""
+    """Another lane at the end (DSL 8.8.3.3), the required one, and the offset in it."""
     lanes = lanes_from_start(phase)
     yield Lateral(value_of(action.offset), at="end")
     stated = None if action.side is None else now(action.side)
@@ -108,7 +108,7 @@ def _at(lanes: Callable[[], float | None], wanted: float) -> Callable[[], Readin
 
 
 def _side(side: str | None, phase: Phase) -> SideLeftRight | None:
-    """The side as left or right; None for one that is drawn."""
+    """The side as left or right; None if it is drawn."""
     place = phase.first.lane_position
     if side in ("inside", "outside") and place is not None:
         right_hand = phase.world.map.roads[place.road].right_hand_traffic
@@ -144,14 +144,14 @@ def _gap(
     direction: Literal["longitudinal", "lateral"],
     target: float | None,
 ) -> Condition:
-    """Return the condition on a gap or headway; positive where the actor is ahead or left.
+    """Return the condition on a gap or headway; positive if the actor is ahead or left.
 
     Args:
         action: The action.
         phase: Its phase.
         at: When it holds.
         direction: Of the gap.
-        target: The size (m or s); None: as it is at the start.
+        target: The size (m or s); None: its value at the start.
     """
     read = _gap_reader(action, phase, direction)
     wanted = read() if target is None else target

@@ -9,7 +9,7 @@ from osc2tx_runtime.enums import At
 from osc2tx_shared.classes import dataclass
 
 Reading: TypeAlias = tuple[float, float, float]
-"""A value, and the least and the greatest that is allowed."""
+"""A value, and its least and greatest allowed value."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,13 +20,13 @@ class Condition:
         modifier: Name of its origin in the DSL.
         what: The measured quantity, for messages: `its speed`.
         quantity: Name in `QUANTITIES`.
-        at: When it has to hold.
+        at: The time at which it has to hold.
         measure: Reads it at the present step; None while it cannot be measured.
-        text: Describes a reading in messages, where numbers alone are not clear.
-        is_steady: It reads nothing but speed, acceleration, lane and offset of the actor itself.
-        is_target: It is the target of an action (DSL 8.8.2.2) or of the course of a shape.
+        text: Describes a reading in messages, if numbers alone are unclear.
+        is_steady: It reads only speed, acceleration, lane and offset of the actor.
+        is_target: It is the target of an action (DSL 8.8.2.2) or of a shape.
         source: Position of the modifier in the scenario; empty for what the action implies.
-        is_late: It is about the start, but only later states tell it.
+        is_late: It constrains the start, but only later states determine it.
     """
 
     modifier: str

@@ -1,4 +1,4 @@
-"""Monitors of the lane and of the position across it (DSL 8.9.8, 8.9.14 to 8.9.16)."""
+"""Monitors of the lane and of the lateral position (DSL 8.9.8, 8.9.14 to 8.9.16)."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.monitoring.phase import Phase
     from osc2tx_runtime.world.state import ActorState
 
-_WITHIN = 1.0  # m from the centre of a lane that are within it
+_WITHIN = 1.0  # m from the lane centre that count as in the lane
 
 
 @monitors("lane")
 def lane(modifier: Lane, phase: Phase) -> Iterator[Condition]:
-    """The lane, by its number from an edge or against the lane of a reference."""
+    """The lane, by its number from an edge or relative to the lane of a reference."""
     if modifier.reference is None:
         measure, where = _numbered(modifier, phase), f"lane {modifier.number}"
         where += f" from the {modifier.edge}"
@@ -61,7 +61,7 @@ def _side(side: Late[SideLeftRight] | None) -> SideLeftRight | None:
 
 
 def lanes_text(phase: Phase, where: str) -> Callable[[Reading], str]:
-    """Return what tells in which lane an actor is, and where it has to be."""
+    """Return a description of the lane of an actor and of the required lane."""
 
     def text(reading: Reading) -> str:
         lanes = round(reading[0] - reading[1])
@@ -74,7 +74,7 @@ def lanes_text(phase: Phase, where: str) -> Callable[[Reading], str]:
 
 
 def _numbered(modifier: Lane, phase: Phase) -> Callable[[], Reading | None]:
-    """How many lanes to the left of the numbered one it is."""
+    """Number of lanes to the left of the numbered lane."""
     number, edge, road_map = modifier.number, modifier.edge, phase.world.map
 
     def lanes(place: LanePosition) -> float | None:
@@ -85,7 +85,7 @@ def _numbered(modifier: Lane, phase: Phase) -> Callable[[], Reading | None]:
 
 
 def _beside(modifier: Lane, phase: Phase) -> Callable[[], Reading | None]:
-    """How many lanes to the left of the lane beside a reference it is."""
+    """Number of lanes to the left of the lane beside a reference."""
     assert modifier.reference is not None
     road_map, me = phase.world.map, phase.me
     other = phase.track(modifier.reference.id, modifier.projected)
@@ -106,7 +106,7 @@ def _beside(modifier: Lane, phase: Phase) -> Callable[[], Reading | None]:
 def _by_lane(
     phase: Phase, lanes: Callable[[LanePosition], float | None]
 ) -> Callable[[], Reading | None]:
-    """Return a measure that is asked anew only where the lane of the actor changes."""
+    """Return a measure that is evaluated only when the lane of the actor changes."""
     me, road_map = phase.me, phase.world.map
     known: tuple[object, Reading | None] = (None, None)
 
@@ -125,7 +125,7 @@ def _by_lane(
 
 
 def _lane_of(road_map: RoadMap, place: LanePosition) -> object:
-    """What stays the same in a lane: its key, and whether one is within it."""
+    """Key of the lane, and whether the actor is within it."""
     beyond = abs(place.offset) > _WITHIN and actual_lane(road_map, place)
     return (
         place.road,
@@ -136,7 +136,7 @@ def _lane_of(road_map: RoadMap, place: LanePosition) -> object:
 
 
 def lanes_from_start(phase: Phase) -> Callable[[], float | None]:
-    """Return what counts the lanes to the left of the lane at the start, followed to here."""
+    """Return a measure of the number of lanes to the left of the lane at the start."""
     road_map, first = phase.world.map, phase.first.lane_position
 
     def lanes(place: LanePosition) -> float | None:
@@ -172,7 +172,10 @@ def keep_lane(modifier: object, phase: Phase) -> Iterator[Condition]:
 
 @monitors("change_lane")
 def change_lane(modifier: ChangeLane, phase: Phase) -> Iterator[Condition]:
-    """The lane at the end, against that at the start: it cannot be another one before."""
+    """The lane at the end, relative to the lane at the start.
+
+    A change before the end is not checked.
+    """
     lanes, count = lanes_from_start(phase), float(modifier.number)
     side = _side(modifier.side)
 
@@ -189,7 +192,7 @@ def change_lane(modifier: ChangeLane, phase: Phase) -> Iterator[Condition]:
 
 @monitors("lateral")
 def lateral(modifier: Lateral, phase: Phase) -> Iterator[Condition]:
-    """The position across the lane, or beside a reference."""
+    """The lateral position in the lane, or relative to a reference."""
     road_map, me, stated = phase.world.map, phase.me, present(modifier, phase)
     if modifier.side_of is None:
         leaves = any(isinstance(each, Lane | ChangeLane) for each in phase.modifiers)
@@ -225,11 +228,11 @@ def lateral(modifier: Lateral, phase: Phase) -> Iterator[Condition]:
 
 
 def _lane_of_offset(phase: Phase, leaves: bool) -> Callable[[], LanePosition | None]:
-    """Return what gives the lane that an offset counts from, beside the actor.
+    """Return a reader of the lane from which an offset counts.
 
-    That is the lane at the start, which a large offset may leave; where a modifier or the action
-    states another lane, it is the present one. An actor that only reaches over a line at the start
-    is still in its own lane.
+    That is the lane at the start, which a large offset may leave; if a modifier or the action
+    states another lane, it is the present lane. An actor that only overlaps a lane boundary at the
+    start is still in its lane.
     """
     road_map, me, lanes = phase.world.map, phase.me, lanes_from_start(phase)
 
@@ -263,7 +266,7 @@ def _lane_of_offset(phase: Phase, leaves: bool) -> Callable[[], LanePosition | N
 def _in_lane(
     road_map: RoadMap, state: ActorState, lane: LanePosition, modifier: Lateral
 ) -> Reading:
-    """How far left of the centre of a lane an actor is, as it drives."""
+    """Distance of an actor to the left of a lane centre, in its direction of travel."""
     width = road_map.lane_width(lane.road, lane.lane, lane.s)
     place = state.lane_position
     if place is not None and (place.road, place.lane) == (lane.road, lane.lane):

@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 
 @monitors("yaw")
 def yaw(modifier: Yaw, phase: Phase) -> Iterator[Condition]:
-    """The heading against the road, north, or a reference."""
+    """The heading relative to the road, north, or a reference."""
     yield _heading(modifier, phase, limits(modifier, phase, Yaw.angles))
 
 
 @monitors("orientation")
 def orientation(modifier: Orient, phase: Phase) -> Iterator[Condition]:
-    """The angles that are given."""
+    """The given angles."""
     if modifier.yaw is not None:
         yield _heading(modifier, phase, limits(modifier, phase, _turns))
     for index, name in enumerate(("pitch", "roll")):
@@ -55,7 +55,7 @@ def _heading(
         base = heading_base(world, modifier, here, None if other is None else other())
         turn = 0.0 if before is None else turn_between(before, base)
         if reference is None and abs(turn) > 0.5 * math.pi:
-            base += math.pi  # it crosses to lanes in which others come towards it
+            base += math.pi  # it crosses to lanes of oncoming traffic
         before = base
         turned = turn_between(base + middle, here.h)
         return middle + turned, middle - half, middle + half

@@ -25,13 +25,13 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.geometry.curve import Curve
 
 _OFF_ROUTE = "it is not on the route"
-_NEAR = 0.05  # m from a path that are on it
-_REACH = 5.0  # m around its last place on a curve in which an actor is looked for
+_NEAR = 0.05  # m from a path that count as on it
+_REACH = 5.0  # m around its last position on a curve, the range of the search
 
 
 @monitors("along")
 def along(modifier: Along, phase: Phase) -> Iterator[Condition]:
-    """The way along a path, or on a route."""
+    """The position on a path or route."""
     route = modifier.way
     if not isinstance(route, Path):
         yield from _on_route(modifier, route, phase)
@@ -42,7 +42,7 @@ def along(modifier: Along, phase: Phase) -> Iterator[Condition]:
 
 
 def _on_route(modifier: Along, route: Route, phase: Phase) -> Iterator[Condition]:
-    """That it is on the route, up to its end, and at the stated place at the start or end."""
+    """The position on the route, up to its end, and the stated position at the start or end."""
     road_map, me = phase.world.map, phase.me
     left = math.inf  # m up to the end of the route, at the state before
 
@@ -80,7 +80,7 @@ def _on_route(modifier: Along, route: Route, phase: Phase) -> Iterator[Condition
 
 
 def _on_path(path: Path, offsets: tuple[float, float], phase: Phase) -> Callable[[], Reading]:
-    """How far from a path it is, which it goes along from its start to its end."""
+    """Distance from a path that it follows from start to end."""
     curve = path_in_world(phase.world.map, path).curve
     low, high = map(curve.at_length, interval_between_offsets(curve, *offsets))
     me, at = phase.me, low
@@ -91,7 +91,7 @@ def _on_path(path: Path, offsets: tuple[float, float], phase: Phase) -> Callable
         before, at = at, min(max(_foot(curve, at, here.x, here.y), low), high)
         x, y, _ = curve.point(at)
         away = math.hypot(here.x - x, here.y - y)
-        if away > _NEAR:  # or at a corner, where the tangent leads astray
+        if away > _NEAR:  # or at a corner, where the tangent is misleading
             along = curve.nearest(here.x, here.y, curve.length_at(before), _REACH)
             at = min(max(curve.at_length(along), low), high)
             x, y, _ = curve.point(at)
@@ -102,7 +102,7 @@ def _on_path(path: Path, offsets: tuple[float, float], phase: Phase) -> Callable
 
 
 def _foot(curve: Curve, at: float, x: float, y: float) -> float:
-    """The parameter of the point of a curve that is nearest to a place, from one close to it."""
+    """The parameter of the nearest point of a curve, searched from a close one."""
     for _ in range(2):
         px, py, _ = curve.point(at)
         dx, dy, _ = curve.rate(at)
@@ -115,7 +115,7 @@ def _foot(curve: Curve, at: float, x: float, y: float) -> float:
 
 @monitors("along_trajectory")
 def along_trajectory(modifier: AlongTrajectory, phase: Phase) -> Iterator[Condition]:
-    """The position at each time of a trajectory; before its first one the actor gets there."""
+    """The position at each time of a trajectory, from its first time."""
     trajectory = trajectory_in_world(phase.world.map, now(modifier.trajectory))
     curve, first = trajectory.curve, trajectory.time_stamps[0]
     offsets = value_of(modifier.start_offset), value_of(modifier.end_offset)

@@ -1,4 +1,4 @@
-"""The phase of one action: its conditions, and what was found of them."""
+"""The phase of one action: its conditions and findings."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.world.state import ActorState
 
 UNMEASURABLE = (ScenarioError, MapError)
-"""What keeps a condition from being measured."""
+"""Errors that prevent a measurement."""
 
 Severity = Literal["failure", "warning"]
 
@@ -35,16 +35,16 @@ class Violation:
         actor: The actor.
         action: Name of the action in the trace.
         modifier: Name of its origin.
-        at: When it has to hold.
+        at: The time at which it has to hold.
         source: Position of the modifier in the scenario, or of the action that implies it.
         first: Time of the first state at which it does not hold (s).
         last: Time of the last one (s).
         worst: Time of the greatest deviation (s).
         deviation: That deviation, beyond what is allowed; positive: too much, ahead, left.
         unit: Of it.
-        x: Where the actor was then (m).
+        x: Position of the actor then (m).
         y: Likewise.
-        what: What was found, for messages.
+        what: The finding, for messages.
     """
 
     severity: Severity
@@ -86,7 +86,7 @@ class Violation:
         return NOT_MET if self.severity == "failure" else PARTLY_MET
 
     def fails(self, place: str) -> bool:
-        """Whether it is why what stands at a place of the scenario failed."""
+        """Whether it is the reason of the failure at a source position."""
         return self.severity == "failure" and self.source == place
 
     def __str__(self) -> str:
@@ -100,7 +100,7 @@ class Violation:
 
 @dataclass(slots=True)
 class _Found:
-    """What was found of a condition: the states at which it does not hold."""
+    """Findings on a condition: the states at which it does not hold."""
 
     first: float
     last: float
@@ -135,7 +135,7 @@ class Phase:
         self.elapsed = 0.0
         self._start = time
         self.dt = dt
-        self._steps = False  # whether a condition is about the states in between
+        self._steps = False  # whether a condition constrains the states in between
         self._path = 0.0  # m since the start
         self._here = self._before = self.first
         self._found: dict[Condition, _Found] = {}
@@ -149,7 +149,7 @@ class Phase:
         self._last: list[tuple[Condition, float]] = []
 
     def begin(self, conditions: Iterable[Condition]) -> bool:
-        """Check what has to hold at the first state.
+        """Check the conditions on the first state.
 
         Returns:
             Whether the states in between have to be observed.
@@ -165,7 +165,9 @@ class Phase:
                 case _:
                     self._lasting.append(entry)
         self._is_steady = not self._steps and all(c.is_steady for c, _ in self._lasting)
-        if self._option != "prefer_non_physical":  # a jump: the instant belongs to both phases
+        if (
+            self._option != "prefer_non_physical"
+        ):  # an instant change: the instant belongs to both phases
             self.observe(now)
         return bool(self._lasting) or self._steps
 
@@ -174,7 +176,7 @@ class Phase:
         """Whether all conditions hold, and continue to while the actor's motion does not change."""
         return self._is_steady and self._holds
 
-    # --- what monitors read -------------------------------------------------------------------
+    # --- read by monitors ---------------------------------------------------------------------
 
     def me(self) -> ActorState:
         """State of the actor."""
@@ -189,12 +191,12 @@ class Phase:
         return lambda: projected(road_map, first, self.elapsed)
 
     def covered(self) -> Callable[[], float]:
-        """Return what reads the metres that the actor has gone since the start."""
+        """Return a reader of the distance (m) covered since the start."""
         self._steps = True
         return lambda: self._path
 
     def state_before(self) -> Callable[[], ActorState]:
-        """Return what reads the state of the actor one step ago."""
+        """Return a reader of the state of the actor one step ago."""
         self._steps = True
         return lambda: self._before
 
@@ -207,7 +209,7 @@ class Phase:
     # --- findings -----------------------------------------------------------------------------
 
     def observe(self, time: float) -> None:
-        """Check what has to hold all the time."""
+        """Check the conditions on all states."""
         self._go_to(time)
         holds = True
         for condition, tolerance in self._lasting:
@@ -215,9 +217,9 @@ class Phase:
         self._holds = holds
 
     def end(self, time: float) -> None:
-        """Check what has to hold at the last state.
+        """Check the conditions on the last state.
 
-        The exact end lies within the last step, so what changes in a step is allowed.
+        The exact end is within the last step, so a change of one step is allowed.
         """
         self._go_to(time)
         for condition, tolerance in (*self._lasting, *self._last):
@@ -241,7 +243,7 @@ class Phase:
         """Return whether a condition holds, and note it if it does not."""
         try:
             reading = condition.measure()
-        except UNMEASURABLE:  # there is no such place here: planning says so
+        except UNMEASURABLE:  # the planning reports it
             return True
         if reading is None:
             return True

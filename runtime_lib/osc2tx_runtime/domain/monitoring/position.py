@@ -1,4 +1,4 @@
-"""Monitors of the position along the road, and of the way (DSL 8.9.2, 8.9.3, 8.9.13)."""
+"""Monitors of the position along the road, and of the distance (DSL 8.9.2, 8.9.3, 8.9.13)."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @monitors("position")
 def position(modifier: Position, phase: Phase) -> Iterator[Condition]:
-    """The position along the road: against a reference, a point, or the start of the road."""
+    """The position along the road, relative to a reference, a point, or the start of the road."""
     if modifier.reference is not None:
         side = "ahead of" if modifier.ahead else "behind"
         what = f"its distance {side} {modifier.reference.id}"
@@ -98,7 +98,7 @@ def _at_point(modifier: Position, phase: Phase) -> Callable[[], Reading | None]:
 
 
 def _along_from(phase: Phase, x: float, y: float, z: float) -> Callable[[], float | None]:
-    """Return what reads the metres along lanes from a point to the actor."""
+    """Return a reader of the distance (m) along lanes from a point to the actor."""
     road_map, me = phase.world.map, phase.me
     on = road_map.locate(x, y, z)
     begin = None if on is None else LanePosition(on.road, on.lane, on.s)
@@ -127,7 +127,7 @@ def keep_position(modifier: object, phase: Phase) -> Iterator[Condition]:
 
 @monitors("distance")
 def distance(modifier: Distance, phase: Phase) -> Iterator[Condition]:
-    """The way from the start to the end of the phase."""
+    """The distance covered from the start to the end of the phase."""
     way, covered = modifier.way(), phase.covered()
     yield Condition(
         "distance",

@@ -1,4 +1,4 @@
-"""The registry of monitors: the conditions of a modifier, or why there are none."""
+"""The registry of monitors: the conditions of a modifier, or the reason why it has none."""
 
 from __future__ import annotations
 

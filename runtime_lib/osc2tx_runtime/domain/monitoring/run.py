@@ -1,4 +1,4 @@
-"""The monitors of a run: the phases of the actions that are at work."""
+"""The monitors of a run: the phases of the running actions."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Monitors:
         context: The run.
 
     Attributes:
-        violations: What was found in the phases that have ended.
+        violations: The findings of the phases that have ended.
     """
 
     def __init__(self, context: ExecutionContext) -> None:
@@ -60,7 +60,7 @@ class Monitors:
                 phase = Phase(action, context.world, time, context.dt)
                 try:
                     is_watched = phase.begin(conditions_of(phase))
-                except UNMEASURABLE:  # a value that there is not: planning says so
+                except UNMEASURABLE:  # no value: the planning reports it
                     continue
                 self._phases[action] = phase
                 if is_watched:
@@ -72,7 +72,7 @@ class Monitors:
         self._close(action)
 
     def ends(self, action: BaseAction) -> list[Violation]:
-        """Check the last state of a phase; return what lets it fail."""
+        """Check the last state of a phase; return the violations that fail it."""
         phase = self._close(action)
         if phase is None:
             return []

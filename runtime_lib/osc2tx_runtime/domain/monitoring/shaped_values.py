@@ -1,4 +1,4 @@
-"""When a modifier with a shape has to hold, and with which value (DSL 8.10)."""
+"""The time at which a modifier with a shape has to hold, and its value (DSL 8.10)."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ VALUES: dict[type, str] = {
     Yaw: "angle",
     Orient: "yaw",
 }
-"""The parameter whose course a shape is, by modifier."""
+"""The parameter that a shape computes, by modifier."""
 
 
 def is_course(modifier: Shaped | Lane) -> bool:
-    """Whether it states a course of the whole phase by a common shape: its value is its end."""
+    """Whether a common shape covers the whole phase, so that the stated value holds at the end."""
     if modifier.at != "all" or own_course(modifier.shape) is not None:
         return False
     return modifier.shape is not None or (isinstance(modifier, Speed) and modifier.shaped)
@@ -50,12 +50,12 @@ def follows_course(modifier: Shaped) -> bool:
 
 
 def moment(modifier: Shaped | Lane) -> At:
-    """When it has to hold."""
+    """The time at which it has to hold."""
     return "end" if is_course(modifier) else modifier.at
 
 
 def present(modifier: ShapedT, phase: Phase) -> Callable[[], ShapedT]:
-    """Return what gives the modifier with the value that its shape computes for this step."""
+    """Return a reader of the modifier with the value that its shape computes for this step."""
     course, name = own_course(modifier.shape), VALUES[type(modifier)]
     if course is None or modifier.at != "all":
         return lambda: modifier
@@ -73,7 +73,7 @@ def present(modifier: ShapedT, phase: Phase) -> Callable[[], ShapedT]:
 def limits(
     modifier: ShapedT, phase: Phase, read: Callable[[ShapedT], tuple[float, float]]
 ) -> Callable[[], tuple[float, float]]:
-    """Return what gives the least and the greatest value: those at the start, or of a shape."""
+    """Return a reader of the least and the greatest value: those at the start, or of a shape."""
     if follows_course(modifier):
         modified = present(modifier, phase)
         return lambda: read(modified())

@@ -20,12 +20,12 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.monitoring.phase import Phase
 
 Bounds = Callable[[], tuple[float, float]]
-"""Gives the least and the greatest value that is allowed now."""
+"""Returns the least and the greatest value that is allowed now."""
 
 
 @monitors("speed")
 def speed(modifier: Speed, phase: Phase) -> Iterator[Condition]:
-    """The speed, along or across the lane, absolute or against that of a reference."""
+    """The longitudinal or lateral speed, absolute or relative to a reference."""
     across = modifier.direction == "lateral"
     what = "its lateral speed" if across else "its speed"
     if modifier.reference is not None:
@@ -53,7 +53,7 @@ def _absolute(phase: Phase, bounds: Bounds, across: bool = False) -> Callable[[]
 
 
 def _relative(modifier: Speed, phase: Phase, across: bool) -> Callable[[], Reading]:
-    """The speed within its range relative to a reference, which is followed one step later."""
+    """The speed within its range relative to a reference, followed one step later."""
     assert modifier.reference is not None
     bounds = limits(modifier, phase, Speed.difference)
     other, me = phase.track(modifier.reference.id, modifier.projected), phase.me
@@ -69,7 +69,7 @@ def _relative(modifier: Speed, phase: Phase, across: bool) -> Callable[[], Readi
 
 @monitors("change_speed")
 def change_speed(modifier: ChangeSpeed, phase: Phase) -> Iterator[Condition]:
-    """The speed at the end, against that at the start: it cannot have changed before."""
+    """The speed at the end, relative to the speed at the start."""
     difference, start = limits(modifier, phase, ChangeSpeed.difference), phase.first.v
 
     def bounds() -> tuple[float, float]:
@@ -92,8 +92,8 @@ def keep_speed(modifier: object, phase: Phase) -> Iterator[Condition]:
 def acceleration(modifier: Acceleration, phase: Phase) -> Iterator[Condition]:
     """The change of the speed over each step.
 
-    It ends where a speed is reached that is asked for as well; one that the phase begins with is
-    none to reach.
+    It ends when a speed is reached that is also required; the speed at the start of the phase does
+    not count.
     """
     bounds = limits(modifier, phase, Acceleration.bounds)
     if modifier.at == "start":
@@ -110,7 +110,7 @@ def acceleration(modifier: Acceleration, phase: Phase) -> Iterator[Condition]:
         if any(_holds(goal()) for goal in reached):
             return None
         low, high = bounds()
-        now, change = me().a, abs(me().a - before().a)  # it is the mean over the last step
+        now, change = me().a, abs(me().a - before().a)  # the mean over the last step
         return now, low - change, high + change
 
     yield Condition(
@@ -124,7 +124,7 @@ def acceleration(modifier: Acceleration, phase: Phase) -> Iterator[Condition]:
 
 
 def _first_acceleration(phase: Phase, bounds: Bounds) -> Condition:
-    """The acceleration at the start: the means over the first two steps, continued to there."""
+    """The acceleration at the start, extrapolated from the means over the first two steps."""
     me, before = phase.me, phase.state_before()
 
     def measure() -> Reading | None:

@@ -1,4 +1,4 @@
-"""The quantities that monitors check, with their tolerances: the one table of them.
+"""The quantities that monitors check, with their tolerances.
 
 `docs/reference/monitors.md` shows it; a test compares.
 """
@@ -26,14 +26,14 @@ def _unknown(state: ActorState) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """A quantity that a condition is about.
+    """A quantity of conditions.
 
     Attributes:
         unit: SI unit; empty for a number.
-        exact: Tolerance for actors that are where they are commanded to be.
+        exact: Tolerance for actors that follow their commands exactly.
         measured: Tolerance for actors that a simulator or driver moves.
-        rate: Its rate of change. The exact end of a phase lies within its last step, so what
-            changes in a step is allowed there.
+        rate: Its rate of change. The exact end of a phase is within its last step, so a change of
+            one step is allowed there.
     """
 
     unit: str

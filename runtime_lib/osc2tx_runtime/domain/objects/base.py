@@ -17,7 +17,7 @@ class Actor(BaseActor):
     _context: ExecutionContext | None = None
 
     def bind(self, context: ExecutionContext) -> None:
-        """Joins a run: live fields read its world from now on."""
+        """Joins a run: live fields then read its world."""
         self._context = context
 
     @property

@@ -1,7 +1,7 @@
-"""Defaults for parts of actors that a scenario leaves open, by category, kind and model.
+"""Defaults for parts of actors that a scenario does not state, by category, kind and model.
 
-Axles and hitches are typical ones, as none are published per category. They are as wide as the
-box allows, at the positions given by the shape of the vehicle.
+Axles and hitches have typical values, as none are published per category: as wide as the box
+allows, at the positions given by the shape of the vehicle.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _TRACK = 0.9
 
 
 class _Wheels(NamedTuple):
-    """Wheels of a category: diameter (m), how many on the front axle and on the rear axle."""
+    """Wheels of a category: diameter (m), number on the front axle and on the rear axle."""
 
     diameter: float
     front: int = 2
@@ -54,7 +54,7 @@ _WHEELS: Mapping[str, _Wheels] = {
 _HITCH_HEIGHT = {"ball": 0.4, "pintle": 0.8, "fifth_wheel": 1.2}
 """Metres of a hitch above the ground, by its type."""
 
-# `intended_infrastructure` (8.7.19), what something moves on first.
+# `intended_infrastructure` (8.7.19), the usual one first.
 _INFRASTRUCTURE: Mapping[str, tuple[IntendedInfrastructure, ...]] = {
     "person": ("sidewalk",),
     "animal": ("sidewalk",),
@@ -76,7 +76,7 @@ _ROLES: Mapping[str, TrafficParticipantRole] = {
 
 
 def default_axles(category: str, shape: Shape) -> tuple[Axle, ...]:
-    """Return the axles of a vehicle from front to rear; a trailer has the rear one alone."""
+    """Return the axles of a vehicle from front to rear; a trailer only has the rear axle."""
     wheels = _WHEELS.get(category, _WHEELS["car"])
     track = 0.0 if wheels.rear == 1 else round(_TRACK * shape.width, 3)
     height = 0.5 * wheels.diameter
@@ -100,10 +100,10 @@ def default_coupler(category: str, shape: Shape, said: HitchType | None) -> Hitc
 
 
 def misfit(receiver: HitchReceiver, coupler: HitchCoupler) -> str | None:
-    """Return why the halves of a hitch cannot be coupled (8.7.13); None if they can.
+    """Return why the halves of a hitch cannot be coupled (8.7.13); None if they can be coupled.
 
     Args:
-        receiver: As far as the scenario says it; a type that it leaves open fits.
+        receiver: As stated in the scenario; an open type fits.
         coupler: Likewise.
     """
     types = receiver.hitch_type, coupler.hitch_type
@@ -118,7 +118,7 @@ def default_infrastructure(category: str) -> tuple[IntendedInfrastructure, ...]:
 
 
 def default_role(model: str | None) -> TrafficParticipantRole | None:
-    """Return the role of a model that is only made for one."""
+    """Return the role of a model that has only one."""
     return None if model is None else _ROLES.get(model)
 
 

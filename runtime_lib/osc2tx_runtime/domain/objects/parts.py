@@ -17,7 +17,7 @@ from osc2tx_runtime.errors import UnsupportedError
 from osc2tx_shared.classes import dataclass, replace
 
 UNSAID = math.nan
-"""A number that is left open."""
+"""A number that is not stated."""
 
 _NOWHERE = Point(UNSAID, UNSAID, UNSAID)
 
@@ -29,7 +29,7 @@ class BoundingBox:
     """Box around an object without side mirrors, down to the ground.
 
     Attributes:
-        center: Its middle (m), from the reference point of the object.
+        center: Its centre (m), from the reference point of the object.
         length: Metres along x.
         width: Metres along y.
         height: Metres along z.
@@ -49,7 +49,7 @@ class Axle:
         max_steering: Largest angle of its wheels (rad).
         wheel_diameter: Metres.
         track_width: Metres between the centre lines of the outer wheels.
-        position_x: Metres before the reference point of the vehicle.
+        position_x: Metres ahead of the reference point of the vehicle.
         position_z: Metres above it.
         number_of_wheels: On both sides together.
     """
@@ -64,15 +64,15 @@ class Axle:
 
 @dataclass(frozen=True, slots=True)
 class HitchReceiver:
-    """The half of a hitch on the vehicle that tows.
+    """The receiver of a hitch, on the towing vehicle.
 
     Attributes:
-        hitch_type: What couplers fit.
-        position_x: Metres before the reference point of the vehicle.
+        hitch_type: Type of the matching couplers.
+        position_x: Metres ahead of the reference point of the vehicle.
         position_z: Metres above it.
         max_rotation: Largest yaw between both vehicles (rad).
         max_tilt: Largest pitch or roll between both vehicles (rad).
-        connected: Tells whether something hangs on it now.
+        connected: Returns whether a trailer is coupled now.
     """
 
     hitch_type: HitchType = "none"
@@ -84,19 +84,19 @@ class HitchReceiver:
 
     @property
     def is_towing(self) -> bool:
-        """Whether a trailer hangs on it now."""
+        """Whether a trailer is coupled now."""
         return self.connected()
 
 
 @dataclass(frozen=True, slots=True)
 class HitchCoupler:
-    """The half of a hitch on the trailer.
+    """The coupler of a hitch, on the trailer.
 
     Attributes:
-        hitch_type: Type of the matching receiver; None: left open.
-        position_x: Metres before the reference point of the trailer.
+        hitch_type: Type of the matching receiver; None: open.
+        position_x: Metres ahead of the reference point of the trailer.
         position_z: Metres above it.
-        connected: Tells whether it hangs on something now.
+        connected: Returns whether it is coupled now.
     """
 
     hitch_type: HitchType | None = None
@@ -111,22 +111,22 @@ class HitchCoupler:
 
 
 class Towable(Protocol):
-    """The means to tow a trailer: the other half of a hitch."""
+    """A receiver for the coupler of a trailer."""
 
     id: str
 
     def misfit(self, receiver: HitchReceiver) -> str | None:
-        """Return why a receiver, as far as it is declared, does not fit; None if it does."""
+        """Return why a receiver does not fit, as far as it is declared; None if it fits."""
 
 
 def completed(said: PartT, known: PartT) -> PartT:
-    """Return the declared values, and the known ones for all that is left open."""
+    """Return the declared values, completed by the known ones."""
     names = [each.name for each in fields(said) if is_open(getattr(said, each.name))]
     return replace(said, **{name: getattr(known, name) for name in names})
 
 
 def is_open(value: object) -> bool:
-    """Whether a member of a part is left open."""
+    """Whether a member of a part is not stated."""
     if isinstance(value, Point):
         return value.x != value.x
     return value is None or value != value
@@ -138,11 +138,11 @@ ENGINES = ("steady_driver", "careful_driver")
 
 @dataclass(frozen=True, slots=True)
 class BmEngine:
-    """What drives an object while no action does.
+    """The driver model of an object while no action controls it.
 
     Attributes:
-        name: `steady_driver` holds the speed and keeps the lane; `careful_driver` also keeps
-            behind others and stops at red lights.
+        name: `steady_driver` holds the speed and keeps the lane; `careful_driver` also keeps a gap
+            to vehicles ahead and stops at red lights.
 
     Raises:
         UnsupportedError: There is no model of this name.
@@ -163,6 +163,6 @@ class BmEngine:
 
 @dataclass(frozen=True, slots=True)
 class BehavioralModel:
-    """How an object behaves by itself (DSL 8.6)."""
+    """The behavior of an object without actions (DSL 8.6)."""
 
     bm_engine: BmEngine = BmEngine()

@@ -38,7 +38,7 @@ LIBRARY_KINDS = frozenset(
 
 ValueT = TypeVar("ValueT")
 
-_SAME = 1e-6  # m between a declared value and the value that follows from the others
+_SAME = 1e-6  # m between a declared value and the value derived from the others
 
 
 class ObjectFields(TypedDict, total=False):
@@ -58,14 +58,14 @@ class ObjectFields(TypedDict, total=False):
 
 
 class PhysicalObject(Actor, Measures):
-    """Any tangible thing.
+    """Any physical object.
 
     Args:
         name: Role name; default: the field that holds it.
         model: CARLA blueprint or other name of a model.
-        color: Name, or `Rgb` as scenarios for CARLA have it; for viewers.
+        color: Name, or `Rgb` as in scenarios for CARLA; for viewers.
         geometry_reference: Name of a 3D model.
-        bounding_box: Size and place of the box, as far as the next four do not say it.
+        bounding_box: Size and position of the box, unless the next four state it.
         center: Middle of the box (m), from the reference point.
         length: Length of the box (m).
         width: Width of the box (m).
@@ -107,10 +107,10 @@ class PhysicalObject(Actor, Measures):
         self.set_bm(self.initial_bm)
 
     def set_bm(self, behavioral_model: BehavioralModel) -> None:
-        """Leave the object to another behavioral model while no action controls it (8.7.3.1.9).
+        """Set the behavioral model that drives the object while no action controls it (8.7.3.1.9).
 
         Raises:
-            UnsupportedError: The model cannot drive such an object.
+            UnsupportedError: The model cannot drive this kind of object.
         """
         engine = behavioral_model.bm_engine.name
         careful = engine == "careful_driver"
@@ -128,12 +128,12 @@ class PhysicalObject(Actor, Measures):
 
     @property
     def color(self) -> Color | Rgb:
-        """Its colour, for scenarios that ask for it."""
+        """Its colour."""
         return self._said("color", self._color)
 
     @property
     def geometry_reference(self) -> str:
-        """Its 3D model, likewise."""
+        """Name of its 3D model."""
         return self._said("geometry_reference", self._geometry_reference)
 
     @property
@@ -145,14 +145,14 @@ class PhysicalObject(Actor, Measures):
 
     @property
     def center_of_gravity(self) -> Point:
-        """Its centre of gravity (m), from the reference point; that of the box if left open."""
+        """Its centre of gravity (m), from the reference point; by default the centre of the box."""
         return self._center_of_gravity or self.bounding_box.center
 
     def _said(self, member: str, value: ValueT | None) -> ValueT:
-        """Return a value that only the scenario can know.
+        """Return a value that only the scenario can state.
 
         Raises:
-            ScenarioError: It says nothing about it.
+            ScenarioError: It does not state it.
         """
         if value is None:
             raise ScenarioError(f"nothing says the {member} of {self.id}", self.source)
@@ -162,15 +162,15 @@ class PhysicalObject(Actor, Measures):
 
     @property
     def category(self) -> VehicleCategory | None:
-        """Category of a vehicle that the scenario names."""
+        """Category of a vehicle that the scenario states."""
         return None
 
     @property
     def shape(self) -> Shape:
-        """Size and reference point: as written, else of the model, else of category or kind.
+        """Size and reference point: as stated, else of the model, else of category or kind.
 
         Raises:
-            ScenarioError: A size is negative, or the box is not where the standard has it.
+            ScenarioError: A size is negative, or the position of the box contradicts the standard.
         """
         known = shape_of(self.library_kind, self.category, self.model)
         box = completed(self._box, BoundingBox(Point(), known.length, known.width, known.height))
@@ -183,16 +183,16 @@ class PhysicalObject(Actor, Measures):
         return Shape(box.length, box.width, box.height, rear, wheelbase)
 
     def _rear(self, known: float) -> float:
-        """Metres from the rear end to the reference point; `known` if left open."""
+        """Metres from the rear end to the reference point; `known` if not stated."""
         return known
 
     def _check_center(self, wanted: Point) -> None:
-        """The reference point is where section 8.3.3 has it, and the box stands on the ground."""
+        """Checks the reference point (section 8.3.3), and that the box stands on the ground."""
         said = self._box.center
         for axis, is_, must_be in (
             ("x", said.x, wanted.x),
             ("y", said.y, 0.0),
-            ("z", said.z or wanted.z, wanted.z),  # 0 is a point that leaves it open
+            ("z", said.z or wanted.z, wanted.z),  # 0: a point that does not state it
         ):
             if abs(is_ - must_be) > _SAME:
                 raise UnsupportedError(
@@ -204,13 +204,13 @@ class PhysicalObject(Actor, Measures):
 
     @property
     def library_kind(self) -> str:
-        """The most derived kind that is not of a user's own: size and limits go by it."""
+        """The most derived kind of the library: it determines size and limits."""
         return next((kind for kind in self.kinds if kind in LIBRARY_KINDS), self.kinds[-1])
 
     @property
     def size_from(self) -> str:
         """The origin of the size: `scenario`, `model`, `category` or `default`."""
-        if self._box.length + self._box.width + self._box.height >= 0.0:  # false for what is open
+        if self._box.length + self._box.width + self._box.height >= 0.0:  # false for nan: open
             return "scenario"
         if self.model in MODELS:
             return "model"

@@ -1,4 +1,4 @@
-"""Curves through the poses of paths and trajectories; the part between two offsets."""
+"""Curves through the poses of paths and trajectories, and their part between two offsets."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from osc2tx_runtime.enums import PathInterpolation
 from osc2tx_runtime.errors import ScenarioError
 from osc2tx_runtime.world.geometry.curve import Curve, Knot
 
-_SAME = 1e-6  # m: points so near are one
+_SAME = 1e-6  # m: closer points are equal
 
 
 class PathError(ScenarioError):
-    """A path that cannot be followed: actions on it fail with this reason."""
+    """A path cannot be followed: actions on it fail with this reason."""
 
 
 def path_curve(points: Sequence[Pose], interpolation: PathInterpolation) -> Curve:
-    """The curve of a path; its parameter is the way from point to point (m).
+    """The curve of a path; its parameter is the sum of the distances from point to point (m).
 
     Raises:
-        PathError: There are not two different points.
+        PathError: It has no two different points.
     """
     knots: list[Knot] = []
     for pose in points:
@@ -46,7 +46,7 @@ def trajectory_curve(
     """The curve of a trajectory; its parameter is the time (s).
 
     Raises:
-        PathError: Points and times do not fit each other.
+        PathError: Numbers of points and times differ, or times do not increase.
     """
     if len(points) != len(times):
         raise PathError(f"the trajectory has {len(points)} points, but {len(times)} time stamps")
@@ -64,7 +64,7 @@ def interval_between_offsets(
     """Arc lengths (m) between which a curve is used.
 
     Raises:
-        PathError: Nothing is left between the offsets.
+        PathError: The offsets exceed the path.
     """
     if start_offset < 0.0 or end_offset < 0.0:
         raise PathError("start_offset and end_offset are not negative")

@@ -23,11 +23,11 @@ PathPoint = Pose | RoutePoint | OdrPoint
 
 @dataclass(frozen=True, slots=True)
 class Path(RouteAxis):
-    """A way through poses in the world.
+    """A path through poses in the world.
 
     Attributes:
         points: Poses; an open yaw follows the path.
-        interpolation: How they are joined.
+        interpolation: Interpolation between the points.
     """
 
     kind: ClassVar[str] = "path"
@@ -41,10 +41,10 @@ class Path(RouteAxis):
 
     @property
     def curve(self) -> Curve:
-        """Its curve; made once.
+        """Its curve; computed once.
 
         Raises:
-            PathError: There are not two different points.
+            PathError: It has no two different points.
         """
         if not self._curve:
             path = self.in_world()
@@ -58,7 +58,7 @@ class Path(RouteAxis):
 
     @property
     def directionality(self) -> Literal["uni_direction"]:
-        """One moves along it from its first point to its last."""
+        """It is followed from its first point to its last."""
         return "uni_direction"
 
     @property
@@ -73,20 +73,20 @@ class Path(RouteAxis):
 
     @property
     def anchors(self) -> list[str]:
-        """Nothing in the map file is it."""
+        """It is not part of the map file."""
         return []
 
     def start_point(self) -> RoutePoint:
-        """Where it begins (DSL 8.12.5.1.1)."""
+        """Its start (DSL 8.12.5.1.1)."""
         return RoutePoint(self, 0.0, 0.0)
 
     def end_point(self) -> RoutePoint:
-        """Where it ends (DSL 8.12.5.1.2)."""
+        """Its end (DSL 8.12.5.1.2)."""
         return RoutePoint(self, self.length, 0.0)
 
 
 class PathResolver(Protocol):
-    """The map, as paths need it."""
+    """The methods of a map that paths require."""
 
     def in_world(self, path: Path) -> Path:
         """A path through poses of the map."""
@@ -99,7 +99,7 @@ class NetworkPath(Path):
 
     Attributes:
         places: The points.
-        on_road_network: Along lanes from point to point.
+        on_road_network: Whether it follows lanes from point to point.
         network: The map.
     """
 
@@ -111,7 +111,7 @@ class NetworkPath(Path):
         """The path through poses.
 
         Raises:
-            PathError: A point is not on the map, or no way along lanes leads to it.
+            PathError: A point is not on the map, or no route along lanes leads to it.
         """
         assert self.network is not None
         return self.network.in_world(self)
@@ -119,7 +119,7 @@ class NetworkPath(Path):
 
 @dataclass(frozen=True, slots=True)
 class RelativePath:
-    """A way relative to an object; see `relative_paths` for the frames."""
+    """A path relative to an object; see `relative_paths` for the frames."""
 
     points: Sequence[PathPoint]
     interpolation: PathInterpolation = "straight_line"
@@ -142,12 +142,12 @@ class RelativePathOdr(RelativePath):
 
 @dataclass(frozen=True, slots=True)
 class Trajectory:
-    """A way through poses in the world at given times.
+    """A path through poses in the world at given times.
 
     Attributes:
         points: As of `Path`.
         time_stamps: Seconds since the start of the action, one per point, ascending.
-        interpolation: How they are joined.
+        interpolation: Interpolation between the points.
     """
 
     points: Sequence[Pose]
@@ -159,7 +159,7 @@ class Trajectory:
         """The curve through its points; its parameter is the time (s).
 
         Raises:
-            PathError: Points and times do not fit each other.
+            PathError: Numbers of points and times differ, or times do not increase.
         """
         return trajectory_curve(self.points, self.time_stamps, self.interpolation)
 

@@ -1,10 +1,10 @@
 """Conversion of relative path points to poses in the world, in a frame of the reference.
 
 - `world_relative`: axes of the world, from its reference point; not for points in s and t;
-- `object_relative`: its own axes, from its reference point; s and t
-  along its lane, t from its place in it;
-- `lane_relative`: along its lane, and left of the centre of the lane;
-- `road_relative`: along the reference line of its road, and left of that line.
+- `object_relative`: axes of the object, from its reference point; s and t along its lane, t from
+  its position in it;
+- `lane_relative`: along its lane, and to the left of the lane centre;
+- `road_relative`: along the reference line of its road, and to the left of that line.
 
 Points in road coordinates (`odr`) count from the `s` of the reference on its road.
 """
@@ -32,7 +32,7 @@ def absolute(
     """Poses in the world of points relative to an object.
 
     Raises:
-        PathError: The reference has no such frame, or a point lies beyond its lane.
+        PathError: The reference has no such frame, or a point is beyond its lane.
     """
     try:
         return tuple(_absolute(road_map, point, reference, transform) for point in points)

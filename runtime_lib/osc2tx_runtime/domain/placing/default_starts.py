@@ -1,4 +1,4 @@
-"""Start places without a reference: from the settings, or by default."""
+"""Start positions without a reference: from the settings, or by default."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from osc2tx_runtime.opendrive import LanePosition, MapError, RoadMap
 from osc2tx_runtime.world.geometry.lane_neighbours import lane_with_number, number_of_lane
 
 TakenBy: TypeAlias = Callable[[LanePosition], str | None]
-"""Returns which actor is in the way of a position, and how far; None if it is free."""
+"""Returns the actor that blocks a position, and the overlap; None if it is free."""
 
 
 class StartPlaces:
-    """Start places on a map."""
+    """Start positions on a map."""
 
     def __init__(self, road_map: RoadMap) -> None:
         self._map = road_map
@@ -30,7 +30,7 @@ class StartPlaces:
         lane: Lane | None,
         position: Position | None,
     ) -> LanePosition:
-        """The place of `--spawn`, checked against the scenario."""
+        """The position of `--spawn`, checked against the scenario."""
         if position is not None or (lane is not None and lane.reference is not None):
             raise PlacementError(
                 f"{actor}: the scenario says where it starts, so it takes no --spawn"
@@ -65,19 +65,20 @@ class StartPlaces:
         taken_by: TakenBy,
         belongs: Callable[[LanePosition], bool] = lambda _place: True,
     ) -> LanePosition:
-        """The first free default position on the lane; with a distance, the one there on its road.
+        """The first free default position on the lane.
 
-        A distance fixes the position: if another actor is there, no other road is tried.
+        With a distance, the position there on its road. A distance fixes the position: if another
+        actor is there, no other road is tried.
 
         Args:
             actor: The actor to place.
-            lane: The lane; None leaves it open.
-            distance: Metres from the start of the road; None leaves it open.
-            taken_by: Tells which actor an actor there would overlap.
+            lane: The lane; None: open.
+            distance: Metres from the start of the road; None: open.
+            taken_by: Returns the actor that an actor there would overlap.
             belongs: Whether a position satisfies the constraints.
 
         Raises:
-            PlacementError: There is no such place.
+            PlacementError: The position does not exist.
         """
         for candidate in self._candidates(lane, distance):
             place: LanePosition | None = candidate
@@ -105,7 +106,7 @@ class StartPlaces:
         taken_by: TakenBy,
         where: str,
     ) -> LanePosition:
-        """Another lane of the same carriageway, where the scenario leaves that open."""
+        """Another lane of the same carriageway, if the scenario leaves the lane open."""
         lanes = self._map.lanes(place.road, place.s, like=place.lane) if lane is None else ()
         for other in lanes:
             found = LanePosition(place.road, other, place.s)
@@ -126,8 +127,8 @@ class StartPlaces:
     ) -> LanePosition:
         """The first free default position on a piece of road; see `default`.
 
-        Without a distance it is from a third of it on, so that there is room behind it for other
-        actors; if all of that is taken, before.
+        Without a distance the search starts at a third of its length, to leave room behind for
+        other actors; the first third follows last.
         """
         section = self._map.roads[segment.road].sections[segment.section or 0]
         third = (section.end - section.begin) / 3.0
@@ -143,7 +144,7 @@ class StartPlaces:
             try:
                 return self.default(actor, lane, None, taken_by, partial(is_on, third))
             except PlacementError:
-                pass  # the rest of it is tried below
+                pass  # the rest is tried below
         try:
             return self.default(actor, lane, distance, taken_by, partial(is_on, 0.0))
         except PlacementError as error:
@@ -152,7 +153,7 @@ class StartPlaces:
     def _candidates(self, lane: Lane | None, distance: float | None) -> Iterator[LanePosition]:
         """Default start positions; with a distance, positions there on each road.
 
-        Of a road that is too short the other carriageway is left out, too.
+        If a road is too short, its other carriageway is also omitted.
         """
         if distance is None:
             yield from self._map.spawn_points()

@@ -1,8 +1,8 @@
-"""Actors that enter later: who they are, what their first action requests, and how they get there.
+"""Actors that enter: which they are, what their first action requires, and their motion until then.
 
-What an actor does before its first action is free (DSL 7.6.2.4.2). If that action begins later and
-states where or how fast the actor starts, the actor is on its way in until then: the node `Enter`
-stands for it in the tree. ADR 10 has the reasons.
+The motion of an actor before its first action is free (DSL 7.6.2.4.2). If that action begins later
+and states the position or speed at its start, the actor enters until then: the node `Enter`
+represents this motion in the tree. ADR 10 has the reasons.
 """
 
 from __future__ import annotations
@@ -39,19 +39,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class WayIn:
-    """How an actor moves from the start of the run to that of its first action.
-
-    It has a steady speed, and changes it once at the end.
+    """Motion of an actor until its first action: a constant speed, and one change at the end.
 
     Attributes:
-        start: Where it starts.
-        goal: Where it is when its first action begins.
-        arrives: Step at which that is.
+        start: Its start.
+        goal: Its pose when its first action begins.
+        arrives: Step at which its first action begins.
         speed: At the start (m/s).
         target: At the goal (m/s).
-        changes: Step at which the change of speed begins.
-        changed: Step at which it is over.
-        heading: At the start (rad), off the lanes or against the lane.
+        changes: Step at which the speed change begins.
+        changed: Step at which the speed change ends.
+        heading: At the start (rad), off the lanes or opposite to the lane.
         tilt: Pitch and roll.
     """
 
@@ -98,13 +96,13 @@ class Entries:
 
 
 class Enter(Leaf):
-    """Brings an actor to where its first action begins; it ends then.
+    """Moves an actor to the start of its first action, and ends then.
 
     The actor has no owner meanwhile: the first action that claims it takes over.
 
     Args:
         actor: The actor that enters.
-        source: Place of the first action in the scenario.
+        source: Source position of the first action.
     """
 
     service = True
@@ -129,7 +127,7 @@ class Enter(Leaf):
         self.context.trace.action("start", self)
 
     def update(self) -> Status:
-        """Change the speed when it is time; end with the first action of the actor."""
+        """Start the speed change at its step; end with the first action of the actor."""
         context = self.context
         entries = context.entries
         if isinstance(entries, Entries) and entries.has_begun(self.actor.id):
@@ -143,7 +141,7 @@ class Enter(Leaf):
         return RUNNING
 
     def terminate(self, new_status: Status) -> None:
-        """Leave the actor to its actions."""
+        """Release the actor."""
         context = self.context
         if self._way() is not None:
             context.leave(self.actor.id, LONGITUDINAL, "enter", None)
@@ -163,8 +161,8 @@ def with_entries(
 
     Args:
         tree: The tree of the scenario that runs.
-        present: Ids of the actors that are placed, or do something when it starts.
-        implied: What suits the first actions of others where nothing is stated, by their ids.
+        present: Ids of the actors that are placed, or that act at the start.
+        implied: Implied starts of the others, by actor id.
         race: All members of a `one_of` start.
     """
     late = _late(tree, implied, race)
@@ -182,7 +180,7 @@ def entering_actors(tree: Behaviour) -> tuple[str, ...]:
 
 
 def acting_at_once(tree: Behaviour, race: bool) -> set[str]:
-    """Return the ids of the actors that surely do something when a tree starts."""
+    """Return the ids of the actors that certainly act when a tree starts."""
     return {
         node.actor.id
         for node, at_once in started_at_once(tree, race)
@@ -193,7 +191,7 @@ def acting_at_once(tree: Behaviour, race: bool) -> set[str]:
 def _late(
     tree: Behaviour, implied: Mapping[str, Sequence[Modifier]], race: bool
 ) -> Iterator[tuple[MovableObject, str]]:
-    """Yield the actors that have to be somewhere later, with the first line that states it."""
+    """Yield the actors with a position required later, with the first line that states it."""
     sources: dict[str, tuple[MovableObject, str]] = {}
     for node, at_once in started_at_once(tree, race):
         if at_once or not isinstance(node, Action) or not isinstance(node.actor, MovableObject):
@@ -204,20 +202,20 @@ def _late(
 
 
 def start_demands(action: BaseAction, implied: Sequence[Modifier] = ()) -> tuple[Modifier, ...]:
-    """Return what an action states of its start; empty if it may begin from anywhere.
+    """Return what an action states about its start; empty if it may begin from any state.
 
-    What holds throughout holds at the start as well. By itself it lets an actor approach it, so
-    only `at: start`, a position that is kept, and a path are reasons to be somewhere.
+    What holds throughout also holds at the start. An actor may approach it, so only `at: start`, a
+    position that is kept, and a path are reasons to enter.
 
     Args:
-        action: The first one of its actor.
-        implied: What suits it where nothing is stated.
+        action: The first action of its actor.
+        implied: Its implied start.
     """
     if not isinstance(action, Action):
         return ()
     physical = one_of_kind(action.modifiers, PhysicalMovement)
     if physical is not None and physical.option == "prefer_non_physical":
-        return ()  # it jumps
+        return ()  # the actor is set instantly
     found = [m for m in action.modifiers if m.facts.placement and _holds_at_start(m)]
     if not any(isinstance(m, PLACES) for m in found):
         found += action.states_itself()
@@ -229,9 +227,9 @@ def start_demands(action: BaseAction, implied: Sequence[Modifier] = ()) -> tuple
 
 
 def _is_reason(modifier: Modifier) -> bool:
-    """Return whether an actor has to be somewhere by then, and not only to approach it.
+    """Return whether an actor has to have a state by then, and not only to approach it.
 
-    A path that is known only by then may depend on where the actor is.
+    A path that is known only then may depend on the position of the actor.
     """
     if isinstance(modifier, Along):
         return modifier.is_start or isinstance(modifier.route, Path)

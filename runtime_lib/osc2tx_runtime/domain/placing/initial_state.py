@@ -20,13 +20,13 @@ Choice = Callable[[tuple[float, float]], float]
 
 
 class InitialState(NamedTuple):
-    """A place to be, with the state to be in.
+    """A required position with the required state.
 
     Attributes:
-        at: Place on a lane, or pose of the reference point.
-        speed: m/s; None if nothing says.
-        heading: rad, off the lanes or against the lane; None if nothing says.
-        tilt: Pitch and roll, as far as something says.
+        at: Position on a lane, or pose of the reference point.
+        speed: m/s; None if not stated.
+        heading: rad, off the lanes or opposite to the lane; None if not stated.
+        tilt: Pitch and roll, as far as stated.
         aside: Lateral speed (m/s).
     """
 
@@ -38,10 +38,10 @@ class InitialState(NamedTuple):
 
 
 def speed_at(world: World, modifiers: Sequence[Modifier], choose: Choice) -> float | None:
-    """Speed (m/s) that modifiers ask for; None if they ask for none.
+    """Speed (m/s) that modifiers require; None without one.
 
     Raises:
-        PlacementError: They say how it is reached.
+        PlacementError: They state how it is reached.
     """
     speed = _speed_in(modifiers, "longitudinal")
     if speed is None:
@@ -55,7 +55,7 @@ def speed_at(world: World, modifiers: Sequence[Modifier], choose: Choice) -> flo
 
 
 def aside_speed_at(world: World, modifiers: Sequence[Modifier], choose: Choice) -> float:
-    """Lateral speed (m/s) that modifiers ask for; zero if they ask for none."""
+    """Lateral speed (m/s) that modifiers require; zero without one."""
     speed = _speed_in(modifiers, "lateral")
     if speed is None:
         return 0.0
@@ -65,7 +65,7 @@ def aside_speed_at(world: World, modifiers: Sequence[Modifier], choose: Choice) 
 
 
 def tilt_at(world: World, modifiers: Sequence[Modifier], pose: opendrive.Pose) -> Tilt:
-    """Pitch and roll that modifiers ask for at a place."""
+    """Pitch and roll that modifiers require at a position."""
     location = one_of_kind(modifiers, Location)
     if location is None:
         return tilt_of(world, modifiers, pose)

@@ -40,7 +40,7 @@ class ScenarioInitializer(StartRoom[ActorStart]):
 
     Args:
         context: The run: its world, actors and settings.
-        map_objects: Roads, lanes and the like that the scenario declares.
+        map_objects: Roads, lanes and other elements that the scenario declares.
     """
 
     failure = PlacementError
@@ -59,7 +59,7 @@ class ScenarioInitializer(StartRoom[ActorStart]):
         """Places every physical actor and sets the routes of those with a destination.
 
         Raises:
-            PlacementError: A place does not exist, is taken, or depends on itself.
+            PlacementError: A position does not exist, is occupied, or depends on itself.
             SettingsError: A destination is invalid.
         """
         self._fill_in_roads([p for p in placements if isinstance(p.actor, Map)])
@@ -75,10 +75,10 @@ class ScenarioInitializer(StartRoom[ActorStart]):
         self._note_sizes()
 
     def _fill_in_roads(self, placements: Sequence[Placement]) -> None:
-        """Chooses segments of the map for the roads and lanes that are declared.
+        """Chooses segments of the map for the declared roads and lanes.
 
         Raises:
-            PlacementError: The map is not as the scenario wants it.
+            PlacementError: The map does not fulfil the constraints of the scenario.
         """
         for actor in self._context.actors.values():
             if isinstance(actor, Map) and actor.required_rule not in (None, actor.driving_rule):
@@ -118,7 +118,7 @@ class ScenarioInitializer(StartRoom[ActorStart]):
         placement.actor.traffic_light_control.extend(cycles)
 
     def _note_sizes(self) -> None:
-        """Writes to the trace which sizes differ from those of the requested model."""
+        """Writes sizes that differ from those of the requested model to the trace."""
         for actor in self._context.actors.values():
             if not isinstance(actor, PhysicalObject) or actor.model is None:
                 continue
@@ -178,7 +178,7 @@ class ScenarioInitializer(StartRoom[ActorStart]):
         return self._placed_now(actor)
 
     def cycle_of(self, waiting: Sequence[ActorStart]) -> PlacementError:
-        """The error that starts depend on each other."""
+        """Return the error for starts that depend on each other."""
         return cycle_of(waiting)
 
     def _placed_now(self, actor: PhysicalObject) -> Placed:
@@ -188,7 +188,7 @@ class ScenarioInitializer(StartRoom[ActorStart]):
         return Placed(box_of(state), lane)
 
     def _taken_by(self, start: ActorStart, place: LanePosition) -> str | None:
-        """Which actor is in the way of a place; those that had no room beside it, too."""
+        """The actor that blocks a position, or that could not be placed beside it."""
         if self.was_tried(start, place._replace(offset=0.0)):
             return "another actor"
         return self._who_is_at(start.actor, place)

@@ -1,8 +1,8 @@
 """Constraint solver: a segment of the map for each declared road and lane.
 
-The first choice in the order of the map for which everything holds, so that the same scenario on
-the same map always gets the same one: a search with backtracking over the parts in the order of
-their declaration, each limited by the modifiers that mention parts chosen already.
+The result is the first choice in the order of the map for which all constraints hold, so it only
+depends on scenario and map: a backtracking search over the parts in the order of their declaration,
+each limited by the modifiers that mention parts already chosen.
 """
 
 from __future__ import annotations
@@ -55,10 +55,10 @@ class MapSolver:
         self._furthest = 0
 
     def solve(self) -> None:
-        """Gives every part its segment of the map.
+        """Assigns each part its segment of the map.
 
         Raises:
-            PlacementError: The map has none for which everything holds.
+            PlacementError: The map has no segments for which all constraints hold.
         """
         if not self._search(0):
             raise self._impossible()
@@ -66,7 +66,7 @@ class MapSolver:
             part.choose(self._chosen[id(part)])
 
     def _impossible(self) -> PlacementError:
-        """Names a modifier that holds for nothing, else the part at which the search ended."""
+        """The error: a modifier without segments, else the part at which the search ended."""
         for relation in self._relations:
             if next(relation.modifier.rows(self._graph, {}), None) is None:
                 return PlacementError(
@@ -102,9 +102,9 @@ class MapSolver:
         return False
 
     def _options(self, part: RoadPart) -> Iterator[MapSegment]:
-        """Segments for a part, as the first modifier that knows others of its parts limits them.
+        """Segments for a part, limited by the first modifier with known parts.
 
-        Without one all that it can be.
+        Without one all candidates.
         """
         for relation in self._relations:
             parts = relation.modifier.parts()
@@ -113,7 +113,7 @@ class MapSolver:
             if known or (names and relation.modifier.leads):
                 found = relation.modifier.rows(self._graph, known)
                 tried: set[MapSegment] = set()
-                for row in found:  # only as far as it is looked at
+                for row in found:  # evaluated only as far as needed
                     if row[names[0]] not in tried:
                         tried.add(row[names[0]])
                         yield row[names[0]]
@@ -131,7 +131,7 @@ class MapSolver:
         return next(rows, None) is not None
 
     def _consistent(self, part: RoadPart) -> bool:
-        """Whether a part's own constraints hold, and no modifier has become impossible."""
+        """Whether the constraints of a part hold, and all modifiers are still possible."""
         segment = self._chosen[id(part)]
         if not part.suits(self._graph, segment):
             return False
@@ -147,7 +147,7 @@ class MapSolver:
 
 
 def _implied(parts: Sequence[RoadPart]) -> Iterator[Relation]:
-    """What parts say themselves about others: their members, their lanes, where others are."""
+    """Constraints of parts on others: their members, lanes and positions."""
     for part in parts:
         said: list[MapModifier | None] = [*listed_members(part)]
         if isinstance(part, Crossing):

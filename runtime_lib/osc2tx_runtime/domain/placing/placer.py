@@ -1,4 +1,4 @@
-"""Start places from modifiers: on the map, relative to another actor, at a point."""
+"""Start positions from modifiers: on the map, relative to another actor, at a point."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 
 
 class Placer:
-    """Finds the place that modifiers describe, among the actors that are placed already."""
+    """Finds the position that modifiers describe, among the actors that are already placed."""
 
     def __init__(self, world: World) -> None:
         self._world = world
@@ -67,18 +67,18 @@ class Placer:
         taken_by: TakenBy = lambda _place: None,
         draws: random.Random | None = None,
     ) -> InitialState:
-        """Resolves modifiers to a place.
+        """Resolves modifiers to a position and state.
 
         Args:
             actor: The actor to place.
             modifiers: position, lane, lateral, speed, yaw, orientation.
-            now: Its present state, if it has one, for all that the modifiers leave open.
-            spawn: Place given by the settings.
-            taken_by: Tells which actor is in the way of a default start place.
+            now: Its present state, if any, for what the modifiers leave open.
+            spawn: Position given by the settings.
+            taken_by: Returns the actor that blocks a default position.
             draws: Chooses from ranges; None: their middle.
 
         Raises:
-            PlacementError: There is no such place.
+            PlacementError: The position does not exist.
         """
         self._draws = draws
         modifiers = settled(modifiers)
@@ -107,7 +107,7 @@ class Placer:
         aside = aside_speed_at(self._world, modifiers, self._of)
         return InitialState(at, speed, heading, tilt, aside)
 
-    # --- kinds of places ----------------------------------------------------------------------
+    # --- kinds of positions -------------------------------------------------------------------
 
     def _place(
         self,
@@ -168,11 +168,11 @@ class Placer:
         taken_by: TakenBy,
         place: LanePosition,
     ) -> str | None:
-        """Which actor is in the way at a distance from the centre of a lane."""
+        """The blocking actor at an offset from the lane centre."""
         return taken_by(self._aside(actor, place, lateral))
 
     def _aside(self, actor: PhysicalObject, at: LanePosition, lateral: Lateral) -> LanePosition:
-        """The place across the lane, in the lane or beside another actor."""
+        """The lateral position, in the lane or beside another actor."""
         own = actor.shape.width
         if lateral.side_of is None:
             width = self._map.lane_width(at.road, at.lane, at.s)
@@ -256,7 +256,10 @@ class Placer:
         raise PlacementError(f"{actor.id}: {route.found} has no free lane {distance:g} m along it")
 
     def _begin(self, timed: AlongTrajectory) -> tuple[opendrive.Pose, float]:
-        """Pose at the begin of a trajectory, and the speed (m/s) there; zero before its time."""
+        """Pose at the start of a trajectory, and the speed (m/s) there.
+
+        Zero before its first time.
+        """
         trajectory = trajectory_in_world(self._map, now(timed.trajectory))
         curve = trajectory.curve
         begin = curve.at_length(value_of(timed.start_offset))
@@ -277,7 +280,7 @@ class Placer:
             place = self._along_road(actor, place, self._of(position.size()))
         return place if lane is None else self._points.numbered(actor, place, lane)
 
-    # --- small steps --------------------------------------------------------------------------
+    # --- parts --------------------------------------------------------------------------------
 
     def _along_road(
         self, actor: PhysicalObject, place: LanePosition, distance: float
@@ -292,7 +295,7 @@ class Placer:
         return found
 
     def _centre(self, of: PhysicalObject | None, actor: PhysicalObject) -> LanePosition:
-        """Place of a placed actor, on the centre of its driving lane."""
+        """Position of a placed actor on the centre of its driving lane."""
         assert of is not None
         state = self._world.state(of.id)
         on = self._map.locate(state.x, state.y, state.z, hint=state.lane_position)

@@ -1,4 +1,4 @@
-"""Start places given as a point in the world."""
+"""Start positions given as a point in the world."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class PointPlaces:
     def check_lane(
         self, actor: PhysicalObject, at: LanePosition | opendrive.Pose, lane: Lane
     ) -> None:
-        """A point decides by itself: a lane modifier can only agree."""
+        """Check that a lane modifier agrees with the point, which determines the lane."""
         if lane.reference is not None:
             raise PlacementError(
                 f"{actor.id}: a point leaves no room for a lane relative to {lane.reference.id}"
@@ -61,7 +61,7 @@ class PointPlaces:
         return self.numbered(actor, place, lane)
 
     def at_point(self, actor: PhysicalObject, position: Position) -> LanePosition | opendrive.Pose:
-        """Where the point is: on a lane if one is there, else off the lanes."""
+        """Position of the point: on a lane if there is one, else off the lanes."""
         pose, heading = pose_of(actor, position)
         west, south, east, north = self._map.bounds()
         if not (
@@ -85,13 +85,13 @@ class PointPlaces:
         return opendrive.Pose(pose.x, pose.y, lane.z if z is None else z, h)
 
     def on_way(self, actor: PhysicalObject, point: RoutePoint) -> LanePosition | opendrive.Pose:
-        """A point of a path or crossing, looking along it; vehicles in the lane that is there."""
+        """A point of a path or crossing, with its heading; vehicles in the lane at that point."""
         pose = place_of_route(self._map, point)
         assert isinstance(pose, opendrive.Pose)
         return self.at_pose(actor, pose)
 
     def at_pose(self, actor: PhysicalObject, pose: opendrive.Pose) -> LanePosition | opendrive.Pose:
-        """A pose of a way; of vehicles in the lane that is there."""
+        """A pose of a path; of vehicles in the lane at that pose."""
         on = self._map.locate(pose.x, pose.y, heading=pose.h, max_distance=1e-3)
         if on is None or not actor.lane_bound or math.cos(self._map.pose(on).h - pose.h) <= 0.0:
             return pose
@@ -113,7 +113,7 @@ class PointPlaces:
         return step.position
 
     def numbered(self, actor: PhysicalObject, place: LanePosition, lane: Lane) -> LanePosition:
-        """The lane with a number at the height of a place."""
+        """The lane with a number at the road coordinate of a position."""
         found = lane_with_number(self._map, place, lane.number, lane.edge)
         if found is None:
             raise PlacementError(

@@ -1,4 +1,4 @@
-"""Poses, headings and tilts that modifiers ask for."""
+"""Poses, headings and tilts that modifiers require."""
 
 from __future__ import annotations
 
@@ -39,9 +39,9 @@ def heading_of(
     modifiers: Sequence[Modifier],
     at: opendrive.Pose | ActorState,
 ) -> float | None:
-    """Heading (rad) that yaw or orientation ask for; None if they are not given.
+    """Heading (rad) that yaw or orientation require; None if not given.
 
-    Of a range it is the nearest to the present heading.
+    For a range, the heading nearest to the present one.
 
     Args:
         world: The world.
@@ -86,8 +86,8 @@ def heading_base(
     Args:
         world: The world.
         turned: The modifier.
-        at: Place or state of the actor.
-        other: State of the reference of the modifier; the present one if it is left out.
+        at: Position or state of the actor.
+        other: State of the reference of the modifier; default: the present one.
     """
     if isinstance(turned, Orient):
         base = 0.0 if turned.measure_by == "absolute" else road_heading(world.map, at)
@@ -102,7 +102,7 @@ def heading_base(
 
 
 def tilt_of(world: World, modifiers: Sequence[Modifier], at: opendrive.Pose | ActorState) -> Tilt:
-    """Pitch and roll (rad) that an orientation asks for; arguments as above."""
+    """Pitch and roll (rad) that an orientation requires; arguments as above."""
     turned = one_of_kind(modifiers, Orient)
     if turned is None or (turned.pitch is None and turned.roll is None):
         return LEVEL

@@ -1,8 +1,8 @@
-"""Rehearsals: a run is played in the embedded world to find out how actors enter that come later.
+"""Rehearsals: runs in the embedded world that determine how actors enter.
 
-When the first action of an actor begins, and where its references are by then, only a run can tell.
-Rehearsals are repeated with the ways in that the last one gave, until nothing changes any more:
-the run itself is then the same as the last rehearsal.
+Only a run determines when the first action of an actor begins, and where its references are then.
+Rehearsals are repeated with the ways in of the last one until nothing changes: the run itself is
+then identical to the last rehearsal.
 """
 
 from __future__ import annotations
@@ -30,27 +30,27 @@ if TYPE_CHECKING:
 
 _MOST = 8  # rehearsals
 _NEAR = 1e-3  # m, m/s
-_FITS = 1.0  # m by which an actor may miss its place if nothing else has changed
+_FITS = 1.0  # m by which an actor may miss its position if nothing else has changed
 
 
 class AllEnteredError(Exception):
-    """Ends a rehearsal: there is nothing more to find out."""
+    """Ends a rehearsal: all actors have entered."""
 
 
 class Rehearsal(Entries):
-    """Watches a rehearsal: which actors begin when, and where they have to be then.
+    """Observes a rehearsal: when actors begin, and where they have to be then.
 
-    It is an observer of the run as well, which it ends when all have begun.
+    It ends the run when all have begun.
 
     Args:
-        ways: The ways in that are tried.
+        ways: The ways in to try.
         waiting: Ids of the actors that enter.
 
     Attributes:
-        implied: What suits their first actions where nothing is stated, by actor.
-        arrivals: Where the actors have to be, in the order in which they begin.
-        missed: Distance (m) that an actor lacked.
-        errors: Why there is no such place.
+        implied: Implied starts of the first actions, by actor.
+        arrivals: Required states of the actors, in the order in which they begin.
+        missed: Distance (m) of an actor to its required position.
+        errors: Reasons for positions that do not exist.
         boxes: The room that all actors take at each step.
     """
 
@@ -64,29 +64,29 @@ class Rehearsal(Entries):
         self.boxes: list[dict[str, Box]] = []
 
     def begin(self, context: ExecutionContext) -> None:
-        """See the actors where they start."""
+        """Register the actors at their start."""
         self._context = context
         self._note_boxes()
 
     def observe(self, step: int) -> None:
-        """See what the way to a step has brought about.
+        """Register the states of a step.
 
         Raises:
-            AllEnteredError: There is nothing more to see.
+            AllEnteredError: All actors have entered.
         """
         if not self._waiting:
             raise AllEnteredError
         self._note_boxes()
 
     def sampled(self, kind: str, values: Mapping[str, Any]) -> None:
-        """Take no values."""
+        """Ignore values."""
 
     def _note_boxes(self) -> None:
         world = self._context.world
         self.boxes.append({actor: box_of(world.state(actor)) for actor in world.actors()})
 
     def begins(self, action: BaseAction) -> None:
-        """Find out where an actor has to be whose first action begins, and put it there."""
+        """Determine the required start of an actor's first action, and place it there."""
         actor = getattr(action, "actor", None)
         if isinstance(actor, MovableObject) and actor.id in self._waiting:
             self._waiting.discard(actor.id)
@@ -123,7 +123,7 @@ class Rehearsal(Entries):
     def _placed(
         self, actor: MovableObject, demands: Sequence[Modifier], here: ActorState | None
     ) -> InitialState:
-        """Return the place that is requested, among the others as they are now."""
+        """Return the required position, among the others in their present states."""
         world, state = self._context.world, self._context.world.state(actor.id)
 
         def taken_by(place: LanePosition) -> str | None:
@@ -139,7 +139,7 @@ class Rehearsal(Entries):
 
 
 def _missed(road_map: RoadMap, here: ActorState, there: LanePosition | Pose) -> float:
-    """Return the distance (m) to where an actor has to be; infinite beside it."""
+    """Return the distance (m) to the required position; infinite if it is not ahead or behind."""
     pose = road_map.pose(there) if isinstance(there, LanePosition) else there
     dx, dy = pose.x - here.x, pose.y - here.y
     ahead = dx * cos(pose.h) + dy * sin(pose.h)
@@ -156,7 +156,7 @@ def _missed(road_map: RoadMap, here: ActorState, there: LanePosition | Pose) -> 
 def ways_in(
     play: Callable[[Rehearsal], None], actors: Sequence[str], road_map: RoadMap, dt: float
 ) -> dict[str, WayIn]:
-    """Return the ways in of the actors that enter, and take part.
+    """Return the ways in of the actors that enter in the run.
 
     Args:
         play: Plays a rehearsal.
@@ -169,12 +169,12 @@ def ways_in(
     """
     ways: dict[str, WayIn] = {}
     before: dict[str, Arrival] = {}
-    short: dict[str, float] = {}  # by how much (m) the closed form of a way in is too short
+    short: dict[str, float] = {}  # m by which the closed form of a way in is too short
     for attempt in range(_MOST):
         rehearsal = Rehearsal(ways, actors)
         play(rehearsal)
         found, errors = rehearsal.arrivals, rehearsal.errors
-        if errors and attempt:  # at first the others that enter are just anywhere
+        if errors and attempt:  # at first the positions of the other entering actors are unknown
             raise next(iter(errors.values()))
         if not errors and _alike(found, before, road_map):
             missed = rehearsal.missed
@@ -184,7 +184,7 @@ def ways_in(
                 short[actor] = short.get(actor, 0.0) + (distance if abs(distance) < _FITS else 0.0)
         for actor, arrival in found.items():
             for boxes in rehearsal.boxes[: arrival.step + 1]:
-                boxes.pop(actor, None)  # until then its way in decides where it is
+                boxes.pop(actor, None)  # until then its way in determines its position
         searched = {
             actor: way_in(arrival, road_map, rehearsal.boxes, dt, short.get(actor, 0.0))
             for actor, arrival in found.items()
@@ -199,7 +199,7 @@ def ways_in(
 
 
 def _alike(found: dict[str, Arrival], before: dict[str, Arrival], road_map: RoadMap) -> bool:
-    """Return whether two rehearsals let the same actors arrive at the same time and place."""
+    """Return whether the same actors arrive at the same time and position in two rehearsals."""
     return found.keys() == before.keys() and all(
         arrival.is_like(before[actor], road_map) for actor, arrival in found.items()
     )

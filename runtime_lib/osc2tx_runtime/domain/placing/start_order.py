@@ -25,18 +25,18 @@ if TYPE_CHECKING:
 
 
 _PLACES = (Position, Location, Along, AlongTrajectory, OnPath)
-"""Each of them says how far along the road an actor is."""
+"""Modifiers that state the position of an actor along the road."""
 
 
 class ActorStart:
-    """One actor to be placed.
+    """One actor to place.
 
     Attributes:
         actor: The actor.
-        modifiers: Where and how.
+        modifiers: Its start.
         source: Position in the scenario.
         references: Actors that must be placed before.
-        rank: Absolute places come before relative ones, defaults last.
+        rank: Absolute positions come before relative ones, defaults last.
         towed_by: The vehicle it is coupled to from the start.
     """
 
@@ -69,7 +69,7 @@ class ActorStart:
 
     @property
     def is_open(self) -> bool:
-        """Whether the scenario leaves open how far along the road it starts, or in which lane."""
+        """Whether the scenario leaves its position along the road or its lane open."""
         if self.rank != 2:
             return False
         if one_of_kind(self.modifiers, Along) is not None:
@@ -78,7 +78,7 @@ class ActorStart:
 
 
 def joined(first: Placement, second: Placement) -> Placement:
-    """Return what two members of a scenario say together of the start of an actor.
+    """Return the modifiers of two members of a scenario for the start of an actor.
 
     Raises:
         PlacementError: They constrain the same motion, and differ.
@@ -96,7 +96,7 @@ def joined(first: Placement, second: Placement) -> Placement:
 
 
 def with_implied(stated: Sequence[Modifier], implied: Sequence[Modifier]) -> tuple[Modifier, ...]:
-    """Return what is stated of a start, and of what is implied that on which it is silent."""
+    """Return the stated modifiers of a start, completed by the implied ones."""
     known = {_subject(modifier) for modifier in stated}
     if any(isinstance(modifier, _PLACES) for modifier in stated):
         known |= {_subject(modifier) for modifier in implied if isinstance(modifier, _PLACES)}
@@ -108,11 +108,11 @@ def _subject(modifier: Modifier) -> tuple[str, str]:
 
 
 def couple(starts: Sequence[ActorStart]) -> None:
-    """Makes trailers wait for what tows them.
+    """Makes trailers depend on their towing vehicles.
 
     Raises:
-        PlacementError: A trailer has a place of its own, or two towing vehicles, or its coupler
-            does not fit.
+        PlacementError: A trailer has a start position of its own or two towing vehicles, or its
+            coupler does not fit.
     """
     by_id = {start.id: start for start in starts}
     for start in starts:
@@ -136,7 +136,7 @@ def couple(starts: Sequence[ActorStart]) -> None:
 
 
 def cycle_of(waiting: Sequence[ActorStart]) -> PlacementError:
-    """Name the starts that wait for each other."""
+    """Return the starts that depend on each other, in words."""
     by_id = {start.id: start for start in waiting}
     start, seen = waiting[0], []
     while start not in seen:

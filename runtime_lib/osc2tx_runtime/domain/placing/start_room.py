@@ -1,4 +1,4 @@
-"""Placement of one actor after the other: their order, their room, and moves to make some."""
+"""Placement of the actors one by one: order, occupied space, and moves that make room."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from osc2tx_runtime.world.measuring.collision import Box, overlap_along, overlap
 
 
 class Start(Protocol):
-    """An actor that is to be placed."""
+    """An actor to place."""
 
     @property
     def id(self) -> str:
@@ -24,19 +24,19 @@ class Start(Protocol):
 
     @property
     def rank(self) -> int:
-        """Of those that can be placed, the one with the least value comes first."""
+        """Among the actors that can be placed, the least value comes first."""
 
     @property
     def is_open(self) -> bool:
-        """Whether the scenario leaves open how far along the road it starts, or in which lane."""
+        """Whether the scenario leaves its position along the road or its lane open."""
 
 
 class Placed(NamedTuple):
-    """Where an actor is.
+    """The position of an actor.
 
     Attributes:
-        box: The room that it takes; None if that is not known.
-        lane: Where on the centre of its lane it is; None off the lanes.
+        box: The space that it occupies; None if unknown.
+        lane: Its position on the centre of its lane; None off the lanes.
     """
 
     box: Box | None
@@ -47,19 +47,19 @@ StartT = TypeVar("StartT", bound=Start)
 
 
 class StartRoom(ABC, Generic[StartT]):
-    """Places actors, references first, and keeps what room they take.
+    """Places actors, references first, and records the occupied space.
 
     Args:
-        most_tries: Places to which one is moved to make room.
+        most_tries: Number of positions to which an actor is moved to make room.
     """
 
     failure: ClassVar[type[Exception]]
-    """Raised where there is no place for an actor."""
+    """Raised if there is no position for an actor."""
 
     def __init__(self, most_tries: int) -> None:
         self._most_tries = most_tries
         self._placed: dict[str, Placed] = {}
-        # Places that left no room for those that start relative to it.
+        # Positions that left no room for the actors that start relative to it.
         self._tried: dict[str, list[LanePosition | None]] = {}
 
     @abstractmethod
@@ -67,18 +67,18 @@ class StartRoom(ABC, Generic[StartT]):
         """Places one actor; occupied positions are known.
 
         Raises:
-            failure: There is no place for it.
+            failure: There is no position for it.
         """
 
     @abstractmethod
     def cycle_of(self, waiting: Sequence[StartT]) -> Exception:
-        """The failure that starts depend on each other."""
+        """Return the failure for starts that depend on each other."""
 
     def fill(self, starts: Sequence[StartT]) -> None:
-        """Places all, by rank and in their order.
+        """Places all actors, by rank and in their order.
 
         Raises:
-            failure: There is no place for one of them, or it depends on itself.
+            failure: There is no position for an actor, or it depends on itself.
         """
         waiting = list(starts)
         placed: list[StartT] = []
@@ -96,24 +96,24 @@ class StartRoom(ABC, Generic[StartT]):
                     raise
 
     def taken_by(self, box: Box) -> str | None:
-        """Which actor is in the way, and by how much."""
+        """The blocking actor, and the overlap."""
         placed = {actor: room for actor, (room, _) in self._placed.items() if room is not None}
         return overlap_with(box, placed)
 
     def was_tried(self, start: StartT, place: LanePosition) -> bool:
-        """Whether a place was tried in vain."""
+        """Whether a position was tried without success."""
         return place in self._tried.get(start.id, ())
 
     def _makes_room(self, placed: Sequence[StartT]) -> bool:
-        """Put the last actor, by moving one whose place is open and that it starts relative to.
+        """Place the last actor by moving a reference whose position is open.
 
-        Those that start relative to that one move with it.
+        Actors that start relative to that reference move with it.
 
         Args:
-            placed: Those that are placed, in that order; the last one does not fit.
+            placed: The placed actors, in order; the last one does not fit.
 
         Returns:
-            Whether there is such a place.
+            Whether there is such a position.
         """
         *_, start = placed
         movable = (each for each in placed if each.is_open)
@@ -150,7 +150,7 @@ def overlap_with(box: Box, others: Mapping[str, Box]) -> str | None:
 
 
 def _is_behind(start: StartT, anchor: StartT, placed: Sequence[StartT]) -> bool:
-    """Whether a start depends on another one, directly or through others."""
+    """Whether a start depends on another, directly or indirectly."""
     by_id = {each.id: each for each in placed}
     waiting, seen = [start], {start.id}
     while waiting:

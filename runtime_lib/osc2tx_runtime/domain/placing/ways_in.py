@@ -1,4 +1,4 @@
-"""The search for ways in: from the place where an actor has to be, back to the start of the run."""
+"""The search for ways in: from the required position of an actor back to the start of the run."""
 
 from __future__ import annotations
 
@@ -19,31 +19,32 @@ if TYPE_CHECKING:
     from osc2tx_runtime.opendrive import RoadMap
 
 Boxes = Sequence[dict[str, Box]]
-"""The room that actors take, at each step from the start of the run on."""
+"""The space that actors occupy, at each step from the start of the run."""
 
 _FASTER = (5.0, 10.0, 15.0, 20.0, 25.0)  # m/s above the speed of arrival
-_EFFORTS = (COMFORT, 1.0)  # shares of what the actor can do at most
-_EARLIER = (0.0, 0.25, 0.5, 0.75, 1.0)  # share of the time by which it sets out earlier
+_EFFORTS = (COMFORT, 1.0)  # shares of the limits of the actor
+_EARLIER = (0.0, 0.25, 0.5, 0.75, 1.0)  # share of the time by which it starts earlier
 _NEAR = 1e-6  # m
 _SAME = 1e-3  # m, m/s
 
 
 class Arrival(NamedTuple):
-    """Where and how an actor has to be when its first action begins.
+    """Required state of an actor when its first action begins.
 
     Attributes:
         actor: The actor that enters.
-        step: When.
-        at: Place on a lane, or pose.
+        step: Step of the arrival.
+        at: Position on a lane, or pose.
         speed: m/s.
         heading: rad; None along the lane.
         tilt: Pitch and roll.
-        fixed: Whether the place is stated; else the actor may start there and arrive elsewhere.
+        fixed: Whether the position is stated; else the actor may start there and arrive at another
+            one.
         shape: Its size.
-        limits: What it can do.
-        follows_lanes: Whether it drives along lanes; others go straight.
-        source: Place of its first action in the scenario.
-        can_jump: Whether it jumps to the place if there is no way in.
+        limits: Its limits of motion.
+        follows_lanes: Whether it drives along lanes; other actors move straight.
+        source: Source position of its first action.
+        can_jump: Whether it is teleported there without a way in.
     """
 
     actor: str
@@ -60,32 +61,34 @@ class Arrival(NamedTuple):
     can_jump: bool
 
     def is_like(self, other: Arrival, road_map: RoadMap) -> bool:
-        """Return whether it is the same, if it is one in a place that is stated."""
+        """Return whether both are equal, if the position is stated."""
         if self.step != other.step or abs(self.speed - other.speed) > _SAME:
             return False
         here, there = self.pose(road_map), other.pose(road_map)
         return not self.fixed or hypot(here.x - there.x, here.y - there.y) < _SAME
 
     def pose(self, road_map: RoadMap) -> Pose:
-        """Return where it is."""
+        """Return its pose."""
         return road_map.pose(self.at) if isinstance(self.at, LanePosition) else self.at
 
 
 def way_in(
     arrival: Arrival, road_map: RoadMap, others: Boxes, dt: float, missed: float = 0.0
 ) -> WayIn | None:
-    """Return the first free way in that the map has; None if there is none and the actor can jump.
+    """Return the first free way in on the map.
+
+    None if there is none and the actor can be teleported.
 
     Args:
         arrival: The state to arrive in.
         road_map: The map.
-        others: The room that the other actors take; that of the way in is added.
+        others: The space that the other actors occupy; that of the way in is added.
         dt: Length of a step (s).
-        missed: Distance (m) by which the same way in was too short at an earlier attempt.
+        missed: Distance (m) by which this way in was too short in an earlier attempt.
 
     Raises:
-        PlacementError: There is none, and it cannot jump; the message has the reason of the most
-            natural one.
+        PlacementError: There is none, and the actor cannot be teleported; the message has the
+            reason for the most natural one.
     """
     reasons: list[str] = []
     for speed, changes, changed in _speeds(arrival, dt):
@@ -120,13 +123,13 @@ def way_in(
 
 
 class _NoRoad(Exception):
-    """The map does not reach as far back as a way in."""
+    """The map is too short behind the arrival for a way in."""
 
 
 def _speeds(arrival: Arrival, dt: float) -> Iterator[tuple[float, int, int]]:
     """Yield speeds (m/s) at the start, with the steps between which they change.
 
-    Vehicles keep their speed, if they can; others wait and set out as late as possible.
+    Vehicles keep their speed if possible; other actors wait and start as late as possible.
     """
     target, last = arrival.speed, arrival.step
     steady = (target, last, last)
@@ -156,7 +159,7 @@ def _steps(change: float, rate: float, dt: float) -> int:
 
 
 def _back(arrival: Arrival, road_map: RoadMap, distance: float) -> LanePosition | Pose:
-    """Return the place so far (m) before that of an arrival.
+    """Return the position at a distance (m) before that of an arrival.
 
     Raises:
         _NoRoad: The lane begins after it.
@@ -180,7 +183,7 @@ def _back(arrival: Arrival, road_map: RoadMap, distance: float) -> LanePosition 
 
 
 def _rooms(way: WayIn, arrival: Arrival, road_map: RoadMap, dt: float) -> list[Box]:
-    """Return the room that an actor takes on its way in, at each step up to its arrival."""
+    """Return the space that an actor occupies on its way in, at each step up to its arrival."""
     whole, boxes = way.covered(way.arrives, dt), list[Box]()
     from_goal = arrival._replace(at=way.goal)
     for step in range(way.arrives + 1):

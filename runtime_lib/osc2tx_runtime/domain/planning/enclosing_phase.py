@@ -1,8 +1,7 @@
-"""The duration with which an action ends, or has to end: that of the composition around it.
+"""The duration with which an action ends, or has to end: that of the enclosing composition.
 
-In `parallel(duration: 8s)` the members that never end by themselves end after 8 s, whenever the
-others do; what holds `at: end` for one of them has to hold then. Those that end by themselves have
-8 s at the most.
+In `parallel(duration: 8s)` open-ended members end after 8 s, independent of the others; their `at:
+end` has to hold then. Members with a goal have at most 8 s.
 """
 
 from __future__ import annotations
@@ -19,11 +18,11 @@ if TYPE_CHECKING:
 
 
 def phase_of(action: BaseAction, *, strict: bool) -> DurationLimits | None:
-    """The duration with which an open-ended action ends; None if it is unknown before.
+    """The duration with which an open-ended action ends; None if it is unknown in advance.
 
     Args:
         action: The action.
-        strict: Durations are met exactly, not at the latest.
+        strict: Whether durations are met exactly, not at the latest.
     """
     if action.registered.ends != "open" or action.duration is not None:
         return None
@@ -49,7 +48,7 @@ def limit_of(action: BaseAction) -> DurationLimits | None:
         action: The action.
 
     Returns:
-        None if it has a duration of its own, or others have to follow it before the end.
+        None if it has its own duration, or if further members have to follow before the end.
     """
     if action.registered.ends != "goal" or action.duration is not None:
         return None
@@ -69,13 +68,13 @@ def limit_of(action: BaseAction) -> DurationLimits | None:
 
 
 def _is_plain(parallel: Parallel) -> bool:
-    """Whether all members start and end with it."""
+    """Whether all members start and end with the composition."""
     simple = parallel.overlap == "start" and parallel.end_to_end is None
     return simple and not parallel.start_to_start
 
 
 def _all_open(parallel: Parallel) -> bool:
-    """Whether no member ends the others."""
+    """Whether all members are open-ended."""
     return _is_plain(parallel) and all(map(_is_open, parallel.children))
 
 

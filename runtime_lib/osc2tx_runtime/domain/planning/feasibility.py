@@ -1,4 +1,4 @@
-"""Checks of profiles against the limits of the actor, and of monotonous ones for turning back."""
+"""Checks of profiles against the limits of the actor, and of monotonous ones for reversals."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from .motion_action import ModifiedMotion
 
-_JUMP = 0.5  # m/s: a smaller difference is made up for on the way
+_JUMP = 0.5  # m/s: a smaller difference is corrected during the motion
 _SAMPLES = 200
 
 
@@ -26,7 +26,7 @@ def check_peak(peak: float | None, unit: str) -> None:
 
 
 def check_one_way(modifier: MovementModifier, course: Profile) -> None:
-    """Refuses a detour, where a modifier asks for none."""
+    """Rejects a reversal if a modifier requires a monotonous motion."""
     turn = turns_back(course) if modifier.monotonous else None
     if turn is not None:
         raise Refused(f"{modifier.name}: it would have to turn back after {turn:.1f} s")
@@ -35,14 +35,14 @@ def check_one_way(modifier: MovementModifier, course: Profile) -> None:
 def check_course(
     action: ModifiedMotion, modifier: MovementModifier, way: Profile, offset: float, *, ends: bool
 ) -> None:
-    """Refuses a way over time that is beyond the limits of the actor.
+    """Rejects a distance over time that exceeds the limits of the actor.
 
     Args:
         action: The action.
         modifier: The modifier that requires it.
         way: Metres over time, relative to a moving origin.
-        offset: Speed of that (m/s).
-        ends: The action ends with it, at whatever speed.
+        offset: Speed of that origin (m/s).
+        ends: Whether the action ends with it, at any speed.
     """
     check_one_way(modifier, way)
     if action.may_jump or math.isinf(way.duration):
@@ -60,7 +60,7 @@ def check_course(
 
 
 def check_rates(action: ModifiedMotion, course: Profile) -> None:
-    """Refuses a speed (m/s) over time that is beyond the limits."""
+    """Rejects a speed (m/s) over time that exceeds the limits."""
     if math.isinf(course.duration):
         return
     step = course.duration / _SAMPLES
@@ -69,7 +69,7 @@ def check_rates(action: ModifiedMotion, course: Profile) -> None:
 
 
 def _check_speeds(action: ModifiedMotion, speeds: list[float], step: float) -> None:
-    """Refuses speeds (m/s), one after the other, that are beyond the limits."""
+    """Rejects a sequence of speeds (m/s) that exceeds the limits."""
     limits = action.limits if action.strict else action.tyres
     for gaining, cap in ((True, limits.acceleration), (False, limits.deceleration)):
         rates = (

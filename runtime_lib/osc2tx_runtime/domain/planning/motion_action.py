@@ -37,17 +37,17 @@ if TYPE_CHECKING:
 
 
 class Refused(ScenarioError):
-    """Something that cannot be done: the action fails with this reason."""
+    """The command is not possible: the action fails with this reason."""
 
 
 IMPOSSIBLE = (Refused, PathError, PlacementError, MapError)
-"""What makes an action fail, not the run."""
+"""Errors that fail an action, not the run."""
 
 
 class MotionAction(Action):
     """An action that commands the motion of its actor.
 
-    An `IMPOSSIBLE` error is the reason why the action fails; at the start it commands nothing then.
+    An `IMPOSSIBLE` error is the reason why the action fails; at the start it then commands nothing.
     """
 
     _refused: str | None = None
@@ -66,8 +66,7 @@ class MotionAction(Action):
         """Command the actor in a claimed slot.
 
         Raises:
-            Refused: By its own place or speed, which is whatever it makes it; or to a speed that
-                nothing on a road has.
+            Refused: The actor is its own reference, or the speed exceeds the top speed.
         """
         course = command.course if isinstance(command, Careful) else command
         if isinstance(course, SpeedChange) and abs(course.target) > TOP_SPEED and not self.may_jump:
@@ -77,16 +76,16 @@ class MotionAction(Action):
         super().command(slot, replace(command, unphysical=True) if self.may_jump else command)
 
     def situation(self) -> str:
-        """Return that it stands, which is why things do not come about."""
+        """Return that the actor is at standstill, as a reason for an unreached goal."""
         if not self.slots or self.actor.id not in self.world.actors():
             return ""
         return f"{self.actor.id} stands" if self.here.v == 0.0 else ""
 
     def place_of(self, actor_id: str) -> LanePosition:
-        """Place of an actor on the lanes.
+        """Position of an actor on the lanes.
 
         Raises:
-            Refused: If it is off the road.
+            Refused: It is off the road.
         """
         place = self.world.state(actor_id).lane_position
         if place is None:
@@ -103,10 +102,10 @@ class MotionAction(Action):
             self._refused = error.message
 
     def on_started(self) -> None:
-        """Whatever else is to be commanded at the start."""
+        """Further commands at the start."""
 
     def update(self) -> Status:
-        """Update; fails with what was found impossible."""
+        """Update; fails if a command was impossible."""
         if self._refused is not None:
             return self.fail(self._refused)
         excess = self._excess()
@@ -118,7 +117,7 @@ class MotionAction(Action):
             return self.fail(error.message)
 
     def _excess(self) -> str | None:
-        """The limit that a motion exceeded since the start, if its limits must hold."""
+        """The limit that the motion has exceeded since the start, if limits must hold."""
         overloads = self.world.overloads()
         if not overloads or not self.slots or self.option() != "must_be_physical":
             return None
@@ -131,9 +130,9 @@ class MotionAction(Action):
     def on_update(self) -> Status:
         """Ends with the goal in all slots, fails as soon as one cannot be reached."""
         if self.elapsed_steps == 0:
-            return Status.RUNNING  # the commands act from now on
+            return Status.RUNNING  # the commands have effect from now
         done, progress_of, actor_id = {}, self.context.world.progress, self.actor.id
-        # An actor without a command keeps moving, and may come to the end of the road as well.
+        # An actor without a command keeps moving, and may also reach the end of the road.
         for slot in self.slots or (LONGITUDINAL,):
             progress = progress_of(actor_id, slot)
             if progress.failed is not None:
@@ -145,7 +144,7 @@ class MotionAction(Action):
         """Whether the action has reached its goal.
 
         Args:
-            done: For each slot whether its command is.
+            done: Whether the command is done, by slot.
         """
         return self.registered.ends != "open" and all(done.values())
 
@@ -160,7 +159,7 @@ class MotionAction(Action):
         return self.world.limits(self.actor.id, of_vehicle=False)
 
     def be_at(self, initial: InitialState) -> None:
-        """Be at a place at once, in the state that belongs to it."""
+        """Teleport to a position, with the state there."""
         assign = partial(self.world.assign, self.actor.id)
         self.effect("position", initial.at, lambda: assign(at=initial.at))
         if initial.speed is not None:
@@ -169,7 +168,7 @@ class MotionAction(Action):
             self.turn(initial.heading, initial.tilt)
 
     def turn(self, heading: float | None, tilt: Tilt) -> None:
-        """Turn at once to a heading (rad), pitch and roll, as far as given."""
+        """Set heading, pitch and roll (rad) instantly, as far as given."""
         apply = partial(self.world.assign, self.actor.id, heading=heading, tilt=tilt)
         self.effect("orientation", (heading, tilt), apply)
 
@@ -182,19 +181,19 @@ class MotionAction(Action):
         return self.generator(self.action_name).choice(free or ["left"])
 
     def fixed_duration(self) -> float | None:
-        """The duration (s) if it is one number, from this step on until its exact end."""
+        """The duration (s) if it is a single number, from this step until its exact end."""
         duration = self.duration
         if duration is None or isinstance(duration, tuple):
             return None
         return max(0.0, float(duration) - self.started_late)
 
     def time_left(self) -> float | None:
-        """Seconds until the end of the duration, if it is one number."""
+        """Seconds until the end of the duration, if it is a single number."""
         duration = self.fixed_duration()
         return None if duration is None else duration - self.elapsed
 
     def option(self) -> str:
-        """What `physical_movement` says; `prefer_physical` without it."""
+        """The option of `physical_movement`; `prefer_physical` without it."""
         physical = one_of_kind(self.modifiers, PhysicalMovement)
         return "prefer_physical" if physical is None else physical.option
 
@@ -211,24 +210,24 @@ class MotionAction(Action):
 
 
 class Assignment(MotionAction):
-    """An action that changes a state at once: it takes no time (DSL 8.8.2.4 to 8.8.2.7)."""
+    """An action that changes a state instantly (DSL 8.8.2.4 to 8.8.2.7)."""
 
     def on_update(self) -> Status:
-        """Ends as soon as the change is carried out."""
+        """Ends as soon as the change is applied."""
         return Status.SUCCESS
 
 
 def note_lights(context: ExecutionContext, actor_id: str, lights: LightState) -> None:
-    """Writes to the trace what was asked for and what shines now."""
+    """Writes the requested lights and the shining ones to the trace."""
     context.trace.other(0, "lights", actor=actor_id, mode=lights.mode, lit=lights.lit)
 
 
 class ModifiedMotion(MotionAction):
-    """An action with modifiers that say how its actor moves, and until when.
+    """An action with modifiers that state the motion of its actor, and its end.
 
     Attributes:
         movable: The actor.
-        planned: Seconds after its start at which it reaches its goal, where that ends it.
+        planned: Seconds from its start to its goal, if the goal ends it.
     """
 
     def __init__(
@@ -241,12 +240,12 @@ class ModifiedMotion(MotionAction):
         self.planned: float | None = None
 
     def state_at_start(self, modifiers: Sequence[Modifier], source: str) -> None:
-        """Let the action also have modifiers that hold at its start; before setup."""
+        """Add modifiers that hold at its start; call it before setup."""
         super().state_at_start(modifiers, source)
         self._given = self.modifiers
 
     def initialise(self) -> None:
-        """Read the arguments of the modifiers that are read late, and start."""
+        """Evaluate the late arguments of the modifiers, and start."""
         self.__dict__.pop("origin", None)
         if any(callable(value) for each in self._given for value in each.given().values()):
             self.modifiers = with_blame(self, partial(settled, self._given))
@@ -256,12 +255,12 @@ class ModifiedMotion(MotionAction):
 
     @cached_property
     def origin(self) -> LanePosition:
-        """Its place at the start of the action: positions count along the road there, and on."""
+        """Its position at the start: positions count along that road and its successors."""
         return self.place_of(self.actor.id)
 
     @cached_property
     def lasting(self) -> tuple[Modifier, ...]:
-        """The modifiers but those that only mention the start."""
+        """The modifiers except those that only constrain the start."""
         return tuple(modifier for modifier in self.modifiers if not modifier.is_start)
 
     @cached_property
@@ -270,7 +269,7 @@ class ModifiedMotion(MotionAction):
         return one_of_kind(self.lasting, Orient) if self.movable.lane_bound else None
 
     def time_frame(self) -> Duration | None:
-        """The seconds that the action may take: its duration, or what one around it leaves."""
+        """The time (s) for the action: its duration, or the rest of an enclosing one."""
         limit = None if self.context.first_come else limit_of(self)
         if limit is None or math.isinf(limit.most_left):
             return self.duration
@@ -288,7 +287,7 @@ class ModifiedMotion(MotionAction):
         return open_ended and self._limits is not None and self._limits.ends_open
 
     def time_left(self) -> float | None:
-        """Seconds until the end, where it is known or planned."""
+        """Seconds until the end, if it is known or planned."""
         if self._phase is not None:
             return self._phase.left * self.context.dt
         known = super().time_left()

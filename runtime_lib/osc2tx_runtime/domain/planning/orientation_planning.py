@@ -30,10 +30,10 @@ _TILTED = 0.01  # rad
 
 
 def turn_command(action: ModifiedMotion, turned: Yaw | Orient) -> Command | None:
-    """How to turn; None if it is tilted only, and lies on the road anyway.
+    """The command to turn; None if only a tilt is stated, and the road has it.
 
     Raises:
-        Refused: It cannot turn by this angle from its lane, or has to follow the road.
+        Refused: It cannot turn by this angle from its lane, or it has to follow the road.
     """
     here, world = action.here, action.world
     heading = heading_of(world, action.movable, [turned], here)
@@ -58,10 +58,10 @@ def turn_command(action: ModifiedMotion, turned: Yaw | Orient) -> Command | None
 
 
 def check_tilt(action: ModifiedMotion, turned: Yaw | Orient) -> None:
-    """Refuses a pitch and roll that an actor does not have.
+    """Rejects a pitch and roll that an actor does not have.
 
     Raises:
-        Refused: It is tilted otherwise.
+        Refused: Its tilt differs.
     """
     here, tilt = action.here, tilt_of(action.world, [turned], action.here)
     for name, wanted, found in (
@@ -76,10 +76,10 @@ def check_tilt(action: ModifiedMotion, turned: Yaw | Orient) -> None:
 
 
 def tilt_again(action: ModifiedMotion) -> None:
-    """Keeps what wheels would bring back to the road, or sees that the road still has it.
+    """Keeps a tilt that the wheels would reset, or checks that the road still has it.
 
     Raises:
-        Refused: The road is tilted otherwise by now.
+        Refused: The tilt of the road has changed.
     """
     turned = action.orient
     if turned is None:
@@ -91,7 +91,7 @@ def tilt_again(action: ModifiedMotion) -> None:
 
 
 def lies_so(action: ModifiedMotion) -> bool:
-    """Whether a vehicle is tilted as it is to be at the end; always for those that turn."""
+    """Whether a vehicle has the tilt required at the end; always true for actors that turn."""
     turned = action.orient
     if turned is None:
         return True
@@ -103,7 +103,7 @@ def lies_so(action: ModifiedMotion) -> bool:
 
 
 def _course(action: ModifiedMotion, turned: Yaw | Orient) -> Profile | None:
-    """The heading (rad) over time, if a shape gives it."""
+    """The heading (rad) over time, if a shape computes it."""
     own = own_course(turned.shape)
     if own is None:
         return None
@@ -112,7 +112,7 @@ def _course(action: ModifiedMotion, turned: Yaw | Orient) -> Profile | None:
 
 
 def _samples(course: Profile | None, lane: float) -> list[float]:
-    """Angles (rad) against the lane in the course of the time."""
+    """Angles (rad) relative to the lane over time."""
     if course is None:
         return []
     end = 1.0 if math.isinf(course.duration) else course.duration
@@ -120,7 +120,7 @@ def _samples(course: Profile | None, lane: float) -> list[float]:
 
 
 def _jump(action: ModifiedMotion, heading: float | None, tilt: Tilt) -> None:
-    """Turns the actor at once; one on a lane keeps to its heading."""
+    """Turns the actor instantly; an actor on a lane keeps the heading of the lane."""
     if action.movable.lane_bound and action.here.lane_position is not None:
         heading = None
     if (heading, tilt) != (None, LEVEL):

@@ -20,8 +20,8 @@ from osc2tx_runtime.world.commands import (
 from osc2tx_runtime.world.geometry.curve import Curve, turn_between
 from osc2tx_runtime.world.state import ActorState
 
-_FAR = 100.0  # m to a path that an actor is ready to go by itself
-_SLIP = 0.2  # rad between heading and way that a follower can still have
+_FAR = 100.0  # greatest distance (m) to a path
+_SLIP = 0.2  # greatest angle (rad) between heading and path of a follower
 
 
 def path_command(
@@ -30,7 +30,7 @@ def path_command(
     """The lateral command for a path.
 
     Raises:
-        PathError: The path is empty, too far away, or cannot be driven as it says.
+        PathError: The path is empty, too far away, or infeasible.
     """
     curve = path_in_world(road_map, path).curve
     begin, end = interval_between_offsets(curve, *offsets)
@@ -52,10 +52,10 @@ def trajectory_commands(
     """The commands for a trajectory. Before its first time the actor goes to its first point.
 
     Raises:
-        PathError: The trajectory is empty, too far away, or cannot be driven as it says.
+        PathError: The trajectory is empty, too far away, or infeasible.
     """
     trajectory = trajectory_in_world(road_map, trajectory)
-    _ = trajectory.curve  # checks it as it is written
+    _ = trajectory.curve  # checks it
     lead = 0.0
     if trajectory.time_stamps[0] > 1e-9:
         first = trajectory.points[0]
@@ -82,7 +82,7 @@ def trajectory_commands(
 
 
 def _check_yaw(curve: Curve, places: tuple[float, ...]) -> None:
-    """A follower looks where it goes."""
+    """Check that the headings of a path are those of a follower."""
     for at in places:
         wanted, way = curve.yaw(at), curve.heading(at)
         if wanted is None or way is None:

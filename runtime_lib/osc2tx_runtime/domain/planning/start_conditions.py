@@ -1,7 +1,8 @@
-"""Start conditions of an action (`at: start`): checked, or set where physics need not hold.
+"""Start conditions of an action (`at: start`): checked, or set instantly.
 
-Where physics need not hold (`physical_movement(prefer_non_physical)`) the actor is put there at
-once. Otherwise the actions before have to see to it; if they have not, the action fails.
+If physics need not hold (`physical_movement(prefer_non_physical)`), the actor is set to them
+instantly. Otherwise the preceding actions have to establish them; if they have not, the action
+fails.
 """
 
 from __future__ import annotations
@@ -128,7 +129,7 @@ def _check(action: ModifiedMotion, modifier: Modifier) -> None:
 
 
 def _check_measured(action: ModifiedMotion, at_start: Sequence[Modifier]) -> None:
-    """Refuses what holds by the reference alone, while the actor is not there."""
+    """Rejects conditions that hold for the commanded state, but not for the measured one."""
     off = action.world.deviation(action.actor.id, ())
     if off is None:
         return
@@ -149,7 +150,10 @@ def _check_place(action: ModifiedMotion, position: Position) -> None:
 
 
 def _check_route(action: ModifiedMotion, along: Along) -> None:
-    """Refuses a start elsewhere on a route than its offset says; beside a position, off it."""
+    """Rejects a start on a route at another position than its offset.
+
+    With a position, a start off it.
+    """
     try:
         here, _ = driven_on_route(action.world.map, along.way, action.here)
     except ScenarioError as error:
@@ -163,7 +167,7 @@ def measured(action: ModifiedMotion, position: Position) -> tuple[float, float, 
     """The measured position (m) of an actor, its required range, and its name in messages.
 
     Raises:
-        Refused: There is no way to the reference.
+        Refused: No route leads to the reference.
     """
     if position.reference is None:
         place = action.place_of(action.actor.id)
@@ -187,10 +191,10 @@ def measured(action: ModifiedMotion, position: Position) -> tuple[float, float, 
 
 
 class PlaceWatch:
-    """A place that has to be reached while something else decides the speed.
+    """A position to reach while another modifier determines the speed.
 
     Attributes:
-        missed: How the place is missed at the present step; None if it is not.
+        missed: How the position is missed at the present step; None if it is reached.
     """
 
     def __init__(self, position: Position) -> None:
@@ -229,7 +233,7 @@ def _check_lateral(action: ModifiedMotion, lateral: Lateral) -> None:
 
 
 def _within(value: float, low: float, high: float, near: float, what: str, unit: str) -> None:
-    """Refuses a value outside of its bounds."""
+    """Rejects a value outside its bounds."""
     if low - near <= value <= high + near:
         return
     wanted = f"{low:.2f}" if low == high else f"from {low:.2f} to {high:.2f}"

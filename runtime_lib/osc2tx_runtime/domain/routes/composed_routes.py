@@ -1,9 +1,9 @@
 """Routes composed of roads, lanes, crossings and points (DSL 8.5.7).
 
-Each element offers ways through itself: a crossing one, a road one for each of its lanes. Of these
-the first ones are taken that can be joined. Gaps between lanes for vehicles are filled by the way
-along lanes, changing lanes where there is room; other gaps by a straight line. A lane that is
-entered or left in its middle, by a crossing or at a point, is used from there or up to there.
+Each element offers paths through itself: a crossing one, a road one for each of its lanes. The
+first paths that can be joined are used. Gaps between lanes for vehicles are filled by a path along
+lanes, with lane changes where there is room; other gaps by a straight line. A lane that is entered
+or left between its ends, by a crossing or at a point, is used from there or up to there.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ Place = LanePosition | MapPose
 Element = Place | MapSegment | Path
 """A point, a part of the map, or a path through poses."""
 
-_STEP = 2.0  # m between points of a way
-_NEAR = 0.05  # m: places so near are one
+_STEP = 2.0  # m between points of a path
+_NEAR = 0.05  # m: closer positions are equal
 
 
 @dataclass(frozen=True, slots=True)
 class MadeRoute(NetworkPath):
-    """A route that a scenario has composed; `places` are left out.
+    """A route that a scenario has composed; without its positions.
 
     Attributes:
         route_elements: Its elements, in order.
@@ -48,11 +48,11 @@ class MadeRoute(NetworkPath):
 
 @dataclass(frozen=True)
 class _Way:
-    """A way through an element.
+    """A path through an element.
 
     Attributes:
-        places: Where it leads along: places on lanes, or poses.
-        lanes: The lanes that it follows; empty if it follows none.
+        places: Its positions on lanes, or poses.
+        lanes: The lanes that it follows, if any.
     """
 
     places: tuple[Place, ...]
@@ -115,7 +115,7 @@ def _of_point(graph: RoadGraph, element: Element, connect_by: ConnectRoutePoints
 
 
 def _ways(graph: RoadGraph, element: Element) -> Iterator[_Way]:
-    """Ways through an element, in the order in which they are tried."""
+    """Paths through an element, in order of trial."""
     match element:
         case LanePosition():
             yield _Way((element,))
@@ -137,7 +137,7 @@ def _ways(graph: RoadGraph, element: Element) -> Iterator[_Way]:
 
 
 def _on_lane(graph: RoadGraph, pose: MapPose) -> LanePosition | None:
-    """The place on a lane, a drivable one if there is one; None off the lanes."""
+    """The position on a lane, preferably a drivable one; None off the lanes."""
     for types in (DRIVING, LANE_TYPES):
         on = graph.map.locate(pose.x, pose.y, pose.z, lane_types=types, max_distance=1e-3)
         if on is not None:
@@ -146,7 +146,7 @@ def _on_lane(graph: RoadGraph, pose: MapPose) -> LanePosition | None:
 
 
 def _along(graph: RoadGraph, lanes: tuple[MapSegment, ...]) -> _Way:
-    """The way along the centre lines of lanes."""
+    """The path along the centre lines of lanes."""
     return _Way((graph.begin(lanes[0]), graph.end(lanes[-1])), lanes)
 
 
@@ -156,7 +156,7 @@ def _along(graph: RoadGraph, lanes: tuple[MapSegment, ...]) -> _Way:
 def _join(
     graph: RoadGraph, offers: Sequence[Sequence[_Way]], taken: list[_Way]
 ) -> list[Place] | PathError:
-    """Places along the first ways that can be joined; else why the last one cannot."""
+    """Positions along the first paths that can be joined; else why the last one cannot."""
     failure = PathError("the route has an element without a way through it")
     for way in offers[len(taken)]:
         found = _places(graph, [*taken, way])
@@ -169,7 +169,7 @@ def _join(
 
 
 def _places(graph: RoadGraph, ways: Sequence[_Way]) -> list[Place] | PathError:
-    """Places along ways, with what fills the gaps between them."""
+    """Positions along paths, with filled gaps."""
     used = [_used(graph, ways, number) for number in range(len(ways))]
     try:
         places = list(_within(graph, used[0]))
@@ -182,7 +182,7 @@ def _places(graph: RoadGraph, ways: Sequence[_Way]) -> list[Place] | PathError:
 
 
 def _used(graph: RoadGraph, ways: Sequence[_Way], number: int) -> _Way:
-    """A way, from where it is entered to where it is left."""
+    """The part of a path from its entry to its exit."""
     way = ways[number]
     if not way.lanes:
         return way
@@ -195,7 +195,7 @@ def _used(graph: RoadGraph, ways: Sequence[_Way], number: int) -> _Way:
 
 
 def _on_way(graph: RoadGraph, way: _Way, place: Place) -> LanePosition | None:
-    """Where on the centre of its lanes a place of a neighbour is; None if it is elsewhere."""
+    """Position of a neighbour on the centre of its lanes; None if it is not on them."""
     keys = {graph.key(lane) for lane in way.lanes}
     if isinstance(place, MapPose):
         types = frozenset(graph.lane(lane).type for lane in way.lanes)
@@ -209,7 +209,7 @@ def _on_way(graph: RoadGraph, way: _Way, place: Place) -> LanePosition | None:
 
 
 def _within(graph: RoadGraph, way: _Way) -> Iterator[Place]:
-    """Places along a way itself."""
+    """Positions along a path itself."""
     yield way.places[0]
     for before, after in pairwise(way.places):
         if way.lanes:
@@ -218,7 +218,7 @@ def _within(graph: RoadGraph, way: _Way) -> Iterator[Place]:
 
 
 def _between(graph: RoadGraph, before: Place, after: Place) -> Iterator[Place]:
-    """What lies between two places: a way along lanes, else nothing but the straight line."""
+    """Positions between two others: along lanes, else none (a straight line)."""
     if isinstance(before, MapPose) or isinstance(after, MapPose):
         return
     if _same(graph, before, after):

@@ -1,7 +1,7 @@
 """Conversion between route coordinates (s, t), road coordinates and lane positions.
 
-A lane is measured from where it begins on its road, over all lane sections it continues in; it
-goes by the id it has there.
+A lane is measured from its start on its road, over all its lane sections; it is identified by its
+id at its start.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from osc2tx_runtime.domain.points_and_poses import OdrPoint, RoadRoute, RoutePoi
 from osc2tx_runtime.errors import PlacementError
 from osc2tx_runtime.opendrive import LanePosition, LaneSection, MapError, RoadMap
 
-_AT_END = 1e-5  # m: so near to the end of a lane is there
+_AT_END = 1e-5  # m: closer positions are at the end of a lane
 _MISS = 1e-6  # m by which a point may miss its road
-_EXACT = 1e-7  # m to which a distance along the road is met
-_ATTEMPTS = 20  # to meet it
+_EXACT = 1e-7  # m: precision of a distance along the road
+_ATTEMPTS = 20  # to reach it
 
 _begin_of = attrgetter("begin")
 
 
 def position_along_road(road_map: RoadMap, place: LanePosition) -> float:
-    """Metres along the reference line of its road, from where the traffic of its lane enters it.
+    """Metres along the reference line of the road, from where the traffic of the lane enters it.
 
     It is the position that the modifier `position` states without a reference (DSL 8.3.6, 8.9.2).
     """
@@ -38,7 +38,7 @@ def position_along_road(road_map: RoadMap, place: LanePosition) -> float:
 def place_along_road(
     road_map: RoadMap, place: LanePosition, position: float
 ) -> LanePosition | None:
-    """The place on a lane at a position along its road; None if the lane does not lead there.
+    """The position on a lane at a distance along its road; None if the lane does not lead there.
 
     Args:
         road_map: The map.
@@ -57,7 +57,7 @@ def place_along_road(
 
 
 def _in_section_at(road_map: RoadMap, place: LanePosition, s: float) -> LanePosition | None:
-    """The place at an s (m) of its road on a lane, which may have another id there."""
+    """The position at an s (m) of the road on a lane, whose id may differ there."""
     sections = road_map.roads[place.road].sections
     key, wanted = road_map.lane_key(place), max(bisect_right(sections, s, key=_begin_of) - 1, 0)
     forwards = road_map.travel_direction(place.road, place.lane) > 0
@@ -74,12 +74,13 @@ def _in_section_at(road_map: RoadMap, place: LanePosition, s: float) -> LanePosi
 
 
 def position_from(road_map: RoadMap, origin: LanePosition, place: LanePosition) -> float:
-    """As `position_along_road`, on from the road of an origin: beyond its end along the lanes.
+    """As `position_along_road`, from the road of an origin: beyond its end along the lanes.
 
     Args:
         road_map: The map.
-        origin: A place on the road at whose start the position is zero.
-        place: A place on it, or on a road to which it leads; on others it counts along that road.
+        origin: A position on the road at whose start the result is zero.
+        place: A position on it, or on a road to which it leads; on others the result counts along
+            that road.
     """
     if place.road == origin.road:
         return position_along_road(road_map, place)
@@ -96,10 +97,10 @@ def position_from(road_map: RoadMap, origin: LanePosition, place: LanePosition) 
 def way_to_position(
     road_map: RoadMap, origin: LanePosition, here: LanePosition, position: float
 ) -> float:
-    """Metres along the lane from a place to a position on from the road of an origin.
+    """Metres along the lane from a place to a position from the road of an origin.
 
-    It is negative if the position lies behind. Where the lane ends before, the rest counts along
-    the road.
+    It is negative if the position is behind. If the lane ends before, the rest counts along the
+    road.
     """
     there = place_along_road(road_map, here if here.road == origin.road else origin, position)
     way = None if there is None else road_map.route_distance(here, there)
@@ -114,7 +115,7 @@ def place_at_distance(
     Args:
         road_map: The map.
         start: A place on the lane.
-        origin: From where the distance counts; it may be on another lane.
+        origin: Origin of the distance; it may be on another lane.
         distance: Positive ahead.
     """
     place = start
@@ -132,14 +133,14 @@ def place_at_distance(
 
 
 def route_point_at(road_map: RoadMap, place: LanePosition) -> RoutePoint:
-    """A place on a lane in the coordinates of the lane."""
+    """A position on a lane in the coordinates of the lane."""
     entry = road_entry(road_map, place)
     along = road_map.route_distance(entry, place) or 0.0
     return RoutePoint(RoadRoute(entry.road, entry.lane), along, place.offset)
 
 
 def place_of_route(road_map: RoadMap, point: RoutePoint) -> LanePosition | opendrive.Pose:
-    """Place of a point in route coordinates; beyond the end of its lane on the ones that follow.
+    """Position of a point in route coordinates; beyond the end of its lane on its successors.
 
     Raises:
         PlacementError: There is no such place.
@@ -193,7 +194,7 @@ def _beside_path(path: Path, point: RoutePoint) -> opendrive.Pose:
 
 
 def _begin(road_map: RoadMap, road: str, lane: int) -> LanePosition:
-    """Where a lane begins: in the first section, in direction of travel, that has it."""
+    """Start of a lane: in its first section in direction of travel."""
     with_s = road_map.travel_direction(road, lane) > 0
     sections = road_map.roads[road].sections
     for section in sections if with_s else reversed(sections):
@@ -203,7 +204,7 @@ def _begin(road_map: RoadMap, road: str, lane: int) -> LanePosition:
 
 
 def road_entry(road_map: RoadMap, place: LanePosition) -> LanePosition:
-    """Where the lane of a place begins on its road, in direction of travel."""
+    """Start of the lane of a position on its road, in direction of travel."""
     key = road_map.lane_key(place)
     sections = road_map.roads[place.road].sections
     with_s = road_map.travel_direction(place.road, place.lane) > 0
@@ -226,7 +227,7 @@ def _last_in(section: LaneSection) -> float:
 
 
 def place_of_odr(road_map: RoadMap, point: OdrPoint) -> LanePosition | opendrive.Pose:
-    """Place of a point in road coordinates."""
+    """Position of a point in road coordinates."""
     try:
         lane = point.lane
         if lane is None:

@@ -1,7 +1,7 @@
 """Conversion of paths and trajectories through points of the road network to poses.
 
-Scenarios make them before the map is loaded, so the points are kept until an action
-uses the path.
+Scenarios create them before the map is loaded, so the conversion takes place when an action uses
+the path.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def _route_in_world(road_map: RoadMap, route: MadeRoute) -> Path:
 
 
 def _is_driven(road_map: RoadMap, element: Element) -> bool:
-    """Whether an element lies on lanes of vehicles: the way along those bends smoothly."""
+    """Whether an element is on lanes for vehicles: paths along those are smooth."""
     match element:
         case Path():
             return False
@@ -76,7 +76,7 @@ def _is_driven(road_map: RoadMap, element: Element) -> bool:
 def _elements(
     road_map: RoadMap, element: NetworkPoint | Route | Path | RoadRoute
 ) -> Iterator[Element]:
-    """The parts of an element of a route; elements in junctions fill gaps anyway."""
+    """The parts of an element of a route; elements in junctions fill gaps in any case."""
     if isinstance(element, Path):
         yield path_in_world(road_map, element)
     elif isinstance(element, Route):
@@ -101,7 +101,9 @@ def _whole(road_map: RoadMap, route: RoadRoute) -> MapSegment:
 
 
 def trajectory_in_world(road_map: RoadMap, trajectory: Trajectory) -> Trajectory:
-    """The trajectory through poses; along lanes the time between points is shared by the way.
+    """The trajectory through poses.
+
+    Along lanes the time between points is proportional to the distance.
 
     Raises:
         PathError: A point is not on the map, or no way along lanes leads to it.

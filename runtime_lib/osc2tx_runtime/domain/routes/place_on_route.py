@@ -15,8 +15,8 @@ from osc2tx_runtime.opendrive import Advance, LanePosition, RoadMap
 from osc2tx_runtime.world.geometry.curve import Curve
 from osc2tx_runtime.world.state import ActorState
 
-_BESIDE = 2.0  # m from a path at which an actor still is on it: about half a lane
-_CORRECTIONS = 4  # of a way along a lane, which differs by some per cent from s
+_BESIDE = 2.0  # m from a path within which an actor is on it: about half a lane
+_CORRECTIONS = 4  # of a distance along a lane, which differs by some per cent from s
 _EDGE = 0.5  # m beyond the ends of a crossing
 
 
@@ -51,7 +51,7 @@ def place_on_route(
 def driven_on_route(
     road_map: RoadMap, route: Path | RoadPart, state: ActorState
 ) -> tuple[float, float]:
-    """As `place_on_route`, from where an actor that drives against the road comes to it.
+    """As `place_on_route`, for an actor that drives opposite to the road from its entry.
 
     Raises:
         ScenarioError: The actor is not on it.
@@ -65,10 +65,7 @@ def driven_on_route(
 
 
 def on_route(graph: RoadGraph, route: MapSegment, end: LanePosition, distance: float) -> Advance:
-    """Go along a route from one of its ends (m), backwards if negative.
-
-    On a road that counts along its reference line, else along the lane.
-    """
+    """Return the position at a distance (m) from one end of a route, backwards if negative."""
     step = graph.map.advance(end, distance)
     if route.kind != "road":
         return step

@@ -1,4 +1,4 @@
-"""Points of a way along lanes between places, with lane changes."""
+"""Points of a path along lanes between positions, with lane changes."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ _LEAST_CHANGE = 15.0  # m
 
 
 def way_through(road_map: RoadMap, places: Sequence[LanePosition]) -> tuple[Pose, ...]:
-    """Points of a way along lanes through places, in order.
+    """Points of a path along lanes through positions, in order.
 
     Raises:
-        PathError: A place cannot be reached from the one before.
+        PathError: A position cannot be reached from the one before.
     """
     points: list[Pose] = []
     for start, goal in pairwise(places):
@@ -34,7 +34,7 @@ def way_between(road_map: RoadMap, start: LanePosition, goal: LanePosition) -> t
     A lane change is spread over the last stretch on which both lanes are on one road.
 
     Raises:
-        PathError: There is no way, or no room for the lane change.
+        PathError: There is no path, or no room for the lane change.
     """
     length = road_map.route_distance(start, goal)
     if length is None or length <= 0.0:
@@ -70,7 +70,7 @@ def way_between(road_map: RoadMap, start: LanePosition, goal: LanePosition) -> t
 def _walk(
     road_map: RoadMap, start: LanePosition, distances: Sequence[float], route: Route | None
 ) -> list[LanePosition | None]:
-    """Places along the lane; None where it has ended."""
+    """Positions along the lane; None after its end."""
     steps = [road_map.advance(start, distance, route) for distance in distances]
     return [
         step.position if abs(step.travelled - distance) < 1e-3 else None
@@ -84,7 +84,7 @@ def _window(
     back: Sequence[LanePosition | None],
     distances: Sequence[float],
 ) -> tuple[float, float]:
-    """Distances between which to go from one lane to the other."""
+    """Distances between which the lane change takes place."""
     same = [
         a is not None and b is not None and a.road == b.road
         for a, b in zip(forth, back, strict=True)

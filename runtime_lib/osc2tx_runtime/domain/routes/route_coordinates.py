@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
 _EDGE = 0.5  # m beyond the ends of a crossing
-_UNKNOWN_WIDTH = 4.0  # m: of a crossing whose width nothing says
+_UNKNOWN_WIDTH = 4.0  # m: of a crossing without a stated width
 
 
 def place_in_route(
@@ -30,7 +30,7 @@ def place_in_route(
     """The position of an actor on the element under it.
 
     Raises:
-        ScenarioError: There is no such route under it.
+        ScenarioError: There is no such route at its position.
     """
     if route_type == "on_crossing":
         return _on_crossing(context, state)
@@ -76,12 +76,12 @@ def _from_axis(
 def between_on_section(
     context: ExecutionContext, here: ActorState, there: ActorState, *, ahead: bool
 ) -> float | None:
-    """How much further along the lane section of a place, or to its left, another one is (m).
+    """Distance (m) to another position along the lane section of a position, or to its left.
 
-    None if the other one is beside another section.
+    None if the other position is beside another section.
 
     Raises:
-        ScenarioError: The first one is on no lane section.
+        ScenarioError: The first position is not on a lane section.
     """
     place, other = here.lane_position, there.lane_position
     if place is None:
@@ -99,7 +99,7 @@ def between_on_section(
 
 
 def _aside(line: Pose, state: ActorState) -> float:
-    """How far (m) an actor is to the left of a line, on the surface."""
+    """Distance (m) of an actor to the left of a line, on the surface."""
     left = (state.y - line.y) * math.cos(line.h) - (state.x - line.x) * math.sin(line.h)
     return left / math.cos(line.roll)
 
@@ -125,11 +125,11 @@ def _on_crossing(context: ExecutionContext, state: ActorState) -> RoutePoint:
 def between_on_crossing(
     context: ExecutionContext, here: ActorState, there: ActorState, *, ahead: bool, mode: str
 ) -> float:
-    """How much further along a crossing, or to the left of it, another place is (m).
+    """Distance (m) to another position along a crossing, or to its left.
 
     Raises:
-        ScenarioError: The first one is on no crossing.
-        UnsupportedError: It is to be measured between boxes.
+        ScenarioError: The first position is not on a crossing.
+        UnsupportedError: A measurement between boxes is requested.
     """
     if mode != "reference_points":
         raise UnsupportedError("along a crossing distances count between reference points only")

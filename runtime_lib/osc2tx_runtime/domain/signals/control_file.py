@@ -35,11 +35,11 @@ def read_control_file(name: str, folders: Sequence[Path]) -> list[TrafficLightCy
     """Return the cycles of a file.
 
     Args:
-        name: As the scenario writes it, found like a map.
+        name: As stated in the scenario, searched like a map.
         folders: Of the settings.
 
     Raises:
-        InputError: There is no such file, or it is not as described above.
+        InputError: There is no such file, or its format is wrong.
     """
     path = _find(name, folders)
     try:

@@ -18,7 +18,7 @@ class TrafficLightBulb:
         color: Its color.
         icon: The symbol on it.
         map_id: Its id in the map; maps have none.
-        icon_positive: The symbol shines, on dark ground.
+        icon_positive: Whether the symbol shines on a dark ground.
         state: Its present state.
     """
 
@@ -31,7 +31,7 @@ class TrafficLightBulb:
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """The lamps for a meaning of a box, which are known once there is a map.
+    """The lamps for a meaning of a light, known once the map is loaded.
 
     Attributes:
         meaning: The meaning.
@@ -45,10 +45,10 @@ Bulbs = Sequence[TrafficLightBulb | BulbState] | Shown
 
 
 def states_of(bulbs: Bulbs, lamps: Sequence[Lamp], what: str) -> tuple[BulbState, ...]:
-    """States of the lamps of a box, in their order.
+    """States of the lamps of a light, in their order.
 
     Raises:
-        ScenarioError: They do not fit the lamps of the box.
+        ScenarioError: They do not fit the lamps of the light.
     """
     if isinstance(bulbs, Shown):
         states = lamps_that_mean(lamps, bulbs.meaning)

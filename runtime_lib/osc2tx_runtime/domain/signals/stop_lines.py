@@ -21,15 +21,15 @@ ValueT = TypeVar("ValueT")
 class TrafficLightStopLine(Route):
     """The stop line of a group of lights: from the map, or declared by the scenario.
 
-    Open members are those of the map for the first light of the group. A line
-    that the scenario moves, by `offset` or to other lanes, holds for all lights of the group
-    instead of those of the map. The secondary line is not one for vehicles to stop at.
+    Open members are those of the map for the first light of the group. A line that the scenario
+    moves, by `offset` or to other lanes, applies to all lights of the group instead of those of the
+    map. Vehicles do not stop at the secondary line.
 
     Args:
         traffic_light_group: The group.
-        route: The lane section that the line is on.
-        rightmost_lane: First lane that it holds for, counted from the right, from 1.
-        leftmost_lane: Last lane that it is for.
+        route: The lane section of the line.
+        rightmost_lane: First lane of the line, counted from the right, from 1.
+        leftmost_lane: Last lane of the line.
         offset: Its position on the route (m).
         secondary_stop_offset: Position of a second line (m); default: none.
         primary_stop_line_marking: Its marking.
@@ -59,13 +59,13 @@ class TrafficLightStopLine(Route):
         self._second_marking = secondary_stop_line_marking
         self._at: float | None = None
 
-    # --- where it is --------------------------------------------------------------------------
+    # --- position -----------------------------------------------------------------------------
 
     def settle(self, road_map: RoadMap, signals: Signals) -> None:
-        """Finds the line on the map, and moves it there to where the scenario says.
+        """Finds the line on the map, and moves it to the stated position.
 
         Raises:
-            PlacementError: The map has no line for the group, or none of such lanes.
+            PlacementError: The map has no line for the group, or none on these lanes.
         """
         graph, lights = graph_of(road_map), self.traffic_light_group.lights(signals)
         here, numbers, offset = self._section(graph, lights)
@@ -92,7 +92,7 @@ class TrafficLightStopLine(Route):
     def _section(
         self, graph: RoadGraph, lights: Sequence[str]
     ) -> tuple[MapSegment, Sequence[int], float]:
-        """Lane section of the line, its lanes counted from the right, and where it is on it."""
+        """Lane section of the line, its lanes counted from the right, and its position."""
         if self._route is not None and self._route.found.kind != "lane_section":
             raise UnsupportedError("a stop line lies on a lane_section here", self.source)
         for signal in (each for each in graph.map.signals() if each.id in lights):
@@ -122,41 +122,41 @@ class TrafficLightStopLine(Route):
 
     @property
     def route(self) -> LaneSection:
-        """The lane section that it is on."""
+        """The lane section of the line."""
         return self._as(LaneSection(), self.found)
 
     @property
     def rightmost_lane(self) -> int:
-        """First lane that it holds for, counted from the right."""
+        """First lane of the line, counted from the right."""
         return self._known("rightmost_lane", self._lanes[0])
 
     @property
     def leftmost_lane(self) -> int:
-        """Last lane that it holds for."""
+        """Last lane of the line."""
         return self._known("leftmost_lane", self._lanes[1])
 
     @property
     def offset(self) -> float:
-        """Where it is on its route (m)."""
+        """Its position on its route (m)."""
         return self._known("offset", self._at)
 
     @property
     def secondary_stop_offset(self) -> float:
-        """Where the second line is (m); where the first one is, if there is no other."""
+        """Position of the second line (m); default: that of the first."""
         return self.offset if self._second is None else self._second
 
     @property
     def primary_stop_line_marking(self) -> StopLineMarking:
-        """How it is drawn.
+        """Its marking.
 
         Raises:
-            ScenarioError: The scenario does not say it; maps do not.
+            ScenarioError: The scenario does not state it; maps have none.
         """
         return self._known("primary_stop_line_marking", self._marking)
 
     @property
     def secondary_stop_line_marking(self) -> StopLineMarking:
-        """Marking of the second line; that of the first one by default."""
+        """Marking of the second line; default: that of the first."""
         return self._second_marking or self.primary_stop_line_marking
 
     def _known(self, member: str, value: ValueT | None) -> ValueT:

@@ -14,7 +14,7 @@ from osc2tx_runtime.world.surroundings.traffic_light_lamps import Lamp
 
 
 class Moment(NamedTuple):
-    """Which phase of a cycle holds at a time.
+    """The phase of a cycle at a time.
 
     Attributes:
         number: Number of the phase, from 0.
@@ -26,10 +26,10 @@ class Moment(NamedTuple):
 
 
 def check_cycle(cycle: TrafficLightCycle) -> None:
-    """Refuses cycles that cannot be played.
+    """Rejects cycles that cannot be played.
 
     Raises:
-        ScenarioError: There is no phase, one of no length, or more than one group.
+        ScenarioError: There is no phase, a phase without duration, or more than one group.
     """
     if not cycle.phases:
         raise ScenarioError("a traffic_light_cycle without phases cannot be played")
@@ -41,12 +41,12 @@ def check_cycle(cycle: TrafficLightCycle) -> None:
 
 
 def period_of(cycle: TrafficLightCycle) -> float:
-    """Length of all phases (s)."""
+    """Duration of all phases (s)."""
     return math.fsum(phase.duration for phase in cycle.phases)
 
 
 def moment_of(cycle: TrafficLightCycle, time: float) -> Moment:
-    """Phase at a time (s) since the start of playing; a phase begins where one ends."""
+    """Phase at a time (s) since the start of playing; the next phase begins when one ends."""
     left = (time - cycle.start_offset + 1e-9) % period_of(cycle)
     for number, phase in enumerate(cycle.phases):
         if left < phase.duration:
@@ -58,7 +58,7 @@ def moment_of(cycle: TrafficLightCycle, time: float) -> Moment:
 def time_of(
     cycle: TrafficLightCycle, states: Sequence[BulbState], lamps: Sequence[Lamp]
 ) -> float | None:
-    """First time (s) in a cycle without offset at which lamps are so; None if never."""
+    """First time (s) in a cycle without offset at which lamps have these states; None if never."""
     begin = 0.0
     for phase in cycle.phases:
         if states_of(phase.bulbs_state, lamps, phase.group.name) == tuple(states):

@@ -1,4 +1,4 @@
-"""Declared traffic lights: boxes of bulbs, groups, phases, cycles (DSL 8.15).
+"""Declared traffic lights: bulbs, groups, phases, cycles (DSL 8.15).
 
 A `traffic_light` is a dynamic signal of the map, a `traffic_light_group` one of its controllers;
 `map_id` is their OpenDRIVE id.
@@ -38,12 +38,12 @@ __all__ = [
 
 
 class TrafficLight(MapObject):
-    """A box of lamps.
+    """A traffic light with its lamps.
 
     Args:
         map_id: Id of the signal in the map.
         bulbs: Its lamps, top to bottom or left to right; default: those of its type.
-        group: The group it belongs to; default: that of the map.
+        group: Its group; default: that of the map.
     """
 
     word = "traffic_light"
@@ -60,10 +60,10 @@ class TrafficLight(MapObject):
         self._group = group
 
     def find(self, signals: Signals) -> str:
-        """Id of the signal, once the map is known to have it.
+        """Check that the map has the signal; return its id.
 
         Raises:
-            ScenarioError: The map does not have it, or its lamps are not known.
+            ScenarioError: The map does not have it, or its lamps are unknown.
         """
         signal = self.required_id()
         if self._given is not None:
@@ -84,12 +84,12 @@ class TrafficLight(MapObject):
 
     @property
     def group(self) -> TrafficLightGroup:
-        """The group it belongs to; which one the map says, when it is asked."""
+        """Its group; by default that of the map, evaluated on access."""
         return self._group or TrafficLightGroup(light=self)
 
     @property
     def pose(self) -> Pose:
-        """Where its lower edge is, looking in the direction of the traffic that it is for."""
+        """Pose of its lower edge, with the heading of its traffic."""
         signal, road_map = self._found(), self.context.world.map
         at = road_map.road_pose(signal.road, signal.s, signal.t)
         turn = math.pi if signal.orientation == "-" else 0.0
@@ -127,11 +127,11 @@ class TrafficLight(MapObject):
         return signals.states(signal) == wanted
 
     def semantic_state_to_state(self, state: SemanticTrafficLightState) -> Shown:
-        """The lamps of the box for a meaning."""
+        """The lamps of the light for a meaning."""
         return Shown(state)
 
     def state_to_semantic_state(self, bulbs: Bulbs) -> SemanticTrafficLightState:
-        """What lamps mean; `non_functional` where no rule of traffic covers them."""
+        """Meaning of lamps; `non_functional` if no traffic rule covers them."""
         if isinstance(bulbs, Shown):
             return bulbs.meaning
         signals = self._signals
@@ -141,12 +141,12 @@ class TrafficLight(MapObject):
 
 
 class TrafficLightGroup(MapObject):
-    """Boxes that always show the same.
+    """Traffic lights that always show the same state.
 
     Args:
         map_id: Id of the controller in the map.
-        traffic_lights: Its boxes; default: the signals of the controller.
-        light: Instead of both: a box that belongs to it.
+        traffic_lights: Its lights; default: the signals of the controller.
+        light: Instead of both: a light of the group.
     """
 
     word = "traffic_light_group"
@@ -172,7 +172,7 @@ class TrafficLightGroup(MapObject):
         """OpenDRIVE id.
 
         Raises:
-            ScenarioError: The box is in no group of the map.
+            ScenarioError: The light is in no group of the map.
         """
         if self._light is None:
             return self._map_id
@@ -185,7 +185,7 @@ class TrafficLightGroup(MapObject):
 
     @property
     def name(self) -> str:
-        """What messages call it."""
+        """Its name in messages."""
         if self._light is not None:
             return f"group of {self._light.required_id()}"
         if self._given is None:
@@ -206,7 +206,7 @@ class TrafficLightGroup(MapObject):
 
     @property
     def traffic_lights(self) -> tuple[TrafficLight, ...]:
-        """Its boxes."""
+        """Its lights."""
         if self._given is not None:
             return self._given
         found = tuple(TrafficLight(map_id=each) for each in self.lights(self._signals))
@@ -215,7 +215,7 @@ class TrafficLightGroup(MapObject):
         return found
 
     def is_same(self, other: TrafficLightGroup) -> bool:
-        """Whether two are one group."""
+        """Whether both are the same group."""
         if self is other:
             return True
         return self._map_id is not None and self._map_id == other._map_id
@@ -225,7 +225,7 @@ class TrafficLightGroup(MapObject):
         """The state that the `traffic_light_control` of the map requires.
 
         Raises:
-            ScenarioError: That says nothing about it.
+            ScenarioError: It has no cycle of the group.
         """
         signals = self._signals
         own = set(self.lights(signals))
@@ -236,22 +236,22 @@ class TrafficLightGroup(MapObject):
 
     @property
     def bulbs(self) -> tuple[TrafficLightBulb, ...]:
-        """The lamps of all its boxes with their present states."""
+        """The lamps of all its lights with their present states."""
         return tuple(bulb for light in self.traffic_lights for bulb in light.bulbs)
 
     def state_equal(self, bulbs: Bulbs) -> bool:
-        """Whether every box shows the same as the argument."""
+        """Whether each light shows the same as the argument."""
         return all(light.state_equal(bulbs) for light in self.traffic_lights)
 
 
 @dataclass(frozen=True, slots=True)
 class TrafficLightPhase:
-    """The state of a group for a while.
+    """The state of a group for a duration.
 
     Attributes:
         group: The group.
-        bulbs_state: What each of its boxes shows.
-        duration: For how long (s).
+        bulbs_state: The state of each of its lights.
+        duration: Duration (s).
     """
 
     group: TrafficLightGroup
@@ -261,11 +261,11 @@ class TrafficLightPhase:
 
 @dataclass(frozen=True, slots=True)
 class TrafficLightCycle:
-    """Phases of one group, in order of time, again and again.
+    """Phases of one group in order, repeated.
 
     Attributes:
         phases: The phases.
-        synchronization_group_id: Cycles with the same id keep in step.
+        synchronization_group_id: Cycles with the same id are synchronized.
         start_offset: Seconds from the start of playing until the first phase begins; before it
             runs the end of the cycle.
     """
@@ -276,7 +276,7 @@ class TrafficLightCycle:
 
 
 class TrafficLightControl:
-    """What knows the cycles of traffic lights: the map.
+    """The owner of the cycles of traffic lights: the map.
 
     Attributes:
         traffic_light_control: The cycles.

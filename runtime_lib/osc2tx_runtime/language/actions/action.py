@@ -37,15 +37,17 @@ class GlobalAction(BaseAction):
 class Action(BaseAction):
     """One action of one actor.
 
-    It hands in commands with `self.command`, which act from this instant to the next.
+    It issues commands with `self.command`, which act from this instant to the next.
 
     Attributes:
-        accepts: Types of modifiers the action takes; others are an `UnsupportedError` at setup.
-        accepts_with: Which of these it takes with a value of a parameter; `""`: without a value.
-        physical: It moves the actor, and cannot let it jump (`prefer_non_physical`).
+        accepts: Types of modifiers that the action accepts; others are an `UnsupportedError` at
+            setup.
+        accepts_with: Those accepted only with a value of a parameter; `""`: without a value.
+        physical: Whether it moves the actor physically, so that `prefer_non_physical` is
+            impossible.
         actor: The actor.
         modifiers: As given.
-        modifier_sources: Their positions in the scenario; none where the map does not tell them.
+        modifier_sources: Their source positions; empty without a source map.
         slots: The slots that it claims while it runs; `__init__` of a subclass may narrow them.
     """
 
@@ -72,18 +74,18 @@ class Action(BaseAction):
         return self.actor.id
 
     def become(self, method: Method) -> None:
-        """Take name, slots and ending of the method the action was made for."""
+        """Take name, slots and ending of the method of the action."""
         if self.slots is self.registered.slots:  # not narrowed by a subclass
             self.slots = method.slots
         super().become(method)
 
     @property
     def jumps_if_it_must(self) -> bool:
-        """Whether it can begin although its actor is elsewhere: the actor jumps to its start."""
+        """Whether it can begin at another state of its actor, which is then set to its start."""
         return False
 
     def state_at_start(self, modifiers: Sequence[Modifier], source: str) -> None:
-        """Let the action also have modifiers that hold at its start; before setup.
+        """Add modifiers that hold at its start; call it before setup.
 
         Args:
             modifiers: The modifiers.
@@ -94,15 +96,15 @@ class Action(BaseAction):
         self.modifier_sources = (*(source for _ in modifiers), *own)
 
     def with_sources(self) -> Iterator[tuple[Modifier, str]]:
-        """Yield the modifiers with their positions; that of the action where none is known."""
+        """Yield the modifiers with their source positions; by default that of the action."""
         return zip(self.modifiers, self.modifier_sources or repeat(self.source), strict=False)
 
     def states_itself(self) -> tuple[Modifier, ...]:
-        """Return what the action states of its start besides its modifiers."""
+        """Return what the action states about its start besides its modifiers."""
         return ()
 
     def takes(self, modifier: Modifier) -> bool:
-        """Return whether the action carries out a modifier."""
+        """Return whether the action can execute a modifier."""
         return isinstance(modifier, self.accepts)
 
     def command(self, slot: str, command: Command) -> None:

@@ -1,4 +1,4 @@
-"""Checks the arguments of calls at run time, by the rules that the compiler reads as well."""
+"""Checks the arguments of calls at run time, by the rules of the compiler."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from osc2tx_shared.rules import Rule, violations
 
 
 class GivenValues:
-    """Arguments as values, as the rules see them.
+    """Arguments in the form that the rules read.
 
     Args:
         values: By parameter.
@@ -23,7 +23,7 @@ class GivenValues:
         return name in self._values
 
     def word(self, name: str) -> str | None:
-        """Return a value as the DSL writes it, if it is a word there; of an object its type."""
+        """Return the DSL form of an enum member; of an object its type."""
         value = self._values[name]
         if isinstance(value, bool):
             return str(value).lower()
@@ -31,7 +31,7 @@ class GivenValues:
         return word if isinstance(word, str) else None
 
     def greatest(self, name: str) -> float | None:
-        """Return a value that is a number; None for one that is read late."""
+        """Return a number; None for a late value."""
         value = self._values[name]
         return value if isinstance(value, int | float) else None
 
@@ -45,7 +45,7 @@ def check_arguments(what: str, rules: Iterable[Rule], given: Mapping[str, Any]) 
         given: Arguments by parameter.
 
     Raises:
-        ScenarioError: They break one.
+        ScenarioError: They break a rule.
     """
     for broken in violations("it", rules, GivenValues(given)):
         raise ScenarioError(f"{what}: {broken.text}")

@@ -1,4 +1,4 @@
-"""What actions of actors and global actions share: how they start, last and end."""
+"""Common base of actions of actors and global actions: start, duration and end."""
 
 from __future__ import annotations
 
@@ -30,15 +30,15 @@ class BaseAction(Leaf):
     """One action.
 
     Subclasses write `on_start`, `on_update`, `on_stop`. They read the world's snapshot
-    (`self.context.world.state(...)`, fields of actors) and hand in changes of state with
-    `self.effect`, which are carried out at this instant: the action does not end before they are.
+    (`self.context.world.state(...)`, fields of actors) and request changes of state with
+    `self.effect`, which are applied at this instant, before the action ends.
 
     Attributes:
-        method: How the class is registered: name, slots, ending.
-        rules: Which arguments go together (`with`: the modifiers); the compiler knows them as well.
-        duration: As given: seconds, or (least, most) seconds.
-        action_name: `hero change_lane`: the name in the trace, whatever the node is called.
-        failure_source: Position of the condition that does not hold, if one lets it fail.
+        method: Its registration: name, slots, ending.
+        rules: Rules of the arguments (`with`: the modifiers); the compiler applies them as well.
+        duration: Seconds, or (least, most) seconds, as given.
+        action_name: `hero change_lane`: the name in the trace, independent of that of the node.
+        failure_source: Source position of the condition that fails it, if any.
     """
 
     method: ClassVar[Method]
@@ -61,7 +61,7 @@ class BaseAction(Leaf):
         return None
 
     def become(self, method: Method) -> None:
-        """Take name and ending of the method the action was made for."""
+        """Take name and ending of the method of the action."""
         self.registered = method
         self.action_name = full_name(self.actor_id, method.name)
         self.name = self.label or self.action_name
@@ -69,42 +69,45 @@ class BaseAction(Leaf):
         self.instant = method.ends == "instant" and self._limits is None
         self._momentary = method.is_momentary and self._limits is None
 
-    # --- what subclasses write ---
+    # --- written by subclasses ---
 
     def on_start(self) -> None:
-        """Start: sample the inputs of the action, hand in commands. The slots are claimed."""
+        """Start: sample the inputs of the action, issue commands. The slots are claimed."""
 
     def on_update(self) -> Status:
-        """Return RUNNING, SUCCESS or `self.fail(reason)`; called each pass, at the start too."""
+        """Return RUNNING, SUCCESS or `self.fail(reason)`.
+
+        Called in each pass, including the first.
+        """
         return RUNNING
 
     def on_stop(self) -> None:
-        """Clean up; called however the action is left, before its slots are released."""
+        """Clean up; called whenever the action is left, before its slots are released."""
 
-    # --- what subclasses call ---
+    # --- called by subclasses ---
 
     def effect(self, what: str, value: object, apply: Callable[[], None]) -> None:
-        """Ask for a change of state at this instant: of the actor, if there is one.
+        """Request a change of state at this instant.
 
         Args:
-            what: What changes: `speed`, `lights`.
-            value: The new value; parallel actions may only want equal ones.
-            apply: Carries it out at this instant.
+            what: The quantity: `speed`, `lights`.
+            value: The new value; parallel actions may only request equal values.
+            apply: Applies it at this instant.
         """
         whose = () if self.actor_id is None else (self.actor_id,)
         self.context.effect((what, *whose), self, value, partial(with_blame, self, apply))
 
     def length(self) -> int | None:
-        """Return how many steps the action takes; None where only the run can tell.
+        """Return the number of steps of the action; None if only the run determines it.
 
-        A subclass that knows overrides it; a `duration` is known anyway.
+        Subclasses override it if they know it; a `duration` is known in any case.
         """
         ends = self.registered.ends
         content = 0 if self.registered.is_momentary else None
         return content if self._limits is None else self._limits.length(content, ends == "open")
 
     def seconds(self) -> float | None:
-        """Return its duration, if it is one number."""
+        """Return its duration, if it is a single number."""
         return super().seconds() if self._limits is None else self._limits.fixed
 
     @property
@@ -117,13 +120,13 @@ class BaseAction(Leaf):
         """Seconds since the start of the action."""
         return self.elapsed_steps * self.context.dt
 
-    # --- how it runs ---
+    # --- execution ---
 
     def look_ahead(self) -> None:
         """Check that the map has the requested elements, after placement and setup.
 
         Raises:
-            BeyondMapError: Wherever its actor can be by then, it has not.
+            BeyondMapError: The map lacks them at all possible positions of the actor.
         """
 
     def initialise(self) -> None:
@@ -153,8 +156,8 @@ class BaseAction(Leaf):
         return self.registered.ends != "goal"
 
     def _content(self) -> Status:
-        """Update; it does not end before its effects are carried out."""
-        if self._is_ours:  # each step of each action comes by here
+        """Update; it does not end before its effects are applied."""
+        if self._is_ours:  # called in each step of each action
             status = self.on_update()
         else:
             status = checked(self, with_blame(self, self.on_update))
@@ -167,7 +170,7 @@ class BaseAction(Leaf):
         return super().lateness() if late is None else late
 
     def judge_end(self, status: Status) -> Status:
-        """Fail if a condition of its phase does not hold; an interrupted phase is not judged."""
+        """Fail if a condition of its phase does not hold; interrupted phases are not checked."""
         monitors = self.context.monitors
         if monitors is None:
             return status
@@ -201,16 +204,16 @@ class BaseAction(Leaf):
         """Release the slots of the actor.
 
         Args:
-            momentary: It had them for no time, and changed a state that they control.
+            momentary: Whether it held them for no time, and changed a state that they control.
         """
 
     def _deviation(self) -> Deviation | None:
-        """Return how far the actor is from where it was to be, if that was measured."""
+        """Return the deviation of the actor from its command, if it was measured."""
         return None
 
 
 def registered_as(factory: type[BaseAction]) -> Method:
-    """Return the registration of a class; without one, a goal and no slots."""
+    """Return the registration of a class; by default one with a goal and without slots."""
     method: Method | None = getattr(factory, "method", None)
     return Method(None, factory.__name__, (), "goal") if method is None else method
 
@@ -221,10 +224,12 @@ def full_name(actor_id: str | None, name: str) -> str:
 
 
 def with_blame(action: BaseAction, function: Callable[[], T]) -> T:
-    """Call a function of an action; exceptions of a user's own action are reported as its errors.
+    """Call a function of an action.
+
+    Exceptions of user-defined actions are reported as their errors.
 
     Raises:
-        ScenarioError: If the class of the action does not come from this library.
+        ScenarioError: The class is user code, and raised an exception.
     """
     if action._is_ours:
         return function()
@@ -233,10 +238,10 @@ def with_blame(action: BaseAction, function: Callable[[], T]) -> T:
 
 
 class RefusedAction(BaseAction):
-    """Stands for an action without a class, or with wrong arguments.
+    """Represents an action without a class, or with wrong arguments.
 
-    Its position in the scenario is unknown when it is made; at setup, before the first step, it
-    does, and refuses the run. Until then the tree can be shown and counted like any other.
+    Its source position is unknown when it is created; at setup, before the first step, it is known,
+    and the node rejects the run. Until then the tree can be shown and counted like any other.
 
     Args:
         name: Of the action, with its actor if there is one.
@@ -251,10 +256,10 @@ class RefusedAction(BaseAction):
         self.error = error
 
     def setup(self, **kwargs: Any) -> None:
-        """Refuse the run.
+        """Reject the run.
 
         Raises:
-            ScenarioError: Always; it names the place.
+            ScenarioError: Always; it names the source position.
         """
         self.error.source = self.error.source or self.source or None
         raise self.error

@@ -22,10 +22,10 @@ class Method:
         name: Method name (`change_lane`).
         slots: Slots of the actor that it controls: LONGITUDINAL, LATERAL, both or none. An action
             that moves as its modifiers state controls none itself.
-        ends: `goal` when its goal is reached, `at_once` with a goal that is reached in the instant
-            in which it starts, `open` only with its surroundings, `instant` immediately. An
-            instantaneous action has no goal either, so like an `emit` it bounds no composition.
-        places: Whether its arguments state where the actor is.
+        ends: `goal` when its goal is reached, `at_once` with a goal that is reached at the instant
+            of its start, `open` only with its surroundings, `instant` immediately. An instantaneous
+            action has no goal, so like an `emit` it does not bound a composition.
+        places: Whether its arguments state the position of the actor.
         paces: Whether it sets or holds the speed of the actor.
         needs: Capabilities of the world that it requires.
         undeclared: Why the library does not declare it, if it does not.
@@ -42,7 +42,7 @@ class Method:
 
     @property
     def qualified_name(self) -> str:
-        """`vehicle.change_lane`; the name alone if there is no actor."""
+        """`vehicle.change_lane`; only the name without an actor."""
         return self.name if self.kind is None else f"{self.kind}.{self.name}"
 
     @property

@@ -23,12 +23,12 @@ class ModifierFacts:
     Attributes:
         rules: Its effect on other modifiers of the same action.
         slots: Slots of the actor that it controls: LONGITUDINAL, LATERAL, both or none.
-        places: Whether it states where the actor is.
+        places: Whether it states the position of the actor.
         paces: Whether it states the speed of the actor, or its position at each time.
         bounds: Whether an open-ended action ends when the state of the modifier is reached.
         placement: Whether an actor can start with it.
         orders: Parameters that only state an order, such as `faster_than`,
-        amounts: whose amount is given by one of these, or stays open.
+        amounts: whose amount is given by one of these, or is open.
         needs: Capabilities of the world that it requires.
         undeclared: Why the library does not declare it, if it does not.
     """
@@ -52,7 +52,7 @@ class Modifier:
     Attributes:
         name: Name in the DSL.
         facts: Facts stated at its registration.
-        rules: Rules for its parameters; the compiler knows them as well.
+        rules: Rules for its parameters; the compiler applies them as well.
     """
 
     name: ClassVar[str] = ""
@@ -65,15 +65,15 @@ class Modifier:
         self.check()
 
     def check(self) -> None:
-        """Checks what rules cannot say."""
+        """Checks what rules cannot express."""
 
     @property
     def is_start(self) -> bool:
-        """Whether it is a demand on the start alone."""
+        """Whether it only constrains the start."""
         return getattr(self, "at", "all") == "start" and self.facts.rules.starts
 
     def at_start(self) -> Modifier:
-        """Return it as a demand on the start alone, where it can be one."""
+        """Return it as a constraint of the start only, if possible."""
         options: dict[str, Any] = {"at": "start"} if self.facts.rules.starts else {}
         return replace(self, **options)
 
@@ -89,4 +89,4 @@ class Modifier:
 
 
 _DEFAULTS: dict[type[Modifier], tuple[tuple[str, object], ...]] = {}
-"""Parameters of modifiers without arguments, by class, as far as they were needed."""
+"""Cache: parameters of modifiers without arguments, by class."""

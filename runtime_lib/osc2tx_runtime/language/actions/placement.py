@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Placement:
-    """Where and how an actor starts.
+    """The start of an actor.
 
     Attributes:
         actor: The actor.
-        modifiers: position, lane, speed and so on, as written.
+        modifiers: position, lane, speed and others, as stated.
         source: Position in the scenario.
-        throughout: All of it holds later as well.
-        implied: Nothing states it; it suits the first action of the actor.
+        throughout: Whether it also holds later.
+        implied: Whether it is not stated, but implied by the first action of the actor.
     """
 
     actor: BaseActor

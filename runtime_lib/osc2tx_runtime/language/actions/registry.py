@@ -1,4 +1,4 @@
-"""The registry of actions: DSL name to class; makes the nodes of calls."""
+"""The registry of actions: DSL name to class; creates the nodes of calls."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ __all__ = [
 ENTRY_POINTS = "osc2tx.methods"
 """Group of entry points; each names a module that registers actions. See docs/extending.md."""
 
-_OPTIONS = ("duration",)  # what every action takes
+_OPTIONS = ("duration",)  # of all actions
 
 ActionT = TypeVar("ActionT", bound="type[BaseAction]")
 ClassT = TypeVar("ClassT")
@@ -52,7 +52,7 @@ ClassT = TypeVar("ClassT")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RegisteredMethod(Method):
-    """An action with the class that carries it out.
+    """An action with the class that executes it.
 
     Attributes:
         factory: The class.
@@ -61,7 +61,7 @@ class RegisteredMethod(Method):
     factory: type[BaseAction]
 
     def signature(self) -> str:
-        """Return the call as one writes it: `change_lane(*modifiers, num_of_lanes=1, ...)`."""
+        """Return the form of a call: `change_lane(*modifiers, num_of_lanes=1, ...)`."""
         parameters = list(inspect.signature(self.factory).parameters.values())
         written = parameters if self.kind is None else parameters[1:]  # not `actor`
         return f"{self.name}({', '.join(str(parameter) for parameter in written)})"
@@ -77,10 +77,10 @@ class MethodRegistry:
     def extend(self) -> None:
         """Import the modules that installed packages name in the entry point group.
 
-        Happens once, when an unregistered method is requested: it takes time.
+        This happens once, when an unregistered method is requested, because it takes time.
 
         Raises:
-            ScenarioError: If such a module cannot be imported.
+            ScenarioError: Such a module cannot be imported.
         """
         if self._extended:
             return
@@ -91,7 +91,7 @@ class MethodRegistry:
                 entry.load()
 
     def is_extensible(self) -> bool:
-        """Whether a package has brought an action, or is installed and may bring one."""
+        """Whether a package has provided an action, or is installed and may provide one."""
         return any(is_own(each.factory) for each in self._methods.values()) or bool(_installed())
 
     def action(
@@ -113,16 +113,17 @@ class MethodRegistry:
             kind: Actor kind of the DSL, such as `vehicle`, for an `Action`; None for a
                 `GlobalAction`.
             name: Method name.
-            slots: Slots the action claims for as long as it runs.
+            slots: Slots that the action claims while it runs.
             ends: When it ends.
-            places: Its arguments say where the actor is.
-            paces: It sets or holds the speed; by default if it claims the longitudinal slot.
+            places: Whether its arguments state the position of the actor.
+            paces: Whether it sets or holds the speed; default: whether it claims the longitudinal
+                slot.
             needs: Capabilities of the world that it requires.
-            undeclared: Why the library does not declare an action of ours.
-            replace: Replaces a registered class instead of reporting it.
+            undeclared: Why the library does not declare a built-in action.
+            replace: Replace a registered class instead of reporting it.
 
         Raises:
-            ValueError: If the method is registered already.
+            ValueError: The method is already registered.
         """
 
         def register(factory: ActionT) -> ActionT:
@@ -145,7 +146,7 @@ class MethodRegistry:
                 factory=factory,
             )
             self._methods[kind, name] = method
-            if "method" not in vars(factory):  # for instances made without the registry
+            if "method" not in vars(factory):  # for instances created without the registry
                 factory.method = method
             return factory
 
@@ -165,14 +166,14 @@ class MethodRegistry:
         return tuple(sorted({name for kind, name in self._methods if kind in wanted}))
 
     def near(self, kinds: Iterable[str | None], name: str) -> tuple[str, ...]:
-        """Return up to three method names that look like `name`."""
+        """Return up to three method names that are similar to `name`."""
         return tuple(difflib.get_close_matches(name, self.names(kinds), n=3))
 
     def bind(self, actor: BaseActor | None, name: str) -> Callable[..., BaseAction]:
         """Return the constructor of the action `name`, for one actor or without one.
 
-        An invalid call rejects the run at its line, before the first step: an unregistered action,
-        or unknown arguments.
+        An invalid call, of an unregistered action or with unknown arguments, rejects the run at its
+        line before the first step.
         """
         kinds: tuple[str | None, ...] = (None,) if actor is None else type(actor).kinds
         actor_id, acting = (None, ()) if actor is None else (actor.id, (actor,))
@@ -232,7 +233,7 @@ def make(
     """Make an action.
 
     Raises:
-        ScenarioError: If a class of the user's own raises something.
+        ScenarioError: A user-defined class raises an exception.
     """
     if not is_own(method.factory):
         return method.factory(*args, **kwargs)
@@ -253,24 +254,24 @@ def _check_arguments(
     """Compare a call with the signature and the rules of the class.
 
     Raises:
-        ScenarioError: They do not fit.
+        ScenarioError: They do not match.
     """
     signature = _signature(method.factory)
     unknown = [name for name in kwargs if name not in (*signature.parameters, *_OPTIONS)]
     try:
-        if unknown:  # `**options` would hand them on
+        if unknown:  # `**options` would pass them on
             raise TypeError(f"unknown argument '{unknown[0]}'")
         signature.bind(*args, **kwargs)
     except TypeError as error:
         raise ScenarioError(f"{what}: {error}; it is {method.signature()}") from error
     given = {name: value for name, value in kwargs.items() if value is not None}
-    modifiers = args if method.kind is None else args[1:]  # the actor stands before them
+    modifiers = args if method.kind is None else args[1:]  # the actor precedes them
     given.update({"with": modifiers} if modifiers else {})
     check_arguments(what, method.factory.rules, given)
 
 
 methods = MethodRegistry()
-"""The registry that actors use; own actions go in here as well."""
+"""The registry of all actors; user-defined actions are registered here as well."""
 
 action = methods.action
 
@@ -278,8 +279,8 @@ action = methods.action
 def carried_out(declared: type[ClassT]) -> type[ClassT]:
     """Let the registry execute the methods that a class declares: `self.ego.drive(...)`.
 
-    They exist for their types and docstrings; their arguments go to the class that is registered
-    for the actor, and are checked there.
+    They exist for their types and docstrings; the class that is registered for the actor receives
+    and checks their arguments.
     """
     for name, method in vars(declared).copy().items():
         if not name.startswith("_"):
@@ -288,7 +289,7 @@ def carried_out(declared: type[ClassT]) -> type[ClassT]:
 
 
 def user_action(name: str, declared: type | None = None) -> Any:
-    """Return the function `name(actor, ...)` of an action that a package of the user registers.
+    """Return the function `name(actor, ...)` of an action that a user's package registers.
 
     Args:
         name: Its name in the registry.
@@ -298,7 +299,7 @@ def user_action(name: str, declared: type | None = None) -> Any:
 
     def call(actor: BaseActor, *args: Any, **kwargs: Any) -> BaseAction:
         node = methods.bind(actor, name)(*args, **{**defaults, **kwargs})
-        written = re.sub(r"^\([^,)]*(, )?", "(", call_arguments())  # the actor stands before it
+        written = re.sub(r"^\([^,)]*(, )?", "(", call_arguments())  # the actor precedes it
         node.name = node.label or called(actor.id, name, written)
         return node
 
@@ -321,7 +322,7 @@ def global_action(name: str, declared: type | None = None) -> Any:
 
 
 def _defaults(declared: type | None) -> dict[str, Any]:
-    """Return the defaults that the type of an action states; `...` only says that there is one."""
+    """Return the defaults that the type of an action states; `...` stands for an unknown one."""
     if declared is None:
         return {}
     parameters = inspect.signature(declared.__call__).parameters.values()

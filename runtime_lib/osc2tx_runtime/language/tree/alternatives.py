@@ -1,10 +1,10 @@
-"""Alternatives that are chosen together, where durations around several `one_of` ask for it.
+"""Joint choice of alternatives, if durations around several `one_of` require it.
 
 Two of them in a `serial` of a given duration, in scenarios that it invokes, or in members that are
-equally long: which alternatives fit shows only for all of them at once (§7.6.2.1, §7.6.2.4). Before
-a run, the lengths of the parts of a tree are computed for each choice; among those with which all
-durations hold, one is drawn. Where what would happen without it fits, or nothing does, and where
-only the run decides a length, nothing is chosen.
+equally long: only a joint choice shows which alternatives fit (§7.6.2.1, §7.6.2.4). Before a run,
+the lengths of the parts of a tree are computed for each choice; one of the choices with which all
+durations hold is drawn. Nothing is chosen if the default fits, if no choice fits, or if only the
+run determines a length.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ MOST_CHOICES = 4096
 
 
 class _Option(NamedTuple):
-    """How long a part of a tree takes (s), with which alternatives."""
+    """Duration (s) of a part of a tree, with its alternatives."""
 
     seconds: float
     chosen: tuple[tuple[OneOf, Behaviour], ...] = ()
@@ -33,7 +33,7 @@ _Options: TypeAlias = list[_Option]
 
 
 class _Unknown(Exception):
-    """Only the run decides how long something takes."""
+    """Only the run determines a duration."""
 
 
 def choose_alternatives(root: Behaviour, context: ExecutionContext) -> None:
@@ -69,15 +69,15 @@ class _Choice:
             one_of.choose(chosen)
 
     def _is_natural(self, option: _Option) -> bool:
-        """Whether a race has these winners anyway."""
+        """Whether a race has these winners by default."""
         is_race = self._context.one_of == "race"
         return is_race and all(self._shortest[one_of] is child for one_of, child in option.chosen)
 
     def _options(self, node: Behaviour) -> _Options:
-        """Return how long a node may take.
+        """Return the possible durations of a node.
 
         Raises:
-            _Unknown: Only the run decides that.
+            _Unknown: Only the run determines them.
         """
         known = node.seconds() if isinstance(node, Node) else None
         if known is not None:

@@ -36,9 +36,9 @@ if TYPE_CHECKING:
 
 
 def assemble(scenario: ScenarioParts, tree: Behaviour) -> Behaviour:
-    """Return the tree of a scenario with all that its nodes do not say themselves.
+    """Return the tree of a scenario, completed by names, positions and added nodes.
 
-    The trees of the scenarios it invokes are assembled already.
+    The trees of invoked scenarios are already assembled.
     """
     apply_lines(tree, scenario._source_map)
     name_nodes(scenario, tree)
@@ -55,7 +55,7 @@ def assemble(scenario: ScenarioParts, tree: Behaviour) -> Behaviour:
     if scenario.one_of == "race":
         for node in own_nodes(tree):
             if isinstance(node, OneOf):
-                node.find_rivals = find_rivals  # at its setup: only then slots are known
+                node.find_rivals = find_rivals  # called at setup, when slots are known
     services: list[Leaf] = []
     if variables := list(scenario._variables.values()):
         at_start = [variable for variable in variables if variable.trigger == "start"]
@@ -71,10 +71,10 @@ def assemble(scenario: ScenarioParts, tree: Behaviour) -> Behaviour:
 
 
 def apply_lines(root: Behaviour, source_map: SourceMap) -> None:
-    """Give the nodes of a scenario's tree and the modifiers of its actions their places.
+    """Set the source positions of the nodes of a scenario and of the modifiers of its actions.
 
-    The trees of invoked scenarios have their own maps and are left alone. If the map does not fit
-    the tree, the nodes get the file without a line.
+    The trees of invoked scenarios have their own source maps. If the source map does not match the
+    tree, the nodes get the file without a line.
     """
     nodes = [node for node in own_nodes(root) if not node.synthetic]
     fits = len(nodes) == len(source_map.nodes)
@@ -90,9 +90,9 @@ def apply_lines(root: Behaviour, source_map: SourceMap) -> None:
 
 
 def name_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:
-    """Give the nodes of a scenario names that differ, and the keys of their random values.
+    """Set unique names of the nodes of a scenario, and the keys of their random values.
 
-    The keys are names of the module: of the composition around, and of the node or its activity.
+    The keys are names of the module: of the enclosing composition, and of the node or its activity.
     """
     names: dict[str, None] = {}
     draws: dict[str, None] = {}
@@ -107,7 +107,7 @@ def name_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:
 
 
 def composition_around(node: Behaviour) -> str:
-    """Return the name of the composition that a node is in; nothing for the whole tree."""
+    """Return the name of the composition of a node; empty for the root."""
     above = node.parent
     while above is not None and not isinstance(above, Composition):
         above = above.parent
@@ -115,7 +115,7 @@ def composition_around(node: Behaviour) -> str:
 
 
 def check_labels(scenario: ScenarioParts, tree: Behaviour) -> None:
-    """Report a label that is waited for and that no node has."""
+    """Report an awaited label that no node has."""
     known = {node.label for node in own_nodes(tree) if node.label}
     for label, moment in scenario.label_events:
         if label not in known:
@@ -124,10 +124,10 @@ def check_labels(scenario: ScenarioParts, tree: Behaviour) -> None:
 
 
 def find_event(scenario: ScenarioParts, path: str) -> Event:
-    """Return the event a path means: `near`, `cut.end`, or `p1.` before either.
+    """Return the event of a path: `near`, `cut.end`, or `p1.` before either.
 
     Raises:
-        ScenarioError: If there is none.
+        ScenarioError: There is none.
     """
     label, _, rest = path.partition(".")
     if not rest:
@@ -145,7 +145,7 @@ def find_node(scenario: ScenarioParts, tree: Behaviour, path: str) -> Node:
     """Return the node with a label, also `p1.cut` in an invoked scenario.
 
     Raises:
-        ScenarioError: If there is none.
+        ScenarioError: There is none.
     """
     label, _, rest = path.partition(".")
     by_label = {node.label: node for node in own_nodes(tree) if node.label}
@@ -171,14 +171,14 @@ def with_override(
 
 
 def with_services(scenario: ScenarioParts, tree: Behaviour, services: list[Leaf]) -> Behaviour:
-    """Return the tree with the nodes beside it that sample variables and coverage items."""
+    """Return the tree in parallel with the nodes that sample variables and coverage items."""
     for service in services:
         service.source, service.scope = getattr(tree, "source", ""), scenario._path
     return around(scenario, tree, Parallel(f"{tree.name}, with what it samples", tree, *services))
 
 
 def around(scenario: ScenarioParts, tree: Behaviour, whole: Node) -> Node:
-    """Return a node around a tree that the module does not write."""
+    """Return a node around a tree that is not in the module."""
     whole.synthetic, whole.label = True, None
     whole.source, whole.scope = getattr(tree, "source", ""), scenario._path
     whole.listeners = scenario.label_events
@@ -210,7 +210,7 @@ def state_at_start(invocation: Invocation, placement: Placement, race: bool) -> 
     """State a placement at the first action of its actor.
 
     Raises:
-        UnsupportedError: It has none when the scenario starts.
+        UnsupportedError: It has no action when the scenario starts.
     """
     for action, at_once in started_at_once(invocation, race):
         if not at_once or not isinstance(action, Action) or action.actor is not placement.actor:
@@ -238,15 +238,15 @@ def number_nodes(scenario: ScenarioParts, tree: Behaviour) -> None:
 def in_order(
     tree: Behaviour, actors: Iterable[BaseActor], *, only_own: bool = False
 ) -> list[Behaviour]:
-    """Return the nodes of a tree, parents first, in an order that its meaning decides.
+    """Return the nodes of a tree, parents first, in an order independent of the source.
 
-    Members that run together are ordered by their actors as these are declared, then by name, then
-    by their content: the order of the members in the module must not show.
+    Parallel members are ordered by the declaration of their actors, then by name, then by content:
+    the order of the members in the module has no effect.
 
     Args:
         tree: The tree.
         actors: In the order of their declaration.
-        only_own: Leave out the nodes of the scenarios that it invokes.
+        only_own: Omit the nodes of invoked scenarios.
     """
     declared = {id(actor): index for index, actor in enumerate(actors)}
 

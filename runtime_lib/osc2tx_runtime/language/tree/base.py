@@ -1,11 +1,11 @@
 """Base classes of tree nodes, on py_trees behaviours.
 
-A node's work is `pulse()`: one call per pass that returns the new status. py_trees' generator
-`tick()` is kept for viewers and visitors, but costs every node a pass through all its ancestors;
-`pulse()` calls go straight down the tree.
+A node's work is `pulse()`: one call per pass that returns the new status. The generator `tick()` of
+py_trees is kept for viewers and visitors, but each node costs a pass through all its ancestors;
+`pulse()` calls descend the tree directly.
 
-A node is left in one of three ways, which `stop` tells apart by the status it is given: SUCCESS (it
-ended, by itself or because its open end was reached), FAILURE, INVALID (interrupted).
+A node is left in one of three ways, which `stop` distinguishes by its status: SUCCESS (it ended, on
+its own or at its open end), FAILURE, INVALID (interrupted).
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ INVALID = Status.INVALID
 
 
 class Activity:
-    """When a node ran, as other nodes may see it: what happens in a pass shows from the next on."""
+    """The visible activity of a node: a change in a pass is visible from the next."""
 
     def __init__(self) -> None:
         self._active = self._was_active = False
@@ -57,12 +57,12 @@ class Activity:
         self._change(False, tick)
 
     def started_since(self, begin: int, tick: int) -> bool:
-        """Return whether a start from pass `begin` on is visible in pass `tick`."""
+        """Return whether a start since pass `begin` is visible in pass `tick`."""
         started = self._started_before if self._started == tick else self._started
         return 0 < begin <= started < tick
 
     def is_active(self, tick: int) -> bool:
-        """Return whether the node is seen running in pass `tick`."""
+        """Return whether the node is visibly running in pass `tick`."""
         return self._was_active if self._changed == tick else self._active
 
     def _change(self, active: bool, tick: int) -> None:
@@ -78,7 +78,7 @@ NEEDS_RUN = (
 
 
 class Node(Behaviour):
-    """What leaves and compositions share.
+    """Common base of leaves and compositions.
 
     Attributes:
         source: Position in the scenario, `hello_world.osc:57`; the line comes from the source map.
@@ -86,15 +86,16 @@ class Node(Behaviour):
             are reported in this order.
         draws: Key of the node's random values, besides the seed: names in the module.
         label: Name that `@label.end` and similar events refer to; None without one.
-        open_ended: Never ends by itself; what surrounds it ends it.
-        instant: Takes no time (emit, call, assignments), so it bounds no composition.
-        service: Accompanies the others (on, sampled variables); no interval rule counts it.
-        synthetic: Not written in the module, so the source map does not count it.
-        scope: Path of the nested scenario the node belongs to; empty in the scenario that runs.
+        open_ended: Whether it never ends on its own, but only with its surroundings.
+        instant: Whether it takes no time (emit, call, assignments), and so bounds no composition.
+        service: Whether it accompanies the others (on, sampled variables); no interval rule counts
+            it.
+        synthetic: Whether it is not in the module, so that the source map does not count it.
+        scope: Path of the nested scenario the node belongs to; empty in the main scenario.
         listeners: (label, `start` | `end` | `fail`) of that scenario to the event waited for.
         activity: When the node was last active; only kept where an `override` asks.
         failed_at: Time in seconds of the last failure.
-        started_late: Seconds by which its exact start lies before the step at which it started.
+        started_late: Seconds by which its exact start precedes the step at which it started.
         ended_late: The same of its end with success.
         context: The run; there from `setup` on.
     """
@@ -120,7 +121,7 @@ class Node(Behaviour):
     _failed: PostedEvent | None = None
 
     def __getattr__(self, name: str) -> Any:
-        """Describe the need for a setup when a tree is ticked without one."""
+        """Report a tree that is ticked without setup."""
         if name == "context":
             raise ScenarioError(NEEDS_RUN)
         raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
@@ -143,22 +144,22 @@ class Node(Behaviour):
     def pulse(self) -> Status:
         """Do the work of one pass.
 
-        Called again at the same instant it must change nothing, unless an event came.
+        A repeated call at the same instant must have no effect, unless an event occurred.
         """
         raise NotImplementedError
 
     def length(self) -> int | None:
-        """Return how many steps the node will take; None where only the run can tell."""
+        """Return the number of steps of the node; None if only the run determines it."""
         return 0 if self.instant else None
 
     def seconds(self) -> float | None:
-        """Return how many seconds the node takes, where it says so itself, before its setup."""
+        """Return the duration (s) that the node states; it may be called before setup."""
         return 0.0 if self.instant else None
 
     def lateness(self) -> float:
-        """Return by how many seconds its end lies before this step, at which it ends.
+        """Return the seconds by which its exact end precedes this step.
 
-        What no time ends does so at the step; what takes no time when it started.
+        A node without a time limit ends at the step; an instantaneous one at its start.
         """
         return self.started_late if self.context.step == self._first_step else 0.0
 
@@ -172,11 +173,11 @@ class Node(Behaviour):
         return ""
 
     def waits_in_vain(self) -> bool:
-        """Whether it waits, or waited, for a change to what was so already."""
+        """Whether it waits, or waited, for a change to a value that it already has."""
         return False
 
     def generator(self, what: str) -> random.Random:
-        """Return a generator of this node's own: the same draws in whatever order nodes start."""
+        """Return the generator of this node: its draws do not depend on the order of starts."""
         scope = f"{self.scope}/" if self.scope else ""
         return self.context.random_for(f"{scope}{what}/{self.draws}")
 
@@ -186,7 +187,7 @@ class Node(Behaviour):
         return FAILURE
 
     def update(self) -> Status:
-        """Return the status of one pass, as py_trees asks."""
+        """Return the status of one pass, as py_trees requires."""
         return self.pulse()
 
     def tick_once(self) -> None:
@@ -194,7 +195,7 @@ class Node(Behaviour):
         self.pulse()
 
     def tick(self) -> Iterator[Behaviour]:
-        """Pulse, then yield the nodes that are in use, for the visitors of py_trees."""
+        """Pulse, then yield the active nodes for the visitors of py_trees."""
         self.pulse()
         for node in self.iterate():
             if node.status is not INVALID:
@@ -223,14 +224,14 @@ class Node(Behaviour):
         self.status = new_status
 
     def judge_end(self, status: Status) -> Status:
-        """Return the status with which the node is left, given the one with which it would be."""
+        """Return the final status of the node, given its preliminary one."""
         return status
 
     def _stop_children(self, new_status: Status) -> Status:
-        """Running children end with an ended parent and are interrupted otherwise.
+        """End running children with an ended parent; interrupt them otherwise.
 
         Returns:
-            The status; a failure if it was success and one of them fails by its end.
+            The status; a failure if it was success and one of them fails at its end.
         """
         result = new_status
         for child in self.children:
@@ -243,7 +244,10 @@ class Node(Behaviour):
         return result
 
     def _begin(self) -> None:
-        """Enter the node. RUNNING from here on, so that a clean-up finds a half-started node."""
+        """Enter the node.
+
+        The status is RUNNING from here, so that a clean-up finds a half-started node.
+        """
         for child in self.children:
             if child.status is not INVALID:
                 child.stop(INVALID)
@@ -292,7 +296,7 @@ class Leaf(Node):
             raise
         except KeyboardInterrupt:
             raise
-        except BaseException as error:  # a subclass of the user's own may raise anything
+        except BaseException as error:  # a user-defined subclass may raise anything
             if not is_own(type(self)):
                 raise
             text = f"{self.name}: {name_of(type(self))} raised {message_of(error)}"
@@ -300,10 +304,10 @@ class Leaf(Node):
 
 
 def checked(node: Behaviour, status: object) -> Status:
-    """Return a status that a node may have at the end of a pass.
+    """Return the status if it is valid at the end of a pass.
 
     Raises:
-        ScenarioError: It is something else: the class is the user's own.
+        ScenarioError: It is invalid: the class is user code.
     """
     if status is RUNNING or status is SUCCESS or status is FAILURE:
         if isinstance(node.feedback_message, str):
@@ -314,7 +318,7 @@ def checked(node: Behaviour, status: object) -> Status:
 
 
 def pulse_of(child: Behaviour) -> Callable[[], Status]:
-    """Return the call that ticks a member: nodes of ours, and any other py_trees behaviour."""
+    """Return the call that ticks a member: `Node` or another py_trees behaviour."""
     if isinstance(child, Node):
         return child.pulse
 
@@ -327,18 +331,18 @@ def pulse_of(child: Behaviour) -> Callable[[], Status]:
 
 
 class Named(Protocol):
-    """Something with a name, such as a node."""
+    """An object with a name, such as a node."""
 
     name: str
 
 
 def ended_late(child: Behaviour) -> float:
-    """Return how late the end of a member showed; behaviours that are not ours end at a step."""
+    """Return the lateness (s) of the end of a member; other py_trees behaviours end at a step."""
     return child.ended_late if isinstance(child, Node) else 0.0
 
 
 def place_key(node: Named) -> tuple[int, str]:
-    """Return the sort key of a node: its position in the tree; its name where it has none."""
+    """Return the sort key of a node: its position in the tree; its name without a position."""
     return getattr(node, "position", 0), node.name
 
 

@@ -37,12 +37,12 @@ class Composition(Node):
 
     _limits: DurationLimits | None = None
     _members: tuple[Member, ...] = ()
-    _active: list[Member]  # those at work, where several are
+    _active: list[Member]  # the running ones, if several are
     _is_plain = True  # only the members decide its outcome
     _may_rest = True  # only they, and the time
 
     def setup(self, **kwargs: Any) -> None:
-        """Take the context; find out what ends by itself. Members were set up before."""
+        """Take the context; determine what ends on its own. Members were set up before."""
         super().setup(**kwargs)
         self._members = tuple((child, pulse_of(child)) for child in self.children)
         self._is_plain = self._limits is None
@@ -69,7 +69,7 @@ class Composition(Node):
 
     @property
     def limits(self) -> DurationLimits | None:
-        """The duration at work; None without one."""
+        """The effective duration; None without one."""
         return self._limits
 
     def initialise(self) -> None:
@@ -83,11 +83,11 @@ class Composition(Node):
         return self._content_lateness() if late is None else late
 
     def _content_lateness(self) -> float:
-        """Return how late the end of the members shows."""
+        """Return the lateness (s) of the end of the members."""
         return super().lateness()
 
     def frame(self, context: ExecutionContext) -> Span:
-        """Return the steps that it may take, by its duration and by those around it (§7.6.2.1).
+        """Return its possible steps, by its duration and the enclosing ones (§7.6.2.1).
 
         Args:
             context: The run; the nodes around are set up later.
@@ -99,7 +99,7 @@ class Composition(Node):
         return own.meet(around._frame_of(self, context)) if isinstance(around, Composition) else own
 
     def _frame_of(self, member: Behaviour, context: ExecutionContext) -> Span:
-        """Return the steps that a member may take."""
+        """Return the possible steps of a member."""
         return self.frame(context)
 
     def _limit(self, duration: Duration | None) -> None:
@@ -107,20 +107,20 @@ class Composition(Node):
         self._limits = None if duration is None else DurationLimits(self, duration)
 
     def _is_open(self) -> bool:
-        """Return whether the members never end by themselves."""
+        """Return whether the members are open-ended."""
         raise NotImplementedError
 
     def _goes_on(self) -> bool:
-        """Return whether what runs now has no end of its own."""
+        """Return whether the running members are open-ended."""
         return self._content_open
 
     def length(self) -> int | None:
-        """Return how many steps the composition takes, if its members tell."""
+        """Return the number of steps of the composition, if its members determine it."""
         content = None if self._content_open else self._content_length()
         return content if self._limits is None else self._limits.length(content, self._content_open)
 
     def _content_length(self) -> int | None:
-        """Return how many steps the members take."""
+        """Return the number of steps of the members."""
         return None
 
     def _advance(self) -> Status:
@@ -128,7 +128,7 @@ class Composition(Node):
         raise NotImplementedError
 
     def _pulse_active(self) -> list[tuple[Behaviour, Status]]:
-        """Pulse the members at work that do not rest; return those that end, with their status."""
+        """Pulse the running members that do not rest; return those that end, with their status."""
         resting, active, rests = self.context.resting.nodes, self._active, self._may_rest
         ended: list[tuple[Behaviour, Status]] = []
         for child, pulse in active:
@@ -147,7 +147,7 @@ class Composition(Node):
         return ended
 
     def _rest(self) -> None:
-        """Rest as all members at work do, until its time may be over."""
+        """Rest if all running members rest, until its duration may end."""
         if self._limits is None or self._limits.rest():
             self.context.resting.nodes.add(self)
 
@@ -167,7 +167,7 @@ class Serial(Composition, SequenceComposite):
         self._index = 0
 
     def initialise(self) -> None:
-        """Go to the first member."""
+        """Start with the first member."""
         super().initialise()
         self._index = 0
 
@@ -229,7 +229,7 @@ class OneOf(Composition, ParallelComposite):
         duration: Total duration: seconds, or (least, most) seconds.
 
     Attributes:
-        find_rivals: Tells which of its members exclude each other in a race, after their setup.
+        find_rivals: Returns the members that exclude each other in a race, after their setup.
     """
 
     def __init__(self, name: str, *members: Behaviour, duration: Duration | None = None) -> None:
@@ -244,7 +244,7 @@ class OneOf(Composition, ParallelComposite):
         self._chosen = member
 
     def setup(self, **kwargs: Any) -> None:
-        """Choose a member if the scenario does not race, one that fills the duration."""
+        """If the scenario does not race, choose a member that fills the duration."""
         super().setup(**kwargs)
         if self._chosen is not None:
             self._members = tuple(each for each in self._members if each[0] is self._chosen)
@@ -267,9 +267,9 @@ class OneOf(Composition, ParallelComposite):
         self.open_ended = self._content_open and self._limits is None
 
     def _without_rivals(self, members: Sequence[Member], rivals: Rivals) -> tuple[Member, ...]:
-        """Return the members of the race: in a random order, those whose rivals are not in it.
+        """Return the members of the race: in a random order, those without a rival in it.
 
-        What is drawn depends on what the alternatives are, not on the order of the source.
+        The draw depends on the alternatives, not on the order of the source.
         """
         drawn = sorted(members, key=lambda member: sorted(n.name for n in member[0].iterate()))
         kept = list[Member]()
@@ -292,13 +292,13 @@ class OneOf(Composition, ParallelComposite):
         return super()._content_lateness() if winner is None else ended_late(winner)
 
     def _fitting(self) -> list[Member]:
-        """Return the members that may take as long as is asked for."""
+        """Return the members that can take the required time."""
         return [member for member, _ in self._fitting_lengths()]
 
     def _fitting_lengths(self) -> list[tuple[Member, int | None]]:
-        """Return them with their lengths, each asked once: the members may nest deeply."""
+        """Return them with their lengths, each computed once, as members may nest deeply."""
         frame = None
-        if not self._asked:  # by a sibling whose length depends on this one's
+        if not self._asked:  # recursion through a sibling that depends on this length
             self._asked = True
             frame = self.frame(self.context)
             self._asked = False
@@ -319,7 +319,7 @@ class OneOf(Composition, ParallelComposite):
         return self.fail(f"none of its members takes {self._limits.text}")
 
     def _counts(self, child: Behaviour) -> bool:
-        """Return whether the end of a member is one of the whole: it fills the duration."""
+        """Return whether the end of a member ends the whole: whether it fills the duration."""
         limits = self._limits
         return limits is None or self.context.first_come or not limits.is_early(ended_late(child))
 
@@ -354,7 +354,7 @@ class OneOf(Composition, ParallelComposite):
 
 
 def is_open(child: Behaviour) -> bool:
-    """Return whether a member never ends by itself; behaviours that are not ours do."""
+    """Return whether a member is open-ended; other py_trees behaviours are not."""
     return isinstance(child, Node) and child.open_ended
 
 
@@ -369,5 +369,5 @@ def is_service(child: Behaviour) -> bool:
 
 
 def length_of(child: Behaviour) -> int | None:
-    """Return how many steps a member takes, if that is known; behaviours not ours do not say."""
+    """Return the number of steps of a member, if known; unknown for other py_trees behaviours."""
     return child.length() if isinstance(child, Node) else None

@@ -2,9 +2,9 @@
 
 A condition is sampled once per snapshot: the state of the world belongs to the step, and sampled
 variables may change between two passes of an instant (`context.snapshot` counts). At the start of
-the run none is true before the actors are where their first assignments put them. It starts with
-its use: `rise` and `fall` take their first sample there, which is no edge; `elapsed` and `every`
-count steps from there.
+the run none is true before the first assignments have placed the actors. A condition starts with
+its use: `rise` and `fall` take their first sample there, which is not an edge; `elapsed` and
+`every` count steps from there.
 """
 
 from __future__ import annotations
@@ -20,19 +20,19 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
 SETTLED_STEPS = 2
-"""Steps for which a condition has had its value before a turn of measured states is no noise."""
+"""Steps for which a condition of measured states must keep its value before a change counts."""
 
 Watch = Callable[[], bool]
-"""Says whether something happened by the present pass."""
+"""Returns whether something happened up to the present pass."""
 
 
 class Condition:
-    """A condition that has to know when its use started.
+    """A condition that depends on the start of its use.
 
     Args:
-        text: A few words for the name of the node.
-        watch: Starts it: takes the context, returns the function to ask.
-        seconds: When it becomes true after its start, if that is known.
+        text: Text for the name of the node.
+        watch: Starts it: takes the context, returns the function to evaluate.
+        seconds: Time (s) from its start until it becomes true, if known.
     """
 
     def __init__(
@@ -59,9 +59,9 @@ def fall(function: Callable[[], bool]) -> Condition:
 
 
 def elapsed(duration: float | Callable[[], float]) -> Condition:
-    """True from `duration` seconds after the start on, in whole steps.
+    """True from `duration` seconds after the start, in whole steps.
 
-    A duration that depends on the world is a function; it is called at the start.
+    A function as duration is called at the start.
     """
 
     def watch(context: ExecutionContext) -> Watch:
@@ -99,7 +99,7 @@ def every(period: float, offset: float = 0.0) -> Condition:
 
 
 class Level:
-    """Watches a function that counts while it is true, sampled once per snapshot.
+    """Watches whether a function is true, sampled once per snapshot.
 
     Args:
         function: The function.
@@ -129,15 +129,15 @@ class Level:
 
 
 class Deadline:
-    """Watches for the end of a time that begins now.
+    """Watches for the end of a duration that begins now.
 
     Args:
         seconds: How long.
         context: The run.
 
     Attributes:
-        step: At which it shows.
-        late: Seconds by which the end lies before that step.
+        step: Step at which it ends.
+        late: Seconds by which the exact end precedes that step.
     """
 
     __slots__ = ("_context", "late", "step")
@@ -147,15 +147,15 @@ class Deadline:
         self.step, self.late = context.due(seconds, context.late)
 
     def __call__(self) -> bool:
-        """Return whether the time is over."""
+        """Return whether the duration is over."""
         return self._context.step >= self.step
 
 
 class Edge:
-    """Watches for the instant at which a function turns; its first sample is no edge.
+    """Watches for the instant at which a function changes; its first sample is not an edge.
 
-    Where states are measured, a value at the threshold flickers: a turn counts if the value before
-    it was there for some steps, or from the start on.
+    Measured states flicker at a threshold: a change counts only if the value before it lasted some
+    steps, or was that at the start.
 
     Args:
         function: The function.
@@ -163,8 +163,7 @@ class Edge:
         context: The run.
 
     Attributes:
-        is_vain: Whether the function had the value at the start already, and has not turned to it
-            since.
+        is_vain: Whether the function had the value at the start, and has not changed to it since.
     """
 
     __slots__ = (
@@ -185,13 +184,13 @@ class Edge:
         self._target = target
         self._context = context
         self._sampled = context.snapshot
-        self._settled = context.step  # from which step on the value counts as settled
+        self._settled = context.step  # step from which the value counts as settled
         self._value = None if context.is_placing else evaluate(function)
         self._edge = False
         self.is_vain = self._value is target
 
     def __call__(self) -> bool:
-        """Return whether the function turns in the present snapshot."""
+        """Return whether the function changes in the present snapshot."""
         context = self._context
         if context.snapshot != self._sampled:
             if context.is_placing:
@@ -201,7 +200,7 @@ class Edge:
                 self.is_vain = self._value is self._target
                 return False
             before = self._value
-            try:  # as in `evaluate`; each step of each condition comes by here
+            try:  # as in `evaluate`; called in each step of each condition
                 self._value = bool(self._function())
             except NO_RESULT as error:
                 raise without_value(error) from error
@@ -215,10 +214,10 @@ class Edge:
 
 
 def number(function: Callable[[], float]) -> float:
-    """Return the seconds that a function of the scenario gives.
+    """Return the result (s) of a function of the scenario.
 
     Raises:
-        ScenarioError: If it has no value, or none that is finite.
+        ScenarioError: It has no finite value.
     """
     try:
         seconds = float(function())
@@ -233,7 +232,7 @@ def evaluate(function: Callable[[], bool]) -> bool:
     """Return the truth of a function of the scenario.
 
     Raises:
-        ScenarioError: If it has no value, as in a division by zero or an index out of range.
+        ScenarioError: It has no value, as in a division by zero or an index out of range.
     """
     try:
         return bool(function())

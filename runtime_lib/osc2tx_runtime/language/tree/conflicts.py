@@ -1,7 +1,7 @@
-"""Detection of conflicts: two actions that control the same thing at one instant.
+"""Detection of conflicts: two actions that control the same quantity at one instant.
 
-Claims are judged at the end of an instant, so a hand-over from one action to the next is silent in
-whatever order the tree visits them; effects when they are carried out, of the whole instant.
+Claims are checked at the end of an instant, so a hand-over from one action to the next is silent,
+whatever the order of the visit; effects of an instant are checked when they are applied.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from osc2tx_runtime.language.tree.invocation import started_at_once
 
 
 def check_claims(context: ExecutionContext) -> None:
-    """Judge the claims of a settled instant.
+    """Check the claims of a settled instant.
 
     Raises:
-        SlotConflict: If two actions control the same thing.
+        SlotConflict: Two actions control the same quantity.
     """
     for (actor_id, slot), owners in context.slots.contested():
         raise conflict(f"the {slot} slot of {actor_id}", owners)
@@ -32,23 +32,23 @@ def check_claims(context: ExecutionContext) -> None:
 
 
 def check_effects(context: ExecutionContext) -> None:
-    """Judge the effects that are to be carried out.
+    """Check the effects to apply.
 
     Raises:
-        SlotConflict: If parallel actions want different values of one thing.
+        SlotConflict: Parallel actions request different values of one quantity.
     """
     found = [
         (place_key(one.owner), place_key(other.owner), key, one.owner, other.owner)
         for key, one, other in context.effects.contested()
         if not in_sequence(one.owner, other.owner)
     ]
-    if found:  # by place, so that the report is the same whatever the order of the visit
+    if found:  # sorted by position, so that the report does not depend on the order of the visit
         *_, key, one, other = min(found, key=lambda each: (each[2], *sorted(each[:2])))
         raise conflict(" ".join(key), [one, other])
 
 
 def conflict(what: str, owners: Sequence[Owner]) -> SlotConflict:
-    """Return the error that names two owners and their places, in the order of the source."""
+    """Return the error that names two owners and their positions, in the order of the source."""
     first, second = sorted(owners, key=place_key)[:2]
     return SlotConflict(
         f"{first.name} ({first.source}) and {second.name} ({second.source}) control {what}"
@@ -58,7 +58,7 @@ def conflict(what: str, owners: Sequence[Owner]) -> SlotConflict:
 
 
 def remedy(one: Owner, other: Owner) -> str:
-    """Return what may help where two nodes must not run at the same time."""
+    """Return a remedy for two nodes that must not run at the same time."""
     if isinstance(nearest_above(one, other), OneOf):
         return "all members of a race run: let `--one-of first` or `seeded` choose one of them"
     return "let them run one after the other"
@@ -90,7 +90,7 @@ def in_sequence(one: Owner, other: Owner) -> bool:
 
 
 def nearest_above(one: Owner, other: Owner) -> Behaviour | None:
-    """Return the innermost node that two nodes are both in."""
+    """Return the innermost common ancestor of two nodes."""
     above = []
     node = one.parent
     while node is not None:

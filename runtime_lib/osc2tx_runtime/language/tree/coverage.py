@@ -34,24 +34,24 @@ class ItemOptions(TypedDict, total=False):
     text: str
 
 
-ROUNDING = 1e-9  # of a slice: a value this close below a boundary lies on it
+ROUNDING = 1e-9  # of a slice: a value this close below a boundary is on it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CoverageItem:
-    """What `cover` or `record` declares.
+    """An item of `cover` or `record`.
 
     Attributes:
         name: Its name, in a nested scenario with the path before it.
         kind: `cover` or `record`.
-        value: Gives the value, in SI; None for a cross of other items.
-        items: The names of those.
-        unit: In which value, range and slices are counted.
+        value: Returns the value in SI units; None for a cross of other items.
+        items: The names of the crossed items.
+        unit: Unit of value, range and slices.
         within: Values of interest.
         every: Width of a slice.
         buckets: Boundaries between slices.
         at: When it is sampled.
-        ignore: Which values do not count.
+        ignore: Ignored values.
         illegal: Forbidden values.
         target: Number of hits required in each slice.
         text: Description.
@@ -78,7 +78,7 @@ class CoverageItem:
         return unit_named(self.unit).of(value)
 
     def bucket_of(self, value: Any) -> tuple[float, float] | None:
-        """Return the slice that a number in the item's unit lies in; None outside of all."""
+        """Return the slice of a number in the unit of the item; None outside all slices."""
         if isinstance(value, bool | str):
             return None
         if self.buckets:
@@ -89,7 +89,7 @@ class CoverageItem:
             return self.within
         start, end = self.within or (0.0, math.inf)
         low = start + math.floor((value - start) / self.every + ROUNDING) * self.every
-        if low >= end:  # the last slice holds its upper bound
+        if low >= end:  # the last slice includes its upper bound
             low = start + (math.ceil((end - start) / self.every) - 1) * self.every
         return low, min(low + self.every, end)
 
@@ -103,7 +103,7 @@ def _between(value: float, boundaries: Sequence[float]) -> tuple[float, float] |
 
 
 class Recording(Leaf):
-    """Samples the items of a scenario for as long as that runs, and at its end.
+    """Samples the items of a scenario while it runs, and at its end.
 
     Args:
         items: The items.
@@ -143,7 +143,10 @@ class Recording(Leaf):
         return RUNNING
 
     def terminate(self, new_status: Status) -> None:
-        """Sample the values triggered by the end of the scenario; an interrupted one has no end."""
+        """Sample the values triggered by the end of the scenario.
+
+        An interrupted scenario has no end.
+        """
         if new_status is not SUCCESS:
             self._cut_short_at = self.context.step
             return
@@ -152,9 +155,9 @@ class Recording(Leaf):
                 self._record(item)
 
     def run_ends(self, outcome: str) -> None:
-        """Sample at the end of a run that fails, or has no time left: that ends the scenario too.
+        """Sample at the end of a run that fails or times out, which also ends the scenario.
 
-        What has no value then is left out.
+        Items without a value are omitted.
 
         Args:
             outcome: `failure` or `timeout`.

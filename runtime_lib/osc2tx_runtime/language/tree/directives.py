@@ -31,10 +31,10 @@ from osc2tx_runtime.language.tree.module_text import function_text
 
 
 class Wait(Leaf):
-    """Waits for an event or a condition, from its start on: `Wait("parked", elapsed(5 * s))`.
+    """Waits for an event or a condition, from its start: `Wait("parked", elapsed(5 * s))`.
 
     Args:
-        label: Name for `@label.end` and its like; may be left out.
+        label: Name for `@label.end` and others; optional.
         trigger: An event, a condition (`rise`, `fall`, `elapsed`, `every`) or a boolean function.
         condition: With an event: only an occurrence at which this is true counts.
     """
@@ -56,7 +56,7 @@ class Wait(Leaf):
         self._happened = watch(self.trigger, self.condition, self.context)
 
     def length(self) -> int | None:
-        """Return the steps of `elapsed`; every other trigger comes when it comes."""
+        """Return the steps of `elapsed`; those of other triggers are unknown."""
         seconds = self.seconds()
         return None if seconds is None else self.context.steps(seconds)
 
@@ -67,16 +67,16 @@ class Wait(Leaf):
         return trigger.seconds if is_time else None
 
     def lateness(self) -> float:
-        """Return how late a time shows that is over."""
+        """Return the lateness (s) of `elapsed`."""
         over = self._happened
         return over.late if isinstance(over, Deadline) else super().lateness()
 
     def waits_in_vain(self) -> bool:
-        """Whether it waits for an edge to what was so already."""
+        """Whether it waits for a change to a value that is already present."""
         return isinstance(self._happened, Edge) and self._happened.is_vain
 
     def update(self) -> Status:
-        """Succeed when it happened."""
+        """Succeed when the trigger occurs."""
         if self._happened():
             return SUCCESS
         rest_until(self, (self._happened,), self.context)
@@ -84,12 +84,12 @@ class Wait(Leaf):
 
 
 class Emit(Leaf):
-    """Lets an event occur; ends in the next pass, when others see it too.
+    """Emits an event; ends in the next pass, when it is visible.
 
     Args:
         event: The event.
-        **arguments: Of the event; functions are called when the event is emitted. Parameters
-            that are not given have their defaults.
+        **arguments: Arguments of the event; functions are called when it is emitted. Missing
+            parameters have their defaults.
     """
 
     instant = True
@@ -111,7 +111,7 @@ class Emit(Leaf):
         """Post the event.
 
         Raises:
-            ScenarioError: If the arithmetic of an argument fails.
+            ScenarioError: An argument has no value.
         """
         try:
             values = self.event.complete(self.arguments)
@@ -131,8 +131,8 @@ class Call(Leaf):
     """Calls a function once, in no time; it must not change what other nodes read.
 
     Args:
-        label: Name for `@label.end` and its like; may be left out.
-        function: What to call; with arguments: `Call(lambda: note(self.ego.speed))`.
+        label: Name for `@label.end` and others; optional.
+        function: The function; with arguments: `Call(lambda: note(self.ego.speed))`.
     """
 
     instant = True
@@ -149,29 +149,28 @@ class Call(Leaf):
         """Call it.
 
         Raises:
-            ScenarioError: If it raises something itself: it may be the user's own code.
+            ScenarioError: It raises an exception: it may be user code.
         """
         with OwnCode(f"{self.name}:"):
             self.function()
 
     def update(self) -> Status:
-        """Succeed at once."""
+        """Succeed in the same pass."""
         return SUCCESS
 
 
 class Until(Node, Decorator):
     """Ends a behavior at the first of several events or conditions, with success (DSL 7.6.2.5.4).
 
-    The conditions are asked before the behavior in every pass, from the start of the behavior on.
-    It is to end exactly then: a behavior that has ended by itself before fails, and so does one
-    whose duration asks for more. Where whatever comes first counts (`context.first_come`), it ends
-    with its own result.
+    In each pass the conditions are evaluated before the behavior, from its start. The behavior has
+    to end exactly then: it fails if it has ended before, or if its duration requires more time.
+    With `context.first_come` the first end counts, with its own result.
 
-    The label of the behavior belongs to the whole: its end is the end of both.
+    The label of the behavior is that of the whole: both end together.
 
     Args:
-        behavior: What runs.
-        *conditions: What ends it; for `@e if c` write `Event(self.e, condition=lambda: c)`.
+        behavior: The behavior.
+        *conditions: The ends; for `@e if c` write `Event(self.e, condition=lambda: c)`.
     """
 
     def __init__(self, behavior: Behaviour, *conditions: Trigger) -> None:
@@ -190,12 +189,12 @@ class Until(Node, Decorator):
         self._has_ended = False
 
     def setup(self, **kwargs: Any) -> None:
-        """Take the context; find out how to tick the behavior."""
+        """Take the context; prepare the behavior."""
         super().setup(**kwargs)
         self._pulse_child = pulse_of(self.decorated)
 
     def length(self) -> int | None:
-        """Return the steps until the first known end, if nothing else can end it."""
+        """Return the steps until the first known end, if no other end is possible."""
         known = [c.seconds if isinstance(c, Condition) else None for c in self.conditions]
         lengths = [None if seconds is None else self.context.steps(seconds) for seconds in known]
         child = self.decorated
@@ -214,12 +213,12 @@ class Until(Node, Decorator):
         return ended_late(self.decorated) if self._late is None else self._late
 
     def waits_in_vain(self) -> bool:
-        """Whether all that ends it are edges to what was so already."""
+        """Whether all its ends are changes to values that are already present."""
         edges = [isinstance(watch, Edge) and watch.is_vain for watch in self._happened]
         return bool(edges) and all(edges)
 
     def pulse(self) -> Status:
-        """Ask the conditions, then run the behavior."""
+        """Evaluate the conditions, then run the behavior."""
         if self.status is not RUNNING:
             self._begin()
         if self._is_over():
@@ -244,7 +243,7 @@ class Until(Node, Decorator):
         return status
 
     def _judge(self) -> Status:
-        """Succeed, unless the duration of the behavior asks for more time."""
+        """Succeed, unless the duration of the behavior requires more time."""
         limits = self._limits
         late = self._late or 0.0
         if limits is None or self.context.first_come or not limits.is_early(late):
@@ -255,7 +254,7 @@ class Until(Node, Decorator):
     def _may_end(self) -> bool:
         """Return whether the behavior may end before the condition of its `until`.
 
-        It may at the most of a range of durations: no end before that was its own.
+        It may at the upper bound of a range of durations, since an earlier end is not its own.
         """
         limits = self._limits
         return self.context.first_come or (limits is not None and limits.is_over)
@@ -270,7 +269,7 @@ class Until(Node, Decorator):
 
     def _is_over(self) -> bool:
         try:
-            # A list, not a generator: every condition is sampled in every step.
+            # A list, not a generator: each condition is sampled in each step.
             fired = [happened for happened in self._happened if happened()]
         except ScenarioError as error:
             error.source = error.source or self.source or None

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.language.tree.base import Node
 
 Duration = float | tuple[float, float]
-"""Seconds, or the least and the most seconds, which may be without end."""
+"""Seconds, or the least and the most seconds, which may be infinite."""
 
 
 def bounds_of(duration: Duration) -> tuple[float, float]:
@@ -34,18 +34,18 @@ class DurationLimits:
     """Applies a duration to the content of a node (DSL 7.6.2.1, 7.6.2.4.1).
 
     Open-ended content ends with success when the duration is over: at a time drawn from its range,
-    or at the most if an `until` ends it before. Content that ends before the least duration fails:
-    nothing waits idly for the rest. Content that has not ended at the most duration fails, once
-    all that happens at that instant has happened.
+    or at its upper bound if an `until` ends it before. Content that ends before the least duration
+    fails: there is no idle waiting. Content that has not ended at the greatest duration fails, once
+    that instant is settled.
 
-    Where the scenario takes whatever comes first (`context.first_come`), content ends when it
-    does, and at the most duration.
+    With `context.first_come`, content ends on its own or at the greatest duration, whichever comes
+    first.
 
     Attributes:
-        until: What ends the node from outside; empty if nothing does.
-        is_over: Its end has ended open-ended content.
-        late: Seconds by which the exact end of the duration lies before the step at which the node
-            ends; None if something else ends it.
+        until: The `until` that ends the node; empty without one.
+        is_over: Whether its end has ended open-ended content.
+        late: Seconds by which the exact end of the duration precedes the step at which the node
+            ends; None if it ends otherwise.
     """
 
     def __init__(self, node: Node, duration: Duration) -> None:
@@ -91,7 +91,7 @@ class DurationLimits:
 
     @property
     def fixed(self) -> float | None:
-        """The duration in seconds, if it is one number."""
+        """The duration in seconds, if it is a single number."""
         low, high = self._seconds
         return low if low == high else None
 
@@ -120,7 +120,7 @@ class DurationLimits:
 
     @property
     def ends_open(self) -> bool:
-        """Whether it ends open-ended content, at a time that is known from the start on."""
+        """Whether it ends open-ended content at a time known from the start."""
         return not self.until and not math.isinf(self._seconds[1])
 
     @property
@@ -132,7 +132,7 @@ class DurationLimits:
         """Return whether an end at this step is before the least duration is over.
 
         Args:
-            late: Seconds by which the exact end lies before the step.
+            late: Seconds by which the exact end precedes the step.
         """
         step, low_late = self._low
         context = self._node.context
@@ -140,12 +140,12 @@ class DurationLimits:
         return now < step or (now == step and is_longer(late, low_late, context.dt))
 
     def frame(self, context: ExecutionContext) -> Span:
-        """Return the steps that its content may take."""
+        """Return the possible steps of its content."""
         low, high = self._seconds
         return Span(context.steps(low), INF if math.isinf(high) else context.steps(high))
 
     def rest(self) -> bool:
-        """Have its node woken when the next of its ends comes; return whether it may rest now."""
+        """Schedule the wake-up of its node at its next end; return whether it may rest now."""
         context = self._node.context
         step, ends = context.step, [end for end, _ in (self._low, self._end, self._high)]
         if step >= min(ends[1:]):
@@ -154,12 +154,12 @@ class DurationLimits:
         return True
 
     def judge(self, status: Status, open_ended: bool, late: float = 0.0) -> Status:
-        """Return the node's status for that of its content.
+        """Return the status of the node for that of its content.
 
         Args:
             status: Of the content.
-            open_ended: The content never ends by itself.
-            late: Seconds by which its exact end lies before this step.
+            open_ended: Whether the content is open-ended.
+            late: Seconds by which its exact end precedes this step.
         """
         context = self._node.context
         step = context.step
@@ -180,7 +180,7 @@ class DurationLimits:
         return self._node.fail(f"not finished within {self._seconds[1]:g} s{self._unfinished()}")
 
     def _judge_end(self, late: float) -> Status:
-        """Judge content that ends by itself."""
+        """Judge content that ends on its own."""
         if self.is_early(late) and not self._node.context.first_come:
             over = self._node.lasted(late)
             return self._node.fail(
@@ -191,7 +191,7 @@ class DurationLimits:
         return SUCCESS
 
     def _judge_open(self) -> Status:
-        """Judge content that has no end of its own."""
+        """Judge open-ended content."""
         context = self._node.context
         end, late = self._end
         if context.step < end:
@@ -205,7 +205,7 @@ class DurationLimits:
         return SUCCESS
 
     def _unfinished(self) -> str:
-        """Return which leaves inside are still running, in the order of the source."""
+        """Return the running leaves inside, in the order of the source."""
         leaves = [
             (place_key(leaf), leaf)
             for leaf in self._node.iterate()

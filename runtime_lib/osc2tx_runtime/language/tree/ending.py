@@ -20,11 +20,11 @@ from osc2tx_runtime.language.tree.base import (
 )
 
 WHOLE = "do"
-"""Label of all that a scenario does, in modules in which something reacts to its failure."""
+"""Label of the whole behavior, in modules with a reaction to its failure."""
 
 
 class End(Leaf):
-    """Ends the scenario with success at this instant, whatever else runs.
+    """Ends the scenario with success at this instant.
 
     Args:
         label: Name for `@label.start`.
@@ -38,7 +38,7 @@ class End(Leaf):
         self.label = label
 
     def update(self) -> Status:
-        """Stay: the scenario ends around it."""
+        """Remain running: the enclosing scenario ends."""
         return RUNNING
 
 
@@ -49,14 +49,14 @@ class Fail(End):
 
 
 class Ending(Node, Decorator):
-    """Stands around the tree of a scenario that ends itself.
+    """Encloses the tree of a scenario with `emit end` or `emit fail`.
 
     Args:
         behavior: The tree.
-        ends: The nodes in it that end the scenario.
+        ends: Its nodes that end the scenario.
 
     Attributes:
-        failed_by: The one of them that ended it with a failure.
+        failed_by: The node that ended it with a failure.
     """
 
     synthetic = True
@@ -69,7 +69,7 @@ class Ending(Node, Decorator):
         self._is_posted = False
 
     def setup(self, **kwargs: object) -> None:
-        """Take the context; find out how to tick the tree."""
+        """Take the context; prepare the tree."""
         super().setup(**kwargs)
         listeners = self.context.label_events if self.listeners is None else self.listeners
         self._failure = listeners.get((WHOLE, "fail"))
@@ -80,31 +80,31 @@ class Ending(Node, Decorator):
         self._is_posted = False
 
     def length(self) -> int | None:
-        """Return nothing: only the run can tell."""
+        """Return None: only the run determines it."""
         return None
 
     def lateness(self) -> float:
-        """Return the status of the tree, if it came to its end."""
+        """Return the status of the tree, if it has ended."""
         return ended_late(self.decorated) if self.decorated.status is SUCCESS else 0.0
 
     def pulse(self) -> Status:
-        """Run the tree, then check whether it declared its end; failures count first."""
+        """Run the tree, then check whether it has ended the scenario; failures take precedence."""
         if self.status is not RUNNING:
             self._begin()
         resting = self.context.resting.nodes
         is_over = self.context.settled and any(end.status is RUNNING for end in self._ends)
-        # What is settled has its end: durations around it are not judged any more.
+        # The instant is settled: enclosing durations are no longer checked.
         status = RUNNING if is_over or self.decorated in resting else self._pulse_child()
-        if self.decorated in resting:  # and nothing in it ends the scenario
+        if self.decorated in resting:  # and no node in it ends the scenario
             resting.add(self)
             return RUNNING
         reached = [end for end in self._ends if end.status is RUNNING]
         failed = [end for end in reached if isinstance(end, Fail)]
         if status is RUNNING and failed and self._failure is not None and not self._is_posted:
             self._is_posted = True
-            self.context.post(self._failure)  # what reacts to it is in the tree, and still runs
+            self.context.post(self._failure)  # reactions to it are in the tree, and still run
         if status is RUNNING and reached and not self.context.settled:
-            self.context.request_settling()  # what still happens at this instant belongs to it
+            self.context.request_settling()  # further changes of this instant belong to it
             return RUNNING
         if status is not FAILURE and failed:
             self.failed_by = failed[0]

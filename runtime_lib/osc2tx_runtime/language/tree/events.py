@@ -1,9 +1,9 @@
 """Events and their occurrences, and how nodes watch them.
 
-Time within an instant is the context's pass counter `tick`: an occurrence is stamped with the
-pass in which it becomes visible, a watch with the pass in which it starts, and the watch sees
-occurrences with a later stamp. So a wait beside an emit sees it wherever it stands, and a wait
-that starts after an emit does not.
+Time within an instant is the context's pass counter `tick`: an occurrence is stamped with the pass
+in which it becomes visible, a watch with the pass in which it starts, and the watch registers
+occurrences with a later stamp. So a wait in parallel to an emit registers it in any order, and a
+wait that starts after an emit does not.
 """
 
 from __future__ import annotations
@@ -42,18 +42,18 @@ class Event:
     underscore behind it.
 
     Args:
-        trigger: Its specification: another event, a condition or a boolean function. It is
-            watched where the event is used, from the start of that use on.
-        condition: The event occurs only if this is true as well, at the same instant.
+        trigger: Its specification: another event, a condition or a boolean function. It is watched
+            where the event is used, from the start of that use.
+        condition: The event occurs only if this is also true at the same instant.
         defaults: Values of parameters, for an `Emit` without them: a value, or a function that is
             called then.
-        name: Name in the scenario, where its attribute cannot have it (`from`).
+        name: Name in the scenario, if an attribute cannot have it (`from`).
 
     Attributes:
         parameters: Its parameters as attributes, to their names in the scenario.
         name: Name in trace and settings; the scenario fills in the attribute's name.
         arguments: Of the occurrence that a condition is being asked about.
-        alias: The event this one stands for, where that is in an invoked scenario.
+        alias: The event that it refers to, in an invoked scenario.
     """
 
     parameters: ClassVar[Mapping[str, str]] = {}
@@ -79,12 +79,12 @@ class Event:
         self.alias: Event | None = None
         self.occurred = 0
         self.occurrences: list[Mapping[str, Any]] = []
-        self._instant = (-1, frozenset[str]())  # a step, and what occurred in it
+        self._instant = (-1, frozenset[str]())  # a step, and its occurrences
 
     def __repr__(self) -> str:
         return f"Event({self.name!r})"
 
-    if not TYPE_CHECKING:  # so that type checkers still know which attributes there are
+    if not TYPE_CHECKING:  # so that type checkers still know the attributes
 
         def __getattr__(self, attribute: str) -> Any:
             if attribute not in self.parameters:
@@ -95,7 +95,7 @@ class Event:
             return event.arguments[name]
 
     def meant(self) -> Event:
-        """Return the event itself, or the one it stands for."""
+        """Return the event itself, or the one that it refers to."""
         return self if self.alias is None else self.alias.meant()
 
     def problem(self, given: Iterable[str]) -> str:
@@ -121,7 +121,10 @@ class Event:
         self._instant = (-1, frozenset())
 
     def occur(self, tick: int, step: int, occurrences: Sequence[Mapping[str, Any]]) -> None:
-        """Become visible in pass `tick`; equal occurrences of one instant are one (DSL 7.6.2.5)."""
+        """Become visible in pass `tick`.
+
+        Equal occurrences of one instant count once (DSL 7.6.2.5).
+        """
         before = self._instant[1] if self._instant[0] == step else frozenset()
         distinct = {argument_key(arguments): arguments for arguments in occurrences}
         new = sorted(distinct.keys() - before)
@@ -142,14 +145,14 @@ def _name_of(attribute: str) -> str:
 
 
 Trigger = Event | Condition | Callable[[], bool]
-"""What one can wait for: an event, a condition object, a boolean function (while true)."""
+"""An event, a condition object, or a boolean function (while true)."""
 
 Guard = Condition | Callable[[], bool]
-"""What has to be true at an occurrence of an event for it to count."""
+"""Condition under which an occurrence of an event counts."""
 
 
 def argument_key(arguments: Mapping[str, Any]) -> str:
-    """Return a text that orders occurrences alike in every run."""
+    """Return a sort key of occurrences that is the same in all runs."""
     return repr([(name, stable(arguments[name])) for name in sorted(arguments)])
 
 
@@ -159,7 +162,7 @@ def stable(value: Any) -> Any:
 
 
 def watch(trigger: Trigger, only_if: Guard | None, context: ExecutionContext) -> Watch:
-    """Start watching: returns a function that says whether it happened by the present pass."""
+    """Start watching: return a function that returns whether it happened up to the present pass."""
     if isinstance(trigger, Event):
         return watch_event(trigger.meant(), only_if, context)
     happened = trigger.watch(context) if isinstance(trigger, Condition) else None
@@ -168,7 +171,7 @@ def watch(trigger: Trigger, only_if: Guard | None, context: ExecutionContext) ->
     if only_if is None:
         return happened
     first, second = happened, watch_guard(only_if, context)
-    return lambda: all([first(), second()])  # both are asked in every step
+    return lambda: all([first(), second()])  # both are evaluated in each step
 
 
 def watch_guard(guard: Guard, context: ExecutionContext) -> Watch:
@@ -186,7 +189,7 @@ def watch_event(event: Event, only_if: Guard | None, context: ExecutionContext) 
     specified = watch(event.trigger, event.condition, context)
 
     def happened() -> bool:
-        # Both are asked: edges must be sampled in every step, occurrences used up.
+        # Both are evaluated: edges must be sampled in each step, occurrences consumed.
         came, came_true = emitted(), specified()
         if came_true and not came and emitted.is_allowed():
             if event.name:
@@ -220,7 +223,7 @@ class Occurrences:
 
     @property
     def comes_by_itself(self) -> bool:
-        """Whether nothing needs to be asked until an event occurs."""
+        """Whether no evaluation is needed until an event occurs."""
         return self._holds is None
 
     def is_allowed(self) -> bool:
@@ -230,10 +233,10 @@ class Occurrences:
         return self._function is None or evaluate(self._function)
 
     def __call__(self) -> bool:
-        """Return whether the event occurred since it was last asked."""
+        """Return whether the event occurred since the last call."""
         event = self.event
         if self._holds is not None:
-            self._holds()  # sampled in every pass, so that an edge is one since the step before
+            self._holds()  # sampled in each pass, so that an edge is a change since the step before
         if event.occurred <= self._seen:
             return False
         self._seen = event.occurred
@@ -251,7 +254,7 @@ class Occurrences:
 
 
 def rest_until(node: Behaviour, watches: Sequence[Watch], context: ExecutionContext) -> None:
-    """Let a node rest until one of its watches may say yes, where that can be known."""
+    """Let a node rest until one of its watches may become true, if that can be known."""
     resting = context.resting
     asked = []
     for each in watches:
@@ -267,7 +270,7 @@ def rest_until(node: Behaviour, watches: Sequence[Watch], context: ExecutionCont
 
 
 def describe(trigger: Trigger, condition: Guard | None = None) -> str:
-    """Return a few words for a trigger, and for what must be true as well."""
+    """Return a short description of a trigger and its condition."""
     if condition is not None:
         return f"{describe(trigger)} if {describe(condition)}"
     if isinstance(trigger, Event):

@@ -1,4 +1,4 @@
-"""Texts that say why a tree failed or ran out of time."""
+"""Texts with the reasons why a tree failed or timed out."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from osc2tx_runtime.language.tree.ending import Ending
 if TYPE_CHECKING:
     from osc2tx_runtime.language.context import ExecutionContext
 
-NAMED_LEAVES = 4  # as many running leaves the reason of a timeout names
+NAMED_LEAVES = 4  # greatest number of running leaves in the reason of a timeout
 
 
 def failure_reason(root: Behaviour, context: ExecutionContext) -> str:
-    """Return what failed, where, when and why."""
+    """Return the text of a failure: node, position, time and reason."""
     texts = []
     for node in culprits(root):
-        # The losers of a race failed before the race did.
+        # The losers of a race failed before the race.
         at = getattr(node, "failed_at", None)
         time = context.time if at is None else at
         why = node.feedback_message or "it gives no reason"
@@ -26,19 +26,19 @@ def failure_reason(root: Behaviour, context: ExecutionContext) -> str:
 
 
 def failure_place(root: Behaviour) -> str:
-    """Return the place of what failed first; empty where it has none."""
+    """Return the source position of the first failure; empty without one."""
     first = culprits(root)[0]
     says_so = first.failed_by if isinstance(first, Ending) else None
     return getattr(first, "failure_source", "") or source_of(says_so or first)
 
 
 def culprits(root: Behaviour) -> list[Behaviour]:
-    """Return the nodes that a failure comes from, in order."""
+    """Return the nodes that cause a failure, in order."""
     return sorted(failing(root), key=place_key)
 
 
 def vain(root: Behaviour) -> list[str]:
-    """Return a hint for each node that waited for a change to what was so already."""
+    """Return a hint for each node that waited for a change to a value that was already present."""
     nodes = [node for node in root.iterate() if isinstance(node, Node) and node.waits_in_vain()]
     nodes.sort(key=place_key)
     return [
@@ -48,7 +48,7 @@ def vain(root: Behaviour) -> list[str]:
 
 
 def failing(node: Behaviour) -> list[Behaviour]:
-    """Return the nodes that a failure comes from."""
+    """Return the nodes that cause a failure."""
     below = [child for child in node.children if child.status is FAILURE]
     if node.feedback_message or not below:
         return [node]
@@ -56,7 +56,7 @@ def failing(node: Behaviour) -> list[Behaviour]:
 
 
 def timeout_reason(root: Behaviour, context: ExecutionContext) -> str:
-    """Return which leaves are still running."""
+    """Return the text of a timeout: the running leaves."""
     leaves = running_leaves(root)
     texts = [with_situation(named(leaf), leaf) for leaf in leaves[:NAMED_LEAVES]]
     if len(leaves) > NAMED_LEAVES:
@@ -85,12 +85,12 @@ def with_situation(text: str, node: Behaviour) -> str:
 
 
 def source_of(node: Behaviour) -> str:
-    """Return a node's place; behaviours that are not ours have none."""
+    """Return the source position of a node; other py_trees behaviours have none."""
     place = getattr(node, "source", "")
     return place if isinstance(place, str) else str(place)
 
 
 def named(node: Behaviour) -> str:
-    """Return a node's name, with its place where known."""
+    """Return the name of a node, with its source position if known."""
     source = source_of(node)
     return f"{node.name} ({source})" if source else node.name

@@ -24,7 +24,7 @@ class Invocation(Serial):
         name: Label, or actor and scenario.
         scenario: The invoked scenario.
         body: Its tree.
-        duration: Seconds, or (least, most) seconds, that it takes.
+        duration: Its duration: seconds, or (least, most) seconds.
     """
 
     def __init__(
@@ -40,10 +40,10 @@ def draw_key(
     actor: BaseActor | None,
     arguments: Mapping[str, Any],
 ) -> str:
-    """Return what draws of an invoked scenario depend on: `ego vehicle.approach(lead: car1)`.
+    """Return the key of the draws of an invoked scenario: `ego vehicle.approach(lead: car1)`.
 
-    That are names in the module alone. Values are left out: setting or drawing one does not
-    change what else is drawn.
+    It only contains names in the module. Without values in it, setting or drawing one does not
+    change other draws.
     """
     fields = {
         id(value): name for name, value in vars(caller).items() if isinstance(value, BaseActor)
@@ -57,9 +57,9 @@ def draw_key(
 
 
 def unique_name(name: str, taken: Mapping[str, object]) -> str:
-    """Return `name`, or `name_2` and so on where that is taken.
+    """Return `name`, or `name_2` and so on if it is taken.
 
-    The number is looked for by halves: of a thousand equal names each is found in a few looks.
+    The number is found by bisection.
     """
     if name not in taken:
         return name
@@ -87,7 +87,7 @@ def own_nodes(root: Behaviour) -> Iterator[Node]:
 def started_at_once(
     node: Behaviour, race: bool, at_once: bool = True
 ) -> Iterator[tuple[Behaviour, bool]]:
-    """Yield the nodes of a tree, parents first, and whether they surely start with it.
+    """Yield the nodes of a tree, parents first, and whether they certainly start with it.
 
     Args:
         node: Root of the tree.
@@ -100,7 +100,7 @@ def started_at_once(
 
 
 def starts_at_once(node: Behaviour, race: bool) -> list[bool]:
-    """Return for each member whether it surely starts with the composition."""
+    """Return for each member whether it certainly starts with the composition."""
     members = node.children
     if isinstance(node, Serial):
         instant = [isinstance(child, Node) and child.instant for child in members]

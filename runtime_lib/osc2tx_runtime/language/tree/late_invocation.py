@@ -1,8 +1,8 @@
-"""Invocations that are made when they start.
+"""Invocations that are created when they start.
 
-The arguments of a scenario may depend on the state of the world by then. A scenario may also invoke
-itself: a tree that held itself would have no end. How deep and how often is bounded: beyond that it
-fails, which ends an alternative of a `one_of` and leaves the others.
+The arguments of a scenario may depend on the state of the world at that time. A scenario may also
+invoke itself: a tree that contains itself would be infinite. Depth and number are limited: beyond
+them the invocation fails, which removes an alternative of a `one_of`.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ MOST_INVOCATIONS = 1000
 
 
 def is_recursive(scenario: ScenarioParts, invoked: type[ScenarioParts]) -> bool:
-    """Return whether a scenario is invoked by itself, directly or through others."""
+    """Return whether a scenario is invoked by itself, directly or indirectly."""
     return levels(scenario, invoked) > 0
 
 
 def levels(scenario: ScenarioParts, invoked: type[ScenarioParts]) -> int:
-    """Return how many scenarios of a class a scenario runs in."""
+    """Return the number of enclosing scenarios of a class."""
     found, current = 0, scenario
     while True:
         found += type(current) is invoked
@@ -42,18 +42,18 @@ def levels(scenario: ScenarioParts, invoked: type[ScenarioParts]) -> int:
 
 
 def late_arguments(given: Mapping[str, Any]) -> set[str]:
-    """Return the names of arguments that are functions: they give values when it starts."""
+    """Return the names of arguments that are functions: they are evaluated when it starts."""
     return {name for name, value in given.items() if isinstance(value, FunctionType)}
 
 
 class LateInvocation(Node):
-    """An invocation that is made when it starts.
+    """An invocation that is created when it starts.
 
     Args:
         name: As of the invocation.
         caller: The scenario that invokes.
-        invoked: The classes of which it is one: its own, and conditional ones.
-        make: Makes the invocation.
+        invoked: The classes to choose from: its own, and conditional ones.
+        make: Creates the invocation.
     """
 
     def __init__(
@@ -71,11 +71,11 @@ class LateInvocation(Node):
         self._pulse_child: Callable[[], Status] | None = None
 
     def length(self) -> int | None:
-        """Return nothing: only the run can tell."""
+        """Return None: only the run determines it."""
         return None
 
     def initialise(self) -> None:
-        """Make the invocation, unless there are too many already."""
+        """Create the invocation, unless there are too many."""
         self.children, self._pulse_child = [], None
         root = self._caller_scenario._root
         root._recursions += 1

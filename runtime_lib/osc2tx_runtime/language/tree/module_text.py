@@ -1,8 +1,8 @@
 """Names of unlabelled nodes, taken from the text of the module.
 
 `self.ego.drive(speed(self.v_ego))` makes a node `ego.drive(speed(v_ego))`, `Wait(rise(lambda:
-self.ego.speed > 3))` one named `wait rise(ego.speed > 3)`. Names are for people and only for them:
-where Python knows no positions (`PYTHONNODEBUGRANGES`) or the text is gone, they are shorter.
+self.ego.speed > 3))` one named `wait rise(ego.speed > 3)`. Names only serve readers: if Python has
+no positions (`PYTHONNODEBUGRANGES`) or the text is missing, they are shorter.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def failing_part(error: BaseException) -> tuple[str, str]:
 
 
 def _position(code: CodeType, offset: int) -> Position:
-    """Return the position of an instruction; a table of all makes the next ones quick."""
+    """Return the position of an instruction; a table of all positions speeds up further calls."""
     known = _positions.get(id(code))
     if known is None or known[0] is not code:
         if len(_positions) == MOST_KEPT:
@@ -79,7 +79,7 @@ def _position(code: CodeType, offset: int) -> Position:
 
 
 def _member_at(file: str, line: int, names: dict[str, Any]) -> str:
-    """Return the member that the statement at a line begins with."""
+    """Return the member at the start of the statement at a line."""
     while line > 0:
         found = MEMBER.match(linecache.getline(file, line, names))
         if found is not None:
@@ -102,7 +102,7 @@ def _known(code: CodeType) -> Iterator[tuple[int, int, int, int]]:
 
 
 def _text(code: CodeType, names: dict[str, Any], position: Position) -> str:
-    """Return the text at a position on one line, without `self.`; nothing if it is not known."""
+    """Return the text at a position on one line, without `self.`; empty if unknown."""
     line, end_line, column, end_column = position
     if line is None or end_line is None or column is None or end_column is None:
         return ""
@@ -116,7 +116,7 @@ def _text(code: CodeType, names: dict[str, Any], position: Position) -> str:
 
 
 def _condense(lines: list[str]) -> str:
-    """Join lines as black would, if they had room; comments are left out."""
+    """Join lines as black would without a limit; comments are omitted."""
     kept = (line.strip() for line in lines if not line.lstrip().startswith("#"))
     joined = re.sub(r"\s+", " ", " ".join(kept))
     joined = re.sub(r"(?<=[(\[]) |,? (?=[)\]])", "", joined)

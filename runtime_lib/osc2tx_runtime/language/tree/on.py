@@ -23,11 +23,11 @@ NOTHING: Mapping[str, Any] = {}
 
 
 class On(Node, SequenceComposite):
-    """Reacts whenever something happens, for as long as the composition around it runs.
+    """Reacts to each occurrence of a trigger, while the enclosing composition runs.
 
-    Stands beside the behavior in a `Parallel`, which it does not keep from ending. At one instant
-    it reacts once to each event, however often that is emitted; events with other arguments are
-    other events, and come one after the other.
+    It is a member of a `Parallel` beside the behavior, and does not extend it. At one instant it
+    reacts once to each event, however often it is emitted; occurrences with different arguments are
+    handled one after the other.
 
     Args:
         trigger: An event, a condition or a boolean function (once per step while it is true).
@@ -49,12 +49,12 @@ class On(Node, SequenceComposite):
         self.condition = condition
         self._happened: Watch = lambda: False
         self._pulses: list[Callable[[], Status]] = []
-        self._next = 0  # reaction that comes next
+        self._next = 0  # the next reaction
         self._queue: list[Mapping[str, Any]] = []  # occurrences to react to, the present one first
         self._step = -1  # of the last reaction to a condition
 
     def setup(self, **kwargs: Any) -> None:
-        """Take the context; find out how to tick the reactions."""
+        """Take the context; prepare the reactions."""
         super().setup(**kwargs)
         self._pulses = [pulse_of(reaction) for reaction in self.children]
 
@@ -64,11 +64,11 @@ class On(Node, SequenceComposite):
         self._next, self._queue, self._step = 0, [], -1
 
     def pulse(self) -> Status:
-        """React if it happened."""
+        """React to occurrences."""
         if self.status is not RUNNING:
             self._begin()
         try:
-            if self._happened():  # asked in every pass: what comes in between is used up
+            if self._happened():  # evaluated in each pass: occurrences in between are consumed
                 self._hear()
             status = self._react()
         except ScenarioError as error:
@@ -94,7 +94,7 @@ class On(Node, SequenceComposite):
                 self._next = 0
                 self._queue.pop(0)
                 continue
-            if isinstance(self.trigger, Event):  # others look at other occurrences meanwhile
+            if isinstance(self.trigger, Event):  # other nodes read other occurrences meanwhile
                 self.trigger.meant().arguments = self._queue[0]
             status = self._pulses[self._next]()
             if status is not SUCCESS:

@@ -22,11 +22,11 @@ Mode = Literal["on_start", "when_active"]
 
 
 class Overridden(Node, Decorator):
-    """Stands around a behavior that others override.
+    """Encloses a behavior that others override.
 
-    It ends with success when one of them starts; `when_active` it also is skipped, with success,
-    if one of them runs when it would start. What happens in a pass shows from the next pass on,
-    so it does not matter which of the two is visited first.
+    It ends with success when one of them starts; with `when_active` it is also skipped, with
+    success, if one of them runs when it would start. Changes of a pass are visible from the next
+    pass, so the order of the visit has no effect.
 
     Args:
         behavior: The overridden behavior.
@@ -52,14 +52,14 @@ class Overridden(Node, Decorator):
         self._pulse_child = pulse_of(child)
         self.open_ended = isinstance(child, Node) and child.open_ended
         self.instant = isinstance(child, Node) and child.instant
-        self.may_end = True  # so an open-ended behavior may be in the middle of a serial
+        self.may_end = True  # so an open-ended behavior may have successors in a serial
 
     def initialise(self) -> None:
-        """Remember the pass of the start."""
+        """Store the pass of the start."""
         self._begun = self.context.tick
 
     def lateness(self) -> float:
-        """Return the status of the behavior, if it came to its end."""
+        """Return the status of the behavior, if it has ended."""
         return ended_late(self.decorated) if self.decorated.status is SUCCESS else 0.0
 
     def pulse(self) -> Status:

@@ -44,22 +44,21 @@ if TYPE_CHECKING:
 class Parallel(Composition, ParallelComposite):
     """Members at the same time; ends when the last bounded member has ended.
 
-    Bounded are members that end by themselves and take time. Open-ended members end with the
-    last bounded one; without a bounded one they run on. A failing member fails the whole.
+    Bounded members end on their own and take time. Open-ended members end with the last bounded
+    one; without a bounded one they continue. A failing member fails the whole.
 
-    `On` and samples beside the members see all that happens at the last instant: the end waits
-    until it is settled.
+    `On` and samples also register the last instant: the end waits until it is settled.
 
-    Other overlaps than `start` bound the starts and ends of the other members relative to the
-    first, the primary one (`parallel_schedule`). The order of the others has no influence.
+    Overlaps other than `start` bound the starts and ends of the other members relative to the
+    first, the primary (`parallel_schedule`). The order of the others has no influence.
 
     Args:
         name: Label, or a description.
         *members: In the order of the source.
         overlap: Their relation in time; None is `start`, or `any` with a `start_to_start`.
-        duration: Seconds, or (least, most) seconds, that the whole takes.
+        duration: Its duration: seconds, or (least, most) seconds.
         start_to_start: Seconds, or (least, most) seconds, from the start of the first member to
-            that of each other.
+            that of each other member.
         end_to_end: The same for the ends.
     """
 
@@ -112,7 +111,7 @@ class Parallel(Composition, ParallelComposite):
             self._course = Course(self, timed, self._schedule, f"overlap {self.overlap}")
 
     def _judged(self) -> Status:
-        """Judge a pass; an end is one once nothing more happens at this instant."""
+        """Judge a pass; an end counts once the instant is settled."""
         if self._verdict is not None:
             reacted = [pulse() for node, pulse in self._services if node.status is RUNNING]
             if FAILURE in reacted:
@@ -135,7 +134,7 @@ class Parallel(Composition, ParallelComposite):
         lasting = self._lasting()
         if len(lasting) < 2:
             return None
-        # The order of the secondaries only matters for which of several mistakes is reported.
+        # The order of the secondaries only determines which of several errors is reported.
         others = sorted(lasting[1:], key=place_key)
         nodes = [lasting[0], *others]
         parts = [Part(node.name, length_of(node), is_open(node)) for node in nodes]
@@ -212,7 +211,7 @@ class Parallel(Composition, ParallelComposite):
         return RUNNING
 
     def _is_over(self) -> bool:
-        """Return whether all that bounds it has ended: reactions alone bound nothing."""
+        """Return whether all bounding members have ended; reactions do not bound it."""
         if self._bounding:
             return not self._active or (not self._left and not self._instants_run())
         return all(is_service(child) for child, _ in self._active) and (
@@ -220,7 +219,7 @@ class Parallel(Composition, ParallelComposite):
         )
 
     def _stretches(self) -> bool:
-        """Return whether members without end of their own fill the rest of the least duration."""
+        """Return whether open-ended members fill the rest of the least duration."""
         limits = self._limits
         self._stretched = (
             limits is not None
@@ -234,7 +233,7 @@ class Parallel(Composition, ParallelComposite):
         return self._content_open or self._stretched
 
     def _note_end(self, member: Behaviour) -> None:
-        """Keep how late the last of the ends shows."""
+        """Store the lateness of the last end."""
         step, late = self._late
         ended = ended_late(member)
         self._late = (self.context.step, min(late, ended) if step == self.context.step else ended)
@@ -244,7 +243,7 @@ class Parallel(Composition, ParallelComposite):
         return late if step == self.context.step else super()._content_lateness()
 
     def _advance_course(self, failed: bool) -> Status:
-        """Advance the members that the schedule is about."""
+        """Advance the scheduled members."""
         course = self._course
         assert course is not None
         status = course.advance()

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class _Runner:
-    """One member on its course: when it starts, when it started and ended (steps)."""
+    """One member in execution: planned start, actual start and end (steps)."""
 
     def __init__(self, member: Member, start: int | None) -> None:
         self.node, self.pulse = member
@@ -32,8 +32,8 @@ class _Runner:
 class Course:
     """One execution of a scheduled `parallel`.
 
-    In every pass all running members are advanced first; then the results of all of them decide
-    which members end and start. So the order of the members has no influence.
+    In each pass all running members are advanced first; then their results determine which members
+    end and start. So the order of the members has no influence.
 
     Args:
         owner: The composition.
@@ -78,7 +78,7 @@ class Course:
             return FAILURE
         problem = self._problem(step)
         if problem and not self._context.settled:
-            self._context.request_settling()  # what still happens at this instant may fix it
+            self._context.request_settling()  # further changes of this instant may solve it
             return RUNNING
         if problem:
             return self._owner.fail(f"{self._what}: {problem}")
@@ -108,7 +108,7 @@ class Course:
                 self._finish(primary)
         elif self._bounded:
             ends = [other.end for other in self._bounded if other.end is not None]
-            if self._ete.low >= 0:  # not after any other: with the first that ends
+            if self._ete.low >= 0:  # not after any other: with the first end
                 over = bool(ends)
             else:
                 all_ended = len(ends) == len(self._bounded)
@@ -132,7 +132,7 @@ class Course:
                 self._finish(other)
 
     def _problem(self, step: int) -> str:
-        """Return what breaks the rules by now, if nothing more happens at this instant."""
+        """Return the broken rule, if the instant has no further changes."""
         others = sorted(self._others, key=lambda runner: runner.key)
         found = [text for other in others if (text := self._late_or_early(other, step))]
         found += self._apart(step)

@@ -6,10 +6,10 @@ bounds two offsets, in steps:
     start to start = start(secondary) - start(primary)
     end to end     = end(secondary)   - end(primary)
 
-A member has a length in steps, or it is open-ended (as long as one likes), or only the run can
-tell. Where lengths are known the plan keeps the bounds by itself; where the run decides, the
-members start as near to the primary as the bounds allow, and the composition watches the ends.
-Each secondary is planned by itself, so their order has no influence.
+A member has a length in steps, is open-ended (of any length), or only the run determines its
+length. With known lengths the plan satisfies the bounds; otherwise the members start as near to the
+primary as the bounds allow, and the composition watches the ends. Each secondary is planned
+independently, so their order has no influence.
 """
 
 from __future__ import annotations
@@ -35,11 +35,11 @@ class Span:
 
     @property
     def free(self) -> bool:
-        """Whether it bounds nothing."""
+        """Whether it is unbounded."""
         return self == FREE
 
     def meet(self, other: Span) -> Span:
-        """Return the intersection; `low` is above `high` where it is empty."""
+        """Return the intersection; `low` is above `high` if it is empty."""
         return Span(max(self.low, other.low), min(self.high, other.high))
 
     def nearest(self, steps: Steps) -> int:
@@ -54,12 +54,12 @@ SPANS: dict[str, tuple[Span, Span]] = {
 
 
 class Unplannable(Exception):
-    """No schedule keeps the bounds, or none can be known to; the text says why."""
+    """No schedule satisfies the bounds, or this cannot be known; the text states why."""
 
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A member as the plan sees it: steps it takes (None: the run decides), open-ended or not."""
+    """A member for the plan: its steps (None: the run determines them), open-ended or not."""
 
     name: str
     length: int | None
@@ -73,9 +73,9 @@ class Schedule:
     Attributes:
         starts: Start of each member in steps from the start of the composition, the primary first;
             None for one that starts when the primary ends.
-        primary_length: Steps of the primary; None where the run decides.
+        primary_length: Steps of the primary; None if the run determines it.
         end_to_end: Bounds for the ends of the secondaries.
-        length: Steps of the whole; None where the run decides.
+        length: Steps of the whole; None if the run determines it.
     """
 
     starts: tuple[int | None, ...]
@@ -88,7 +88,7 @@ def spans_of(overlap: str, start_to_start: Span | None, end_to_end: Span | None)
     """Return the bounds of start to start and end to end.
 
     Raises:
-        Unplannable: If the offsets contradict the overlap.
+        Unplannable: The offsets contradict the overlap.
     """
     found = []
     for kind, offset, what in zip(
@@ -108,10 +108,10 @@ def make_schedule(parts: Sequence[Part], sts: Span, ete: Span, frame: Span = END
         parts: The members that take time, the primary first; there may be none.
         sts: Bounds of start to start.
         ete: Bounds of end to end.
-        frame: Steps that the whole may take.
+        frame: Possible steps of the whole.
 
     Raises:
-        Unplannable: If there is no schedule.
+        Unplannable: There is no schedule.
     """
     least = int(frame.low)
     if not parts:
@@ -138,7 +138,7 @@ def framed(
     them have an instant in common.
 
     Raises:
-        Unplannable: If the whole is too short or too long in any case.
+        Unplannable: The whole is too short or too long in any case.
     """
     lengths = [part.length for part in parts[1:] if part.length is not None]
     if len(lengths) < len(offsets):
@@ -176,9 +176,9 @@ def _fitting(primary: int, length: int, sts: Span, ete: Span) -> Span:
 def open_primary_length(
     secondaries: Sequence[Part], sts: Span, ete: Span, least: int
 ) -> int | None:
-    """Return the duration of an open-ended primary; None where the run decides.
+    """Return the duration of an open-ended primary; None if the run determines it.
 
-    It continues as long as the last secondary, as far as the bounds allow.
+    It ends with the last secondary, as far as the bounds allow.
     """
     bounded = [part for part in secondaries if not part.open_ended]
     if not bounded:
@@ -218,7 +218,7 @@ def offset_of(
     ete: Span,
     secondaries: Sequence[Part],
 ) -> int | None:
-    """Return the start of a secondary after the start of the primary; None for at its end."""
+    """Return the start of a secondary after the start of the primary; None: at its end."""
     if part.open_ended:
         if length is None and ete.high < 0:
             raise Unplannable(f"the length of {primary.name} cannot be determined")
@@ -255,7 +255,7 @@ def whole_length(
     """Return the steps of the whole, if they are known.
 
     Raises:
-        Unplannable: If the members have no instant in common.
+        Unplannable: The members share no instant.
     """
     first = starts[0]
     if length is None or first is None:

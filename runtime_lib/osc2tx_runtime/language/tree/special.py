@@ -1,4 +1,4 @@
-"""Conditional scenarios: which class an invocation runs depends on its arguments (§7.3.8.2.2)."""
+"""Conditional scenarios: the arguments of an invocation determine its class (§7.3.8.2.2)."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ ScenarioT = TypeVar("ScenarioT")
 
 @dataclass(frozen=True, slots=True)
 class Special(Generic[ScenarioT]):
-    """A scenario that runs instead of its base.
+    """A conditional scenario, which runs instead of its base.
 
     Attributes:
         scenario: Its class.
-        values: The arguments that an invocation of the base has then.
+        values: The arguments of the base for which it runs.
     """
 
     scenario: type[ScenarioT]
@@ -26,13 +26,13 @@ class Special(Generic[ScenarioT]):
 def choice(
     scenario: type[ScenarioT], specials: Sequence[Special[ScenarioT]], arguments: Mapping[str, Any]
 ) -> tuple[type[ScenarioT], dict[str, Any]]:
-    """Return the class that an invocation runs, and the arguments that it takes.
+    """Return the class of an invocation, and its arguments.
 
-    Those that a special scenario depends on are constants in it.
+    Those that select a conditional scenario are constants in it.
 
     Args:
-        scenario: The class of the base, which runs if none of the others applies.
-        specials: Those of which the first that applies runs.
+        scenario: The base class, which runs if no other applies.
+        specials: The conditional scenarios; the first that applies runs.
         arguments: Of the invocation.
     """
     for special in specials:

@@ -18,24 +18,24 @@ Boundary = Literal["start", "end"]
 """Start and end of the scenario that declares a variable."""
 
 MISSING: Any = object()
-"""Stands for a default that is not there."""
+"""Represents a missing default."""
 
 
 class Sampled:
     """One variable.
 
     Args:
-        expression: Gives the new value.
+        expression: Returns the new value.
         trigger: When it is sampled; `start` and `end` refer to its scenario.
         default: Value before the first sample; MISSING for none.
         condition: With an event: only an occurrence at which this is true counts.
-        name: Name in the scenario, where its attribute cannot have it (`from`).
+        name: Name in the scenario, if an attribute cannot have it (`from`).
 
     Attributes:
         name: Name in the scenario; the scenario fills it in.
-        value: The value that others read in this pass.
-        due: Whether its condition samples it at this instant, for those who read it before that
-            has happened; None for a variable that an event samples.
+        value: The value to read in this pass.
+        due: Whether its condition samples it at this instant, for reads before the sample; None for
+            a variable that an event samples.
     """
 
     def __init__(
@@ -54,13 +54,13 @@ class Sampled:
         self.due: Watch | None = None
 
     def read(self) -> Any:
-        """Return the value: before the first sample the one that is due at this instant, if any.
+        """Return the value: before the first sample the value that is due at this instant, if any.
 
         `every` without an offset samples at the very start of the scenario (§7.3.10.4), and all
         members that start with it may read that.
 
         Raises:
-            ScenarioError: If there is none yet.
+            ScenarioError: There is none yet.
         """
         if self.value is MISSING and self.due is not None and self.due():
             return present_value(self)
@@ -70,11 +70,11 @@ class Sampled:
 
 
 class Sampling(Leaf):
-    """Samples the variables of a scenario for as long as that runs.
+    """Samples the variables of a scenario while it runs.
 
     A value sampled by an event is visible to all members that the event starts (§7.3.10): it is
     sampled before the nodes of the pass in which the event is visible. A value sampled by a
-    condition is visible from the next pass on, so no order shows.
+    condition is visible from the next pass, so the order has no effect.
     """
 
     open_ended = True
@@ -90,7 +90,7 @@ class Sampling(Leaf):
         self._sampled: dict[Sampled, int] = {}  # step of the last sample at a condition
 
     def setup(self, **kwargs: Any) -> None:
-        """Let the members that start before this node read what is sampled at once."""
+        """Let the members that start before this node read initial samples."""
         super().setup(**kwargs)
         for variable in self._conditional():
             variable.due = partial(self._is_due_at_start, variable)
@@ -118,7 +118,7 @@ class Sampling(Leaf):
         self._is_over = False
 
     def terminate(self, new_status: Status) -> None:
-        """Sample no more."""
+        """Stop sampling."""
         self.context.samplers.remove(self._sample_at_events)
 
     def update(self) -> Status:
@@ -146,7 +146,7 @@ class Sampling(Leaf):
             return  # a condition is true in all passes of an instant
         self._sampled[variable] = self.context.step
         if occurrences and isinstance(variable.trigger, Event):
-            # Several at one instant have no order: the last by value counts in every run.
+            # Several values of one instant have no order: the last by value counts in all runs.
             variable.trigger.meant().arguments = occurrences[-1]
         sample(variable, self.context)
 
@@ -179,7 +179,7 @@ def sampling_of(variables: Sequence[Sampled]) -> str:
 
 
 def sample(variable: Sampled, context: ExecutionContext) -> None:
-    """Give a variable the value that its expression has now."""
+    """Set a variable to the present value of its expression."""
     context.assign(variable, present_value(variable))
 
 
@@ -187,7 +187,7 @@ def present_value(variable: Sampled) -> Any:
     """Return the value that the expression of a variable has now.
 
     Raises:
-        ScenarioError: It has none.
+        ScenarioError: It has no value.
     """
     try:
         return variable.expression()

@@ -1,4 +1,4 @@
-"""The budget of methods that call several others: without one, calls multiply level by level."""
+"""The budget of methods that call several others, whose calls multiply level by level."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ R = TypeVar("R")
 
 
 class _Calls:
-    """The calls since the one that no other method has made."""
+    """The calls since the outermost one."""
 
     number = 0
     depth = 0
@@ -29,7 +29,7 @@ def bounded(method: Callable[P, R]) -> Callable[P, R]:
         method: A method of a generated class that calls several methods.
 
     Raises:
-        ScenarioError: In a call beyond the budget.
+        ScenarioError: The call exceeds the budget.
     """
 
     @wraps(method)

@@ -1,4 +1,4 @@
-"""Messages on values that relations between them, or arithmetic, do not allow."""
+"""Messages on values that break a relation, or that cannot be computed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from osc2tx_runtime.language.values.written_units import Unit, shown_value
 
 
 class NotKeptError(Exception):
-    """A relation that `keep` demands does not hold.
+    """A relation of `keep` does not hold.
 
     Args:
         place: Its position in the scenario.
@@ -38,7 +38,7 @@ def not_kept(
         parameters: All values.
         units: Units of the values that have one.
         tried: Number of further draws, ` in 1000 draws`; empty without any.
-        rivals: Relations that it contradicts.
+        rivals: The relations that it contradicts.
     """
     text = _relation(broken)
     words = set(re.findall(r"\w+", text))
@@ -60,10 +60,10 @@ def _relation(broken: NotKeptError) -> str:
 def not_computed(
     error: Exception, source_map: SourceMap, kept: int, tried: str = ""
 ) -> ScenarioError:
-    """Return the message on a value that has no result.
+    """Return the message on a value without result.
 
     Args:
-        error: Why.
+        error: The reason.
         source_map: Positions in the scenario.
         kept: Number of constraints that hold before it.
         tried: See `not_kept`.

@@ -1,4 +1,4 @@
-"""Draws all values of a scenario, again and again until its constraints hold."""
+"""Draws all values of a scenario repeatedly until its constraints hold."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from osc2tx_runtime.language.values.broken_values import (
 from osc2tx_runtime.language.values.walks import Draws, Walk
 from osc2tx_runtime.language.values.written_units import Unit
 
-ATTEMPTS = 1000  # draws of all values before constraints between them count as contradictory
+ATTEMPTS = 1000  # draws before constraints count as contradictory
 
 
 class Drawing:
@@ -27,12 +27,12 @@ class Drawing:
         source: Common origin of all draws of the run, its seed.
         key: Further origin of the draws of this scenario.
         source_map: Positions in the source.
-        parameters: The values, as they are declared.
+        parameters: The declared values.
         units: Units of the values that have one.
-        attempts: Number of draws before a walk searches for values; 1 if there are no others.
+        attempts: Number of draws before a walk searches for values; 1 without alternatives.
 
     Attributes:
-        has_drawn: Whether a value was drawn, so that another draw may help.
+        has_drawn: Whether a value was drawn, so that another draw may succeed.
     """
 
     def __init__(
@@ -47,15 +47,17 @@ class Drawing:
         self._source, self._key, self._source_map = source, key, source_map
         self._parameters, self._units = parameters, units
         self._most, self._attempt = attempts, 0
-        self._walk: Walk | None = None  # after that many draws in vain
+        self._walk: Walk | None = None  # after that many failed draws
         self._held = 0  # demands that hold, in their order
-        self._waived: int | None = None  # the number of one that need not hold
-        self._refused: int | None = None  # that of one that counts as broken, for the message
+        self._waived: int | None = None  # the number of a demand that need not hold
+        self._refused: int | None = (
+            None  # the number of a demand that counts as broken, for the message
+        )
         self._broken: Exception | None = None  # by the last draw
         self.has_drawn = False
 
     def draws_for(self, what: str) -> Draws:
-        """Return draws that depend on the seed and on the drawn value, not on an order."""
+        """Return draws that depend only on the seed and the drawn value, not on an order."""
         if self._walk is not None:
             return self._walk.draws_for(what)
         again = f"/{self._attempt}" if self._attempt else ""
@@ -75,7 +77,7 @@ class Drawing:
         """Call `declare`, which draws and demands, until all demands hold.
 
         Raises:
-            ScenarioError: If they never hold, or a value cannot be computed.
+            ScenarioError: They never hold, or a value cannot be computed.
         """
 
         def height() -> int | None:
@@ -103,7 +105,7 @@ class Drawing:
             raise self._error(f" in {ATTEMPTS} draws", rivals)
 
     def _rivals(self, walk: Walk, height: Callable[[], int | None]) -> list[Exception | None]:
-        """Return the demands each of which, were it not there, would let more of them hold."""
+        """Return the demands without which more of the others would hold."""
         reached = height() or 0
         found = []
         for self._waived in range(reached):

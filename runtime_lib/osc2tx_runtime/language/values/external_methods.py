@@ -1,4 +1,4 @@
-"""External methods (§7.3.7): functions of the user's own Python code, run only if allowed."""
+"""External methods (§7.3.7): functions of user code, called only if allowed."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from osc2tx_runtime.errors import OwnCode, ScenarioError, SettingsError
 def external_function(
     path: str, kind: type | None, allowed: tuple[str, ...], source: str
 ) -> Callable[..., Any]:
-    """Return a function of the user that raises nothing but errors of the scenario.
+    """Return a user function that only raises errors of the scenario.
 
     Args:
         path: `module.function`.
-        kind: Type of its result; None if that does not matter.
-        allowed: What `--allow-external` names.
-        source: Place of the method in the scenario.
+        kind: Type of its result; None: any.
+        allowed: The functions of `--allow-external`.
+        source: Source position of the method.
 
     Raises:
-        SettingsError: If it is not allowed. Nothing is imported then.
-        ScenarioError: If it cannot be found.
+        SettingsError: It is not allowed. Nothing is imported then.
+        ScenarioError: It cannot be found.
     """
     if path not in allowed:
         raise SettingsError(
@@ -48,13 +48,13 @@ def as_kind(result: Any, kind: Any, path: str, source: str) -> Any:
     """Return a result converted to the declared type, a list member by member.
 
     Args:
-        result: What the function returned.
+        result: The result of the function.
         kind: A class, the `Literal` of an enumeration, or `list[…]` of one of these.
         path: `module.function`.
-        source: Place of the method in the scenario.
+        source: Source position of the method.
 
     Raises:
-        ScenarioError: If it is something else.
+        ScenarioError: It has another type.
     """
     arguments = get_args(kind)
     if get_origin(kind) is Literal:

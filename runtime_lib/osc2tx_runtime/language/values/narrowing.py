@@ -1,4 +1,4 @@
-"""What a scenario leaves of a declaration that it inherits."""
+"""Inherited declarations, narrowed by constraints of the scenario."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Narrowed:
-    """A declaration of a base, as constraints of the scenario narrow it.
+    """A declaration of a base, narrowed by constraints of the scenario.
 
     Attributes:
-        given: The value or default, or a function that gives it once the base is declared so far.
-        given_domain: What the value must keep to; likewise.
-        unit: In which the scenario states it; empty if that is the unit of the base.
-        is_fixed: Nothing can change the value.
+        given: The value or default, or a function that returns it while the base is declared.
+        given_domain: The domain of the value, likewise.
+        unit: Its unit in the scenario; empty: that of the base.
+        is_fixed: Whether the value is constant.
     """
 
     given: Any
@@ -32,7 +32,7 @@ class Narrowed:
 
     @property
     def domain(self) -> Any:
-        """What the value must keep to; None if that is the default."""
+        """The domain of the value; None if that is the default."""
         return _computed(self.given_domain)
 
 

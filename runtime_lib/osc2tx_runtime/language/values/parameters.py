@@ -21,7 +21,7 @@ INFINITY: Any = math.inf  # a bound of whole numbers as well
 class Range(Generic[NumberT]):
     """Values from `low` to `high`, SI units; one is drawn from the seed of the run.
 
-    A bound may be infinite: then nothing can be drawn, and a value has to be given.
+    With an infinite bound nothing can be drawn, and a value has to be given.
     """
 
     low: NumberT
@@ -49,7 +49,7 @@ class Range(Generic[NumberT]):
         return bool(self.low <= value <= self.high)
 
     def shown(self, unit: Unit | None) -> str:
-        """Return it in words, in a unit; without one its numbers are in SI units."""
+        """Return its text in a unit; default: SI units."""
         low, high = (shown_value(bound, unit) for bound in (self.low, self.high))
         si = "" if unit is not None else " (SI units)"
         if not math.isfinite(self.high):
@@ -61,13 +61,13 @@ class Range(Generic[NumberT]):
 
 @dataclass(frozen=True, slots=True)
 class Choice(Generic[ValueT]):
-    """Values of which one is drawn from the seed of the run."""
+    """Values, one of which is drawn from the seed of the run."""
 
     values: tuple[ValueT, ...]
 
     @property
     def is_bounded(self) -> bool:
-        """Whether one can be drawn: always."""
+        """Whether a value can be drawn: always."""
         return True
 
     def draw(self, generator: Draws) -> ValueT:
@@ -78,7 +78,7 @@ class Choice(Generic[ValueT]):
         return value in self.values
 
     def shown(self, unit: Unit | None) -> str:
-        """Return its values, in a unit if they have one."""
+        """Return the text of its values, in their unit if they have one."""
         return f"{{{', '.join(shown_value(value, unit) for value in self.values)}}}"
 
 
@@ -86,36 +86,36 @@ Domain: TypeAlias = Range[Any] | Choice[Any]
 
 
 def within(one: NumberT, other: NumberT) -> Range[NumberT]:
-    """Return the range of a sampled parameter; its bounds may come in either order."""
+    """Return the range of a sampled parameter; its bounds may be in either order."""
     return Range(min(one, other), max(one, other))
 
 
 def at_least(bound: NumberT) -> Range[NumberT]:
-    """Return the range that ends at no upper bound."""
+    """Return the range without upper bound."""
     return Range(bound, INFINITY)
 
 
 def at_most(bound: NumberT) -> Range[NumberT]:
-    """Return the range that begins at no lower bound."""
+    """Return the range without lower bound."""
     return Range(-INFINITY, bound)
 
 
 def any_of(*values: ValueT) -> Choice[ValueT]:
-    """Return the set of some values."""
+    """Return a set of values."""
     return Choice(values)
 
 
 def fixed(value: ValueT) -> ValueT:
-    """Return the only value that the scenario leaves for an enum.
+    """Return the only possible value of an enum.
 
-    With `self.mood: Mood = fixed("calm")` a type checker takes it for any value of the type, so
-    it may be compared with others.
+    With `self.mood: Mood = fixed("calm")` its type is that of the enum for type checkers, so it can
+    be compared with other values.
     """
     return value
 
 
 def only(value: Any) -> Domain:
-    """Return the domain that one value alone lies in."""
+    """Return the domain of a single value."""
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     return Range(value, value) if is_number else Choice((value,))
 
@@ -130,23 +130,24 @@ def choose(
     settings: Mapping[str, float | str],
     unit: Unit | None = None,
 ) -> Any:
-    """Return the value of a parameter: as given, else set, else drawn, else its default.
+    """Return the value of a parameter: given, else set, else drawn, else the default.
 
-    A range is drawn from whether the value is used or not, so that setting one parameter does not
-    change the draws of the next.
+    Ranges are drawn in any case, so that setting one parameter does not change the draws of the
+    next.
 
     Args:
         name: Name, in an invoked scenario with the path before it.
-        default: Value, or a range or choice to draw from, SI units; a type if one must be given.
-        domain: The allowed values; the default itself where that is a range or choice.
+        default: Value, or a range or choice to draw from, SI units; a type if a value must be
+            given.
+        domain: The allowed values; the default itself if it is a range or choice.
         generator: Draws.
-        given: Value, or a range from the caller; None for none.
+        given: Value, or a range from the caller; None without one.
         settings: The values of `--set`.
         unit: Its unit in messages.
 
     Raises:
-        ScenarioError: If a given value is outside of the domain.
-        SettingsError: If a set one is, or has another type; or if none is given at all.
+        ScenarioError: A given value is outside the domain.
+        SettingsError: A set value is outside the domain or has another type, or no value is given.
     """
     value = default
     if isinstance(default, Range | Choice):
@@ -176,10 +177,10 @@ def choose(
 def draw(
     name: str, given: Domain, domain: Domain | None, generator: Draws, unit: Unit | None
 ) -> Any:
-    """Return a value from that of the caller and the domain of the scenario.
+    """Return a value from the intersection of the caller's values and the domain of the scenario.
 
     Raises:
-        ScenarioError: If that is nothing, or without end.
+        ScenarioError: The intersection is empty or infinite.
     """
     if isinstance(given, Range) and isinstance(domain, Range):
         low, high = max(given.low, domain.low), min(given.high, domain.high)
@@ -194,17 +195,17 @@ def draw(
 
 
 def outside(value: Any, domain: Domain | None, unit: Unit | None) -> str:
-    """Return the error of a value outside its domain."""
+    """Return the error for a value outside its domain."""
     if domain is None or value in domain:
         return ""
     return f"{shown_value(value, unit)}: the scenario allows {domain.shown(unit)}"
 
 
 def fit(name: str, value: float | str, like: Any, unit: Unit | None) -> Any:
-    """Return a value of the settings in the type of the parameter it is for.
+    """Return a value of the settings, converted to the type of its parameter.
 
     Raises:
-        SettingsError: If it is no value of that type, or its unit has another dimension.
+        SettingsError: It is not a value of that type, or its unit has another dimension.
     """
     if isinstance(like, bool):
         if isinstance(value, bool):

@@ -32,20 +32,19 @@ class ScenarioValues:
 
     Args:
         settings: Of the run.
-        arguments: Values that the caller gives.
+        arguments: Values given by the caller.
         source_map: Positions in the source.
-        caller: The values of the scenario that runs, for one that it invokes.
-        path: Labels of the invocations down to this scenario, for names in settings.
-        key: What draws depend on besides the seed: not on an order of invocations.
+        caller: The values of the main scenario, for an invoked one.
+        path: Labels of the invocations to this scenario, for names in settings.
+        key: Key of draws besides the seed, independent of the order of invocations.
         times: Seconds that the caller chose for this scenario and those it invokes, by path.
 
     Attributes:
         settings: Of the run.
-        parameters: Values of the parameters, in order; the scenario that runs also has those of
-            all that it invokes.
+        parameters: Values of the parameters, in order; the main scenario also has those of all
+            invoked ones.
         parameter_units: Of parameters that have one, likewise.
-        has_drawn_values: Whether some value of the scenario that runs, or of one it invokes, was
-            drawn.
+        has_drawn_values: Whether a value of the main scenario, or of an invoked one, was drawn.
     """
 
     def __init__(
@@ -68,7 +67,7 @@ class ScenarioValues:
         self._shared: dict[str, Any] = self.parameters if caller is None else caller._shared
         self._roles: dict[int, str] = {}
         self._shared_objects: dict[str, Any] = {} if caller is None else caller._shared_objects
-        self._path = path  # empty for the scenario that runs
+        self._path = path  # empty for the main scenario
         self._key = key
         self._times = times or {}
         self._first: ScenarioValues = self if caller is None else caller._first
@@ -113,16 +112,16 @@ class ScenarioValues:
     ) -> Any:
         """Return the value of a parameter.
 
-        An argument of the class counts before `--set`, that before a draw from a range, that before
-        the default. Setting one parameter does not change the draws of another. Parameters of
-        invoked scenarios are set by path: `--set p1.gap=12`.
+        Precedence: argument of the class, `--set`, draw from a range, default. Setting one
+        parameter does not change the draws of another. Parameters of invoked scenarios are set by
+        path: `--set p1.gap=12`.
 
         Args:
             name: Name of the parameter.
-            default: Value, or the values that it is drawn from, SI units.
-            domain: What settings must keep to; the default itself where that is drawn from.
-            unit: In which the scenario states it: `--set` takes all units of its physical
-                type, messages and reports show it in this one.
+            default: Value, or the values to draw from, SI units.
+            domain: Domain of settings; default: the values to draw from.
+            unit: Its unit in the scenario, for messages and reports; `--set` accepts all units of
+                its physical type.
         """
         return self._own(name, default, domain, unit)
 
@@ -138,15 +137,15 @@ class ScenarioValues:
             unit: See `parameter`.
 
         Raises:
-            SettingsError: If neither an argument nor `--set` gives a value.
+            SettingsError: Neither an argument nor `--set` gives a value.
         """
         value: ValueT = self._own(name, kind, domain, unit)
         return value
 
     def argument(self, name: str, default: AnyT) -> AnyT:
-        """Return a list, range or object: as the caller gives it, else its default.
+        """Return a list, range or object: that of the caller, else its default.
 
-        Settings cannot give it, so it is not a parameter.
+        Settings cannot state it, so it is not a parameter.
         """
         self._composite.add(name)
         value: AnyT = self._arguments.get(name, self._fixed(name, default))
@@ -156,7 +155,7 @@ class ScenarioValues:
         """Return a list, range or object that the caller has to give.
 
         Raises:
-            SettingsError: If it does not.
+            SettingsError: The caller does not give it.
         """
         if name not in self._arguments and name not in self._narrowed:
             path = f"{self._path}.{name}" if self._path else name
@@ -198,36 +197,36 @@ class ScenarioValues:
     def required_global(
         self, name: str, kind: type[ValueT], domain: Domain | None = None, *, unit: AnyUnit = ""
     ) -> ValueT:
-        """Return the value of a global parameter without a constant: `--set` must give it."""
+        """Return the value of a global parameter without default: `--set` must give it."""
         value: ValueT = self._global(name, kind, domain, unit)
         return value
 
     def narrow_to(self, name: str, default: Any, domain: Any = None, *, unit: AnyUnit = "") -> None:
-        """Let a parameter of the base be less: `self.narrow_to("gap", within(5 * m, 8 * m))`.
+        """Narrow a parameter of the base: `self.narrow_to("gap", within(5 * m, 8 * m))`.
 
-        Call it in `declare`, before that of the base. What reads a value of the base is given as a
-        function without parameters, which is called when the base declares the parameter.
+        Call it in `declare`, before that of the base. A value that depends on the base is given as
+        a function without parameters, which is called when the base declares the parameter.
 
         Args:
             name: Name of the parameter.
             default: As of `parameter`.
             domain: As of `parameter`.
-            unit: As of `parameter`; that of the base if left out.
+            unit: As of `parameter`; default: that of the base.
         """
         self._narrowed.setdefault(name, Narrowed(default, domain, unit))
 
     def fix_to(self, name: str, value: Any) -> None:
-        """Let a parameter or object of the base be one value: `self.fix_to("gap", 8 * m)`.
+        """Fix a parameter or object of the base to one value: `self.fix_to("gap", 8 * m)`.
 
-        As `narrow_to`; what is fixed is no parameter any more.
+        As `narrow_to`; a fixed parameter is no longer a parameter.
         """
         self._narrowed.setdefault(name, Narrowed(value, is_fixed=True))
 
     def keep(self, holds: bool) -> None:
-        """Demand a relation between values; call it after their declarations.
+        """Require a relation between values; call it after their declarations.
 
-        If it does not hold, all values that are drawn are drawn anew; after a thousand draws, or
-        if none is drawn, the scenario cannot run.
+        If it does not hold, all drawn values are drawn again; after a thousand draws, or without
+        drawn values, the scenario cannot run.
         """
         self._drawing.demand(holds)
 
@@ -236,10 +235,10 @@ class ScenarioValues:
     @overload
     def external(self, path: str, kind: type[AnyT]) -> Callable[..., AnyT]: ...
     def external(self, path: str, kind: type | None = None) -> Callable[..., Any]:
-        """Return a function of the user, `module.function`, if the settings allow it.
+        """Return a user function, `module.function`, if the settings allow it.
 
         Raises:
-            SettingsError: If `--allow-external` does not name it.
+            SettingsError: `--allow-external` does not name it.
         """
         place = self._source_map.of_field(path)
         return external_function(path, kind, self.settings.allow_external, place)
@@ -251,7 +250,7 @@ class ScenarioValues:
 
         Args:
             name: Name of the item in the trace.
-            value: Gives the value, SI units; left out for a cross of `items`.
+            value: Returns the value in SI units; omitted for a cross of `items`.
             **options: See `CoverageItem`; without `at` it is sampled at the end.
         """
         self._items[name] = CoverageItem(name=name, kind="cover", value=value, **options)
@@ -259,16 +258,16 @@ class ScenarioValues:
     def record(
         self, name: str, value: Callable[[], Any] | None = None, **options: Unpack[ItemOptions]
     ) -> None:
-        """Sample a value at an event, only to look at it; as `cover`."""
+        """Sample a value at an event, for information only; as `cover`."""
         self._items[name] = CoverageItem(name=name, kind="record", value=value, **options)
 
     # --- used by `Scenario` ---
 
     def _declare_values(self, declare: Callable[[], None]) -> None:
-        """Call `declare`, again while constraints between drawn values do not hold.
+        """Call `declare` repeatedly until the constraints between drawn values hold.
 
         Raises:
-            ScenarioError: If they never hold, or a value cannot be computed.
+            ScenarioError: They never hold, or a value cannot be computed.
         """
         members, shared = set(vars(self)), dict(self._shared)
         objects = dict(self._shared_objects)
@@ -287,7 +286,7 @@ class ScenarioValues:
         self._drawing.settle(declare_anew)
 
     def _take_assigned(self, inherited: set[str]) -> None:
-        """Take values that a subclass assigns to parameters after `declare` of its base."""
+        """Apply values that a subclass assigns to parameters after `declare` of its base."""
         for name, declared in list(self.parameters.items()):
             attribute = f"{name}_" if name in inherited or name not in vars(self) else name
             value = vars(self).get(attribute, declared)
@@ -302,7 +301,7 @@ class ScenarioValues:
         return {path.removeprefix(above): t for path, t in found if path.startswith(above)}
 
     def _fixed(self, name: str, declared: AnyT) -> AnyT:
-        """Return what a scenario that inherits an object makes of it, else as it is declared."""
+        """Return an object as fixed by an inheriting scenario, else as declared."""
         narrowed = self._narrowed.get(name)
         value: AnyT = declared if narrowed is None else narrowed.value
         return value
@@ -314,7 +313,7 @@ class ScenarioValues:
         if narrowed is not None:
             if narrowed.is_fixed:
                 default = narrowed.value
-                if name in self._arguments:  # it has to be the same
+                if name in self._arguments:  # it has to be equal
                     same = only(default)
                     self._choose(name, path, default, same, generator, self._arguments[name])
                 return default

@@ -1,10 +1,10 @@
-"""Draws from sets of values that hardly any draw of all values hits.
+"""Draws from small sets of values, which independent draws hardly ever hit.
 
-The values are shares of their ranges, and the set is what demands leave of them. A walk first
-climbs, one demand after the other, to a point of the set: by exchanges of shares, then by moving
-them. Then it goes about in it, one share or one straight line at a time, until nothing is left of
-where it began (slice sampling with shrinking intervals: its steps leave the uniform distribution
-over the set as it is).
+The values are shares of their ranges, and the set is restricted by demands. A walk first climbs,
+one demand after the other, to a point of the set: by exchanges of shares, then by moving them. Then
+it moves in the set, along one share or one straight line at a time, until the result is independent
+of the start (slice sampling with shrinking intervals, whose steps preserve the uniform distribution
+over the set).
 """
 
 from __future__ import annotations
@@ -13,17 +13,17 @@ import random
 from collections.abc import Callable, Sequence
 from typing import Protocol, TypeVar
 
-EXCHANGES = 5_000  # pairs that are tried
+EXCHANGES = 5_000  # tried pairs
 CLIMB = 10_000  # tries after which demands count as contradictory
-SHORT_CLIMB = 1_000  # tries of one that asks which demands contradict each other
-SWEEPS = 30  # moves of each share, once it is there
-NARROW = 1e-12  # an interval in which nothing else is found
+SHORT_CLIMB = 1_000  # tries of a climb that finds contradictory demands
+SWEEPS = 30  # moves of each share in the set
+NARROW = 1e-12  # an interval without other points
 
 AnyT = TypeVar("AnyT")
 
 
 class Draws(Protocol):
-    """What values are drawn with: `random.Random`, or a share that stays."""
+    """The interface of draws: `random.Random`, or a fixed share."""
 
     def uniform(self, a: float, b: float, /) -> float:
         """Return a number between two others."""
@@ -57,8 +57,9 @@ class Walk:
     """A walk over the shares of all values that are drawn.
 
     Args:
-        generator: Decides where it goes.
-        height: Draws all values anew and says how many demands hold, in their order; None: all.
+        generator: Generator of the walk.
+        height: Draws all values and returns the number of demands that hold, in their order; None:
+            all.
     """
 
     def __init__(self, generator: random.Random, height: Callable[[], int | None]) -> None:
@@ -74,10 +75,10 @@ class Walk:
         return _Share(self._shares[name])
 
     def arrive(self) -> bool:
-        """Go to a point of the set, drawn from all of it.
+        """Move to a point of the set, drawn uniformly.
 
         Returns:
-            Whether one was found; the values are drawn there.
+            Whether one was found; the values are those of the point.
         """
         height = self._exchange(self._height())
         while height is not None:
@@ -91,7 +92,7 @@ class Walk:
         return self._height() is None
 
     def can_rise(self, height: int) -> bool:
-        """Whether a short climb from here meets more constraints than the number given."""
+        """Whether a short climb from here satisfies more constraints than a given number."""
         here, self._tries = dict(self._shares), 0
         reached: int | None = height
         while reached == height and self._tries < SHORT_CLIMB:
@@ -102,8 +103,8 @@ class Walk:
     def _exchange(self, height: int | None) -> int | None:
         """Exchange shares, never down; return the height after it.
 
-        Values in an order (`a < b`, `b < c`, …) have it in one arrangement of any shares: where the
-        ranges are the same, the result is drawn exactly from all ordered values.
+        Ordered values (`a < b`, `b < c`, …) are one arrangement of any shares: with equal ranges,
+        the result is drawn uniformly from all ordered values.
         """
         names = list(self._shares)
         for _ in range(EXCHANGES if len(names) > 1 else 0):
@@ -135,7 +136,7 @@ class Walk:
 
         Args:
             direction: Change of the shares.
-            least: How many demands have to hold there; None: all.
+            least: Number of demands that have to hold there; None: all.
 
         Returns:
             The height there.

@@ -1,4 +1,4 @@
-"""Values with their units, as people write and read them: `60kph`, `60 kph`."""
+"""Values with units, as written in settings and messages: `60kph`, `60 kph`."""
 
 from __future__ import annotations
 
@@ -59,14 +59,14 @@ class Unit:
 
 
 AnyUnit: TypeAlias = Unit | str
-"""A unit, or the name of one of the library."""
+"""A unit, or the name of a unit of the library."""
 
 
 def unit_named(unit: AnyUnit) -> Unit:
     """Return a unit of the library by its name.
 
     Raises:
-        ValueError: If there is none of this name.
+        ValueError: There is no unit of this name.
     """
     if isinstance(unit, Unit):
         return unit
@@ -83,11 +83,11 @@ def read_value(name: str, text: str, unit: Unit | None) -> float:
 
     Args:
         name: Of the parameter.
-        text: As it was written; a plain number is not handled here.
+        text: The text; plain numbers are not handled here.
         unit: The unit of the parameter; None if it has none.
 
     Raises:
-        SettingsError: If it is no number with a unit, or the unit is one of something else.
+        SettingsError: It is not a number with a unit, or the unit has another dimension.
     """
     wrong = f"--set {name}={text}"
     found = _WRITTEN.fullmatch(text.strip())
@@ -110,7 +110,7 @@ def read_value(name: str, text: str, unit: Unit | None) -> float:
 
 
 def shown_value(value: Any, unit: Unit | None) -> str:
-    """Return a value as a reader of the scenario knows it: `60 kph`, `true`, `red`."""
+    """Return a value in the notation of the scenario: `60 kph`, `true`, `red`."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):

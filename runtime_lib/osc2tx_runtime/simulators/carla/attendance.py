@@ -1,4 +1,4 @@
-"""Attendance of a run from outside: a stack under test that needs time, a spectator."""
+"""Attendance of a run: software under test that needs time, a spectator."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .client_process import ClientProcess
 from .frames import transform_of
 
 BEHIND, ABOVE, DOWN = 8.0, 4.0, math.radians(15.0)
-"""Where the camera is from the actor that it follows (m), and how far it looks down."""
+"""Position of the camera relative to the actor that it follows (m), and its pitch."""
 
 
 @dataclass
@@ -27,8 +27,8 @@ class Attendance:
     """Actions of a run for its observers; none of them changes a trace.
 
     Attributes:
-        patience: How long (s) to wait for a first control; None: not at all.
-        pace: How many times faster than real time steps may be; None: as fast as they can.
+        patience: Time (s) to wait for a first control; None: no wait.
+        pace: Factor of real time; None: as fast as possible.
         viewed: The actor that the camera follows, if any.
     """
 
@@ -41,9 +41,9 @@ class Attendance:
     def wait_for_control(
         self, client: ClientProcess, actors: Sequence[int], *, ticks: bool
     ) -> None:
-        """Hold the scenario until all these vehicles are controlled.
+        """Delay the scenario until all these vehicles are controlled.
 
-        Steps of the simulator continue meanwhile, for a stack may need them.
+        Steps of the simulator continue meanwhile, as software under test may need them.
 
         Raises:
             SimulatorError: They are not controlled in time.
@@ -60,10 +60,10 @@ class Attendance:
                 )
             client.ask("step", [])
             if ticks:
-                time.sleep(0.02)  # faster than real time does not help a stack that attaches
+                time.sleep(0.02)  # faster than real time does not help software that attaches
 
     def take_camera(self, client: ClientProcess, actors: Sequence[str]) -> None:
-        """Take the camera of the server's window, if it is to follow an actor."""
+        """Take the camera of the server's window, if it has to follow an actor."""
         if self.viewed is not None:
             if self.viewed not in actors:
                 raise SettingsError(f"--carla-view {self.viewed}: the scenario has no such actor")
@@ -80,7 +80,7 @@ class Attendance:
             time.sleep(max(0.0, self._due - time.monotonic()))
 
     def view(self, pose: Pose) -> list[Command]:
-        """Return what has the camera follow an actor."""
+        """Return the command that makes the camera follow an actor."""
         if self._camera is None:
             return []
         x = pose.x - BEHIND * math.cos(pose.h)

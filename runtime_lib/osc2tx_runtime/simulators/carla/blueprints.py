@@ -1,4 +1,4 @@
-"""Which blueprint an actor is made from, and with which attributes."""
+"""Blueprints and attributes of actors."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ COLORS: Mapping[str, tuple[int, int, int]] = {
     "white": (255, 255, 255),
     "yellow": (255, 255, 0),
 }
-"""Colors by name, as CSS has them."""
+"""Colors by name, as in CSS."""
 
 
 def blueprint_for(spec: ActorSpec, library: Library) -> str:
-    """Return the blueprint of an actor: the model it names, else one of its kind and length.
+    """Return the blueprint of an actor: its model, else one of its kind and length.
 
     Raises:
         SimulatorError: The server has no such blueprint.
@@ -87,7 +87,7 @@ def _there(wanted: str, kind: str, library: Library) -> str:
 def attributes_of(
     spec: ActorSpec, blueprint: Mapping[str, Sequence[str]], role: str
 ) -> tuple[Mapping[str, str], str | None]:
-    """Return the attributes of an actor, and what cannot be as the scenario wants it."""
+    """Return the attributes of an actor, and the unsupported requests."""
     attributes, problem = {}, None
     for name in ("role_name", "ros_name"):
         if name in blueprint:

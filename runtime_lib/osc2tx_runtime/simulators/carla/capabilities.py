@@ -1,4 +1,4 @@
-"""What of the capability table holds in CARLA, and how."""
+"""Support of the capability table in CARLA."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ IN_CARLA: Mapping[str, str] = {
     "C37": RUNTIME,
     "C38": RUNTIME,
 }
-"""How each row does in CARLA. `exact` and `driven` are modes of control (`--control`)."""
+"""Support of each row in CARLA. `exact` and `driven` are modes of control (`--control`)."""
 
 # Actions and modifiers whose row, or a part of it, states more than their slots and needs.
 _OF = {
@@ -91,7 +91,7 @@ _NEEDING = {
 
 
 def how(name: str, *, moves: bool, needs: Sequence[str]) -> str:
-    """Say how an action or modifier does in CARLA.
+    """Return the support of an action or modifier in CARLA.
 
     Args:
         name: `vehicle.drive`, `speed`.

@@ -1,4 +1,4 @@
-"""What belongs to an actor in CARLA."""
+"""The state of an actor in CARLA."""
 
 from __future__ import annotations
 
@@ -24,25 +24,25 @@ Command = Sequence[Any]
 """Name, number of the actor in CARLA, values; see `client.commands`."""
 
 ABOVE = 0.3
-"""Metres above the ground at which those begin that physics moves: they fall on their feet."""
+"""Initial height (m) above the ground of actors that physics moves."""
 
 DISPLACED = 0.05
-"""Metres from its commanded place at which something else has moved an exact actor."""
+"""Distance (m) from its commanded position beyond which another cause has moved an exact actor."""
 
-SIZE_NOTED = 0.1  # m between the sizes of scenario and simulator that are worth a line
+SIZE_NOTED = 0.1  # m between the sizes of scenario and simulator that are reported
 STILL = 0.05  # m/s
 KICKING = 0.5
-"""Seconds for which a body that is given a speed gets it in each step: gear and wheels, which no
-call reaches, come up to it meanwhile (carla issues 3710 and 4839)."""
+"""Seconds for which an assigned speed is set in each step, until gear and wheels, which no call
+sets, reach it (carla issues 3710 and 4839)."""
 
-NO_WAY = 1e-3  # m: less than that does not have a walker set a foot before the other
+NO_WAY = 1e-3  # m: a walker does not move for less
 LEAST_SIZE = 0.3  # m of a vehicle or walker
 KPH = 3.6  # km/h in a m/s
 
 
 @dataclass
 class CastMember:
-    """An actor of the scenario that is one of CARLA's.
+    """An actor of the scenario with its actor in CARLA.
 
     Attributes:
         spec: Its description in the scenario.
@@ -52,8 +52,8 @@ class CastMember:
         ahead: Metres from its origin in CARLA forwards to its reference point.
         up: Metres from the ground to that origin.
         size: Length, width and height (m) in CARLA.
-        above: Metres above the ground at which it begins to fall on its feet.
-        foreign: Another client spawned it.
+        above: Height (m) above the ground at which it is spawned.
+        foreign: Whether another client spawned it.
         removed: It is not in CARLA any more.
         now: The latest measurement; None while it is exactly as commanded.
     """
@@ -84,12 +84,12 @@ class CastMember:
 
     @property
     def is_measured(self) -> bool:
-        """Whether it may be elsewhere than it is commanded."""
+        """Whether its position may differ from the commanded one."""
         return self.control not in EXACT
 
     @property
     def other_size(self) -> bool:
-        """Whether the simulator has another size of it than the scenario."""
+        """Whether its sizes in simulator and scenario differ."""
         shape = self.spec.shape
         sizes = zip(self.size, (shape.length, shape.width, shape.height), strict=True)
         return any(abs(theirs - ours) > SIZE_NOTED for theirs, ours in sizes)
@@ -101,24 +101,24 @@ class CastMember:
         return Pose(state.x, state.y, state.z, state.h, state.pitch, state.roll)
 
     def transform(self, state: ActorState) -> list[float]:
-        """Where CARLA has it in a state."""
+        """Its transform in CARLA for a state."""
         pose = Pose(state.x, state.y, state.z, state.h, state.pitch, state.roll)
         return transform_of(pose, self.ahead, self.up)
 
     def measured(self, state: Sequence[float]) -> Measurement:
-        """Note how it moves."""
+        """Note its motion."""
         self.now = measurement_from(state, self.ahead, self.up)
         return self.now
 
     def deviation(self, state: Sequence[float]) -> float:
-        """Return the metres between where it was put and where it is, and note the latter."""
+        """Return the distance (m) from its commanded position, and note the actual one."""
         self._found = state[:6]
         return 0.0 if self._placed is None else math.dist(self._placed[:3], state[:3])
 
     # --- commands of a step -------------------------------------------------------------------
 
     def first(self, setpoint: Setpoint) -> list[Command]:
-        """Return what puts it where it starts, standing."""
+        """Return the commands that place it at its start, at standstill."""
         if setpoint.towed or self.control in EXACT:
             return self._exact(setpoint)
         x, y, z, *turn = self.transform(setpoint.state)
@@ -130,14 +130,14 @@ class CastMember:
         return commands
 
     def run_up(self, setpoint: Setpoint, settled: Sequence[float], dt: float) -> list[Command]:
-        """Return what has it reach its start at its speed in one step, with wheels that turn.
+        """Return the commands that move it to its start at its speed, with turning wheels.
 
-        Repeated for a while before the run, gear and wheels come up to the speed: in the run, none
-        but its own client controls it.
+        Repeated before the run, gear and wheels reach the speed: in the run, only its own client
+        controls it.
 
         Args:
             setpoint: Its start.
-            settled: Where it stands on its wheels there.
+            settled: Its pose on its wheels there.
             dt: Length of a step (s).
         """
         state = setpoint.state
@@ -148,7 +148,7 @@ class CastMember:
         return [("place", self.actor, x - vx * dt, y - vy * dt, *rest), self._velocity(state)]
 
     def kick(self, setpoint: Setpoint) -> list[Command]:
-        """Return what gives it its speed at once."""
+        """Return the commands that set its speed instantly."""
         state = setpoint.state
         if setpoint.towed or self.control in EXACT or self.foreign:
             return []
@@ -156,7 +156,7 @@ class CastMember:
         return [self._velocity(state)]
 
     def commands(self, setpoint: Setpoint, dt: float) -> list[Command]:
-        """Return what brings its setpoint about."""
+        """Return the commands that realize its setpoint."""
         if self.removed:
             return []
         if setpoint.towed or self.control == "exact":
@@ -196,10 +196,9 @@ class CastMember:
         return commands
 
     def _carried(self, setpoint: Setpoint, dt: float) -> list[Command]:
-        """Return what has a body with physics reach its pose at the end of the step.
+        """Return the commands that move a body with physics to its pose by its velocities.
 
-        Its velocities do: others see them, and what it touches feels them. Only a body that jumps,
-        or that something else has moved, is placed.
+        It is only placed if it is teleported, or if another cause has moved it.
         """
         goal, start, before = self.transform(setpoint.state), self._found, self._placed
         commands = self._with_physics(True)
@@ -224,11 +223,14 @@ class CastMember:
         return commands
 
     def _led(self, start: Sequence[float], goal: Sequence[float], dt: float) -> Command:
-        """Return what has a walker walk from one pose to another; CARLA adds half its height."""
+        """Return the commands that make a walker walk between two poses.
+
+        CARLA adds half its height.
+        """
         (x, y, z), (pitch, yaw, roll) = start[:3], goal[3:]
         way = math.dist(start[:2], goal[:2])
         speed = way / dt if way > NO_WAY else 0.0
-        if speed:  # it walks where it looks
+        if speed:  # it walks in the direction of its heading
             yaw = math.degrees(math.atan2(goal[1] - y, goal[0] - x))
         return ("lead", self.actor, x, y, z - self.up, pitch, yaw, roll, speed)
 
@@ -250,7 +252,7 @@ def member_of(
     control: ControlMode,
     own_gains: Mapping[str, float] = MappingProxyType({}),
 ) -> CastMember:
-    """Return the member for an actor as the session describes it.
+    """Return the member for an actor described by the session.
 
     Args:
         spec: Its description in the scenario.
@@ -263,7 +265,7 @@ def member_of(
     if half_length < 0.5 * LEAST_SIZE:  # some blueprints have boxes without size
         middle, half_length = 0.0, 0.5 * shape.length
         half_width, half_height = 0.5 * shape.width, 0.5 * shape.height
-    # The boxes of both worlds lie one upon the other, from the rear end on.
+    # The boxes of both worlds coincide at the rear end.
     ahead = middle - half_length + shape.rear if shape.wheelbase > 0.0 else 0.0
     gains = GAINS.get(_category(spec), CAR)._replace(**own_gains)
     wheels = found.get("wheels", ())
@@ -295,8 +297,8 @@ def _category(spec: ActorSpec) -> str:
 def _wheelbase(wheels: Sequence[Sequence[float]], shape: Shape, length: float) -> float:
     """Return the distance (m) between the axles that steer and the others.
 
-    Places of wheels are in cm. A server that does not tell them, or which wheels steer, leaves the
-    wheelbase of the scenario.
+    Places of wheels are in cm. If a server does not report them, or which wheels steer, the
+    wheelbase of the scenario is used.
     """
     front = [(x, y) for x, y, angle in wheels if angle > 0.0]
     rear = [(x, y) for x, y, angle in wheels if angle <= 0.0]

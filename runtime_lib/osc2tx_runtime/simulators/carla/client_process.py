@@ -1,4 +1,4 @@
-"""The process of the client library, seen from this side: requests that never wait for ever."""
+"""The parent side of the process of the client library: requests with time limits."""
 
 from __future__ import annotations
 
@@ -24,29 +24,29 @@ from client.serve import main
 del sys.path[0]
 sys.exit(main(sys.argv[2]))
 """
-"""Code of the process: the package on its own, since importing all of the runtime takes time.
+"""Code of the process: only this package, since importing all of the runtime takes time.
 
-Its folder is first, and `-P` leaves out the working folder: a `client.py` there is not ours.
+Its folder is first, and `-P` omits the working folder, which may contain another `client.py`.
 """
 
 LAST_WORDS = 3
 """Number of lines of the library's standard error that a message quotes."""
 
 MARGIN = 3.0
-"""How much longer (s) than the library itself this side waits for an answer."""
+"""Additional time (s) to wait for a response, after the time limit of the library."""
 
 CLOSING = 5.0
-"""How long (s) the process has for letting go of the simulator."""
+"""Time limit (s) of the process for restoring the simulator."""
 
 
 class ClientProcess:
     """A running process.
 
     Args:
-        timeout: How long (s) the server may take to answer one call.
+        timeout: Time limit (s) of a call.
 
     Attributes:
-        patience_at_end: How long (s) letting go may take in addition.
+        patience_at_end: Additional time (s) for restoring.
 
     Raises:
         SimulatorError: CARLA's client library has no version for this system.
@@ -64,27 +64,27 @@ class ClientProcess:
         journals = "" if cache is None else str(cache / "carla")
         self._number = 0
         self._lost = False
-        # No pipe, since the process may outlive this side; closed in `close`.
+        # Not a pipe, since the process may outlive its parent; closed in `close`.
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115
         self._process = subprocess.Popen(
             [sys.executable, "-P", "-c", SERVE, str(HERE), journals],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=self._errors,
-            start_new_session=True,  # Ctrl-C is for this side
+            start_new_session=True,  # Ctrl-C is handled by the parent
         )
         self._received = b""
 
     def ask(self, name: str, *arguments: Any, patience: float = 0.0) -> Any:
-        """Make a request and return its answer.
+        """Make a request and return its result.
 
         Args:
             name: Of a method of `client.session.Session`.
             *arguments: For it.
-            patience: Seconds that the answer may take in addition to one call.
+            patience: Time (s) for the response in addition to that of a call.
 
         Raises:
-            SimulatorError: The server refuses, is lost, or does not answer.
+            SimulatorError: The server rejects it, is lost, or does not respond.
         """
         self._number += 1
         request = json.dumps([self._number, name, arguments])
@@ -137,15 +137,15 @@ class ClientProcess:
         )
 
     def _last_words(self) -> str:
-        """Return the end of the library's output on its standard error."""
+        """Return the end of the library's standard error."""
         self._errors.seek(0)
         lines = self._errors.read().decode("utf-8", "replace").split("\n")
         return " | ".join([line.strip() for line in lines if line.strip()][-LAST_WORDS:])
 
     def close(self) -> None:
-        """End the process; it lets go of the simulator first.
+        """End the process; it restores the simulator first.
 
-        Where the server does not answer it retries for a while by itself.
+        Without response of the server it retries for some time.
         """
         assert self._process.stdin is not None and self._process.stdout is not None
         with contextlib.suppress(BrokenPipeError):  # it has ended

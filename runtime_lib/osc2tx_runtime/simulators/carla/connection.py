@@ -1,4 +1,4 @@
-"""The first contact with a server: what keeps a run from beginning is named with its remedy."""
+"""The first contact with a server: each obstacle to a run is reported with its remedy."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from .client_process import ClientProcess
 
 DEFAULT_ADDRESS = ("127.0.0.1", 2000)
 TIMEOUT = 10.0
-"""How long (s) the server may take for a call."""
+"""Time limit (s) of a call to the server."""
 
 REPAIRING = 120.0
-"""How long (s) undoing the changes of killed runs may take: a level may have to be loaded."""
+"""Time limit (s) of undoing the changes of killed runs, which may include loading a level."""
 
 LOOKING = 6.0
-"""How long (s) looking for ports and for steps of others may take besides."""
+"""Additional time (s) for checking ports and steps of other clients."""
 
 
 def connect(client: ClientProcess, request: WorldRequest, *, ticks: bool) -> str:
@@ -29,7 +29,7 @@ def connect(client: ClientProcess, request: WorldRequest, *, ticks: bool) -> str
     Args:
         client: The process of the client library.
         request: Of the run.
-        ticks: This run makes the steps of the simulator.
+        ticks: Whether this run makes the steps of the simulator.
 
     Raises:
         SimulatorError: It is missing, of another version, or another client controls its time.
@@ -71,7 +71,7 @@ def connect(client: ClientProcess, request: WorldRequest, *, ticks: bool) -> str
 
 
 def _check_versions(server: str, library: str) -> None:
-    """Compare the releases; source builds have a suffix, which may or may not change anything."""
+    """Compare the releases; source builds have a suffix, with unknown effect."""
     if release_of(server) != release_of(library):
         raise SimulatorError(
             f"the server is CARLA {server} and the client library {library}: they have to be of"
@@ -83,7 +83,7 @@ def _check_versions(server: str, library: str) -> None:
 
 
 def _without_streams(found: Mapping[str, Any], host: str, port: int) -> str:
-    """Return why there may be no snapshots though calls are answered."""
+    """Return why snapshots may be missing although calls are answered."""
     reason = (
         "the level may still be loading (--carla-timeout allows longer)"
         if found["stream_port"]
@@ -105,7 +105,7 @@ def _take_over(client: ClientProcess, request: WorldRequest) -> None:
 
 
 def _wrong_time(synchronous: bool) -> SimulatorError:
-    """Return why the steps cannot be made as this run wants it."""
+    """Return why the steps cannot be made as this run requires."""
     if synchronous:
         return SimulatorError(
             "CARLA is in synchronous mode already: another client makes its steps. End that one,"

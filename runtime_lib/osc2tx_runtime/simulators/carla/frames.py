@@ -1,4 +1,4 @@
-"""Frames and units: ours are right-handed (ISO 8855) in radians, CARLA's left-handed in degrees.
+"""Frames and units: right-handed (ISO 8855) in radians here, left-handed in degrees in CARLA.
 
 Ours: x east, y north, z up; heading counter-clockwise, pitch nose down, roll right side down.
 CARLA's: y to the south; yaw clockwise, pitch nose up, roll right side down.
@@ -45,7 +45,7 @@ def turning_of(start: Sequence[float], goal: Sequence[float], dt: float) -> list
 
     Args:
         start: x, y, z, pitch, yaw, roll in CARLA.
-        goal: So, too, `dt` seconds later.
+        goal: Likewise, `dt` seconds later.
         dt: s.
     """
     pitch, yaw, roll = (
@@ -59,16 +59,16 @@ def turning_of(start: Sequence[float], goal: Sequence[float], dt: float) -> list
 
 
 def measurement_from(state: Sequence[float], ahead: float = 0.0, up: float = 0.0) -> Measurement:
-    """Return how an actor moves at its reference point.
+    """Return the motion of an actor at its reference point.
 
     Args:
         state: Transform, velocity (m/s), turning (degrees/s), acceleration (m/s^2): 15 numbers.
         ahead: As for `transform_of`.
-        up: So, too.
+        up: Likewise.
     """
     pose = pose_from(state[:6], ahead, up)
     vx, vy, vz = state[6], -state[7], state[8]
-    # To turn is of a pair of axes: with y to the other side, only turning about y stays as it is.
+    # Rotations involve two axes: with y inverted, only the rotation about y keeps its sign.
     turning = (-math.radians(state[9]), math.radians(state[10]), -math.radians(state[11]))
     ahead_x, ahead_y = math.cos(pose.h), math.sin(pose.h)
     forwards = vx * ahead_x + vy * ahead_y

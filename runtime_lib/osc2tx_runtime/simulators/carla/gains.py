@@ -1,4 +1,4 @@
-"""How controllers of vehicles are set, by category."""
+"""Gains of the vehicle controllers, by category."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ class Gains(NamedTuple):
 
     Attributes:
         proportional: Pedal per m/s of error.
-        integral: Pedal per metre of its sum.
-        throttle: Pedal per m/s^2 that is wanted: what one unit of throttle does not give.
+        integral: Pedal per metre of the integrated error.
+        throttle: Throttle per m/s^2 of required acceleration.
         brake: Pedal per m/s^2 of braking.
-        look: Seconds that it looks ahead for steering.
-        wheelbases: Minimum of the distance ahead, in wheelbases.
+        look: Look-ahead time (s) of the steering.
+        wheelbases: Least look-ahead distance, in wheelbases.
     """
 
     proportional: float
@@ -36,5 +36,5 @@ GAINS: Mapping[str, Gains] = {
     "motorcycle": Gains(0.3, 0.2, 0.17, 0.125),
     "bicycle": Gains(0.6, 0.4, 0.5, 0.125, 0.5, 3.0),
 }
-"""Gains by vehicle category; the others take those of a car. Found on a kinematic single-track
+"""Gains by vehicle category; the others take those of a car. Determined on a kinematic single-track
 model; vehicles of a real server may need others."""

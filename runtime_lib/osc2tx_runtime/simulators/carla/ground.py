@@ -1,4 +1,4 @@
-"""The mesh of a level below the lanes: OpenDRIVE and mesh may be of different heights."""
+"""The mesh of a level below the lanes: OpenDRIVE and mesh may differ in height."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from osc2tx_runtime.world.plant.scene import Setpoint
 from .client_process import ClientProcess
 
 FROM = 2.0
-"""Metres above a lane from where the ground is looked for."""
+"""Height (m) above a lane at which the search for ground begins."""
 
 FLOATS = 0.1
-"""Metres between lane and ground that one can see."""
+"""Visible distance (m) between lane and ground."""
 
 
 def heights_of(client: ClientProcess, poses: Sequence[Pose]) -> Sequence[float | None]:
-    """Return how far (m) the ground is above each pose; None where there is none."""
+    """Return the height (m) of the ground above each pose; None without ground."""
     found = client.ask("ground", [(pose.x, -pose.y, pose.z + FROM) for pose in poses])
     pairs = zip(found, poses, strict=True)
     return [None if height is None else height - pose.z for height, pose in pairs]
@@ -27,11 +27,11 @@ def heights_of(client: ClientProcess, poses: Sequence[Pose]) -> Sequence[float |
 def floating(
     client: ClientProcess, setpoints: Mapping[str, Setpoint], road_map: RoadMap
 ) -> Iterator[str]:
-    """Yield a line for each actor that the mesh has float or sink where it starts.
+    """Yield a line for each actor that floats above or sinks into the mesh at its start.
 
     Args:
-        client: A connected one.
-        setpoints: Of the actors that are where the scenario says, whatever is below them.
+        client: A connected session.
+        setpoints: Setpoints of the actors at their stated heights.
         road_map: The map of the scenario.
     """
     places = {
@@ -41,7 +41,7 @@ def floating(
     }
     try:
         heights = heights_of(client, [road_map.pose(place) for place in places.values()])
-    except SimulatorError as error:  # no reason to end a run
+    except SimulatorError as error:  # not a reason to end a run
         yield f"whether actors float is unknown: {error.message}"
         return
     for actor, height in zip(places, heights, strict=True):

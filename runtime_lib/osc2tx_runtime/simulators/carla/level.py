@@ -1,4 +1,4 @@
-"""The map of the server: it has to be the scenario's, or is loaded if that is asked for."""
+"""The map of the server: it has to be that of the scenario, or is loaded on request."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .client_process import ClientProcess
 from .frames import pose_from
 
 LOADING = 120.0
-"""How long (s) a server may take to load a level; the time for a call, if that is longer."""
+"""Time limit (s) of loading a level; that of a call, if longer."""
 
 OPT = "_Opt"
 """Ending of the names of levels whose layers can be switched."""
@@ -28,11 +28,11 @@ ROUNDED = 2  # decimals of metres along the road: the wire has single precision
 
 
 def map_of(client: ClientProcess, request: WorldRequest) -> RoadMap:
-    """Return the map of a run: the scenario's, which is the server's, with its spawn points.
+    """Return the map of a run: that of scenario and server, with its spawn points.
 
     Args:
-        client: A connected one.
-        request: Of the run, with `carla_load` if the server is to load it.
+        client: A connected session.
+        request: Request of the run, with `carla_load` if the server has to load it.
 
     Raises:
         SimulatorError: The server has another map.
@@ -67,7 +67,7 @@ def map_of(client: ClientProcess, request: WorldRequest) -> RoadMap:
 def _loaded(
     client: ClientProcess, request: WorldRequest, name: str, *, load: bool
 ) -> Mapping[str, Any]:
-    """Have the server load a map that it has, else make a level of the file; return the level."""
+    """Make the server load the map, or create a level of the file; return the level."""
     patience = _patience(request)
     known = {plain_name(each): each for each in client.ask("maps")} if load else {}
     keep = request.options.get("carla_keep", False)
@@ -84,7 +84,7 @@ def _loaded(
 
 
 def _reload(client: ClientProcess, name: str, patience: float) -> None:
-    """Have the server load its level anew: lights, weather and actors as it begins with."""
+    """Make the server reload its level, with initial lights, weather and actors."""
     complain(f"CARLA: loading {name} anew")
     with _in_time(f"loaded {name}", patience):
         client.ask("reload", patience, patience=2.0 * patience)
@@ -103,7 +103,7 @@ def _level(client: ClientProcess, patience: float) -> Mapping[str, Any]:
 
 @contextmanager
 def _in_time(done: str, patience: float) -> Iterator[None]:
-    """Name the remedy where something took longer than a time (s)."""
+    """Report the remedy if a time limit (s) is exceeded."""
     try:
         yield
     except SimulatorError as error:
@@ -117,7 +117,7 @@ def _in_time(done: str, patience: float) -> Iterator[None]:
 def _wanted(
     client: ClientProcess, request: WorldRequest, level: Mapping[str, Any], load: bool
 ) -> RoadMap | None:
-    """Return the scenario's map; None where it leaves that open, or only the server has it.
+    """Return the scenario's map; None if it leaves the map open, or if only the server has it.
 
     Raises:
         InputError: There is no such map, neither here nor on the server.
@@ -141,7 +141,7 @@ def _stem(request: WorldRequest) -> str:
 
 
 def plain_name(name: str) -> str:
-    """Return the name of a level without what tells its variants apart."""
+    """Return the name of a level without the marks of variants."""
     return name.removesuffix(OPT)
 
 
@@ -158,7 +158,7 @@ def read_level(level: Mapping[str, Any]) -> RoadMap:
 
 
 def difference_of(ours: RoadMap, theirs: RoadMap) -> str | None:
-    """Return what tells two maps apart; None if nothing does that matters."""
+    """Return the relevant difference of two maps; None without one."""
     for road in (*ours.roads, *theirs.roads):
         if (road in ours.roads) != (road in theirs.roads):
             where = "the scenario's" if road in ours.roads else "the server's"

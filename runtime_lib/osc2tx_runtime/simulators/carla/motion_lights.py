@@ -1,4 +1,4 @@
-"""Lights that a vehicle shows because of how it moves: CARLA switches none by itself."""
+"""Vehicle lights that depend on the motion, which CARLA does not switch itself."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ BRAKE, RIGHT, LEFT, REVERSE = 8, 16, 32, 64
 """Flags of `carla.VehicleLightState`."""
 
 ON, OFF = 1.3, 0.7
-"""Decelerations (m/s^2) from which on brake lights shine, and up to which they must not (UN
-Regulation 13-H, 5.2.22); between them they stay as they are."""
+"""Decelerations (m/s^2) above which brake lights shine, and below which they must not (UN
+Regulation 13-H, 5.2.22); between them they are unchanged."""
 
 ASIDE = 0.1  # m/s across the lane
 
@@ -23,8 +23,8 @@ class MotionLights:
     def after(self, setpoint: Setpoint) -> int:
         """Return the flags for a commanded step.
 
-        Who has braked to a standstill keeps the foot on the pedal. A turn light shines from when
-        the lane is changed until the motion across it ends.
+        After braking to standstill the brake remains applied. A turn light shines from the start of
+        a lane change until the lateral motion ends.
         """
         state = setpoint.state
         if state.v:

@@ -21,11 +21,11 @@ from .sensors import SensorStacks
 from .spawning import Spawning
 from .surroundings import CarlaSurroundings
 
-SETTLING = 2.0  # s that vehicles have at most to come to rest on their wheels
+SETTLING = 2.0  # s within which vehicles have to come to rest on their wheels
 AT_REST = 0.05  # m/s upwards
 STILL, STILL_STEPS = 0.05, 2
-"""For how long (s, and steps) who stands is at rest: who begins to fall, and who is at the top of a
-bounce, is so for a moment."""
+"""Time (s, and steps) of standstill after which an actor is at rest: at the start of a fall, or at
+the top of a bounce, it only stands for a moment."""
 SAME_DT = 1e-5  # s: frames travel in single precision
 DRIVABLE = ("vehicle", "person")
 
@@ -34,16 +34,17 @@ class CarlaPlant:
     """A plant whose actors are in CARLA.
 
     Args:
-        client: Connected, on the map of the run.
+        client: A connected client, on the map of the run.
         version: Of the server.
         control: Control mode of an actor, by its id; `""` stands for all others.
         waiting: Seconds to wait for actors of other clients.
         sensors: Sensor stacks.
-        ticks: We make the steps of the simulator.
+        ticks: Whether this run makes the steps of the simulator.
         dt: Length of a step (s).
         seed: Of the Traffic Manager.
-        manager_port: Of the Traffic Manager; None takes a free one.
-        gains: Of the controllers of driven vehicles, where they are not those of the category.
+        manager_port: Port of the Traffic Manager; None: a free one.
+        gains: Gains of the controllers of driven vehicles, if they differ from those of the
+            category.
         attendance: The attendance of the run.
     """
 
@@ -72,13 +73,13 @@ class CarlaPlant:
         self._surroundings = CarlaSurroundings(client)
         self._start = 0.0  # s of the episode at step 0
         self._displaced: set[str] = set()
-        self._struck: set[str] = set()  # those that took part in a contact
+        self._struck: set[str] = set()  # actors with a contact
         self._default = self._default_control(sensors)
 
     # --- capabilities -------------------------------------------------------------------------
 
     def control(self, actor: str) -> ControlMode:
-        """The control mode of an actor; objects without motion of their own are exact."""
+        """The control mode of an actor; objects that cannot move are exact."""
         spec = self._specs.get(actor)
         drives = spec is None or (spec.movable and spec.kind in DRIVABLE)
         wanted = self._wanted.get(actor)
@@ -90,13 +91,13 @@ class CarlaPlant:
         return wanted
 
     def _default_control(self, sensors: SensorStacks) -> ControlMode:
-        """With physics where other clients read the velocities of the actors, or hit them."""
+        """With physics if other clients read velocities of the actors, or may hit them."""
         others = any(each in EXTERNAL for each in self._wanted.values()) or self._spawning.waits
         default: ControlMode = "exact-physics" if others or sensors.see_velocities else "exact"
         return self._wanted.get("", default)
 
     def capabilities(self) -> frozenset[Feature]:
-        """All but one: stacks spawn their cars; `capabilities` says how."""
+        """All but one: software under test spawns its cars; see `capabilities`."""
         return FEATURES - {"driver_starts"}
 
     def shape(self, spec: ActorSpec) -> Shape | None:
@@ -104,10 +105,10 @@ class CarlaPlant:
         self._specs[spec.id] = spec
         return None
 
-    # --- life ---------------------------------------------------------------------------------
+    # --- run ----------------------------------------------------------------------------------
 
     def begin(self, scene: Scene) -> Mapping[str, Measurement]:
-        """Spawn the actors, let them come to rest, and give them their speeds."""
+        """Spawn the actors, let them come to rest, and set their speeds."""
         setpoints = scene.setpoints
         foreign = {
             actor: self._spawning.wait(setpoint, self.control(actor))
@@ -150,7 +151,7 @@ class CarlaPlant:
         }
 
     def _report(self, scene: Scene) -> None:
-        """Say what cannot be as it is wanted, and which topics there will be."""
+        """Report unsupported requests, and the topics of sensors."""
         for problem in self._spawning.problems:
             scene.warn(problem)
         members = self._members
@@ -162,7 +163,7 @@ class CarlaPlant:
             say(line)
 
     def _at_rest(self, looked: Mapping[str, Any]) -> Mapping[str, Any]:
-        """Wait until those with wheels or legs stand on the ground."""
+        """Wait until vehicles and walkers are at rest on the ground."""
         falling = {m.actor for m in self._members.values() if m.is_measured}
         still, enough = 0, max(STILL_STEPS, math.ceil(STILL / self._dt))
         for _ in range(math.ceil(SETTLING / self._dt) if self._ticks else 1):
@@ -177,7 +178,7 @@ class CarlaPlant:
     def _run_up(
         self, looked: Mapping[str, Any], setpoints: Mapping[str, Setpoint]
     ) -> Mapping[str, Any]:
-        """Bring those who are controlled by others to their speed, at the place of their start."""
+        """Accelerate actors that other clients control to their speed, at their start."""
         states, members = dict(looked["actors"]), self._members.items()
         batch = [
             each
@@ -252,10 +253,10 @@ class CarlaPlant:
         return found
 
     def _removed(self, actor: str, scene: Scene) -> None:
-        """A walker that was hit is removed by CARLA after a while; nothing else ever is.
+        """Handle removed actors: CARLA only removes walkers some time after a collision.
 
         Raises:
-            SimulatorError: It was no such walker.
+            SimulatorError: It was not such a walker.
         """
         if actor not in self._struck or self._members[actor].is_vehicle:
             raise SimulatorError(f"{actor} is not in CARLA any more: another client removed it")
@@ -269,7 +270,7 @@ class CarlaPlant:
         off = member.deviation(state)
         if off <= DISPLACED:
             self._displaced.discard(actor)
-        elif member.control == "exact-physics":  # something has pushed it: it is put back
+        elif member.control == "exact-physics":  # it was pushed: it is set back
             if actor not in self._displaced:
                 scene.note("simulator_displaced", actor=actor, distance=round(off, 3))
             self._displaced.add(actor)
@@ -292,5 +293,5 @@ class CarlaPlant:
             )
 
     def close(self) -> None:
-        """Leave CARLA as it was."""
+        """Restore CARLA."""
         self._client.close()

@@ -1,11 +1,11 @@
-"""Sensor stacks: JSON files that say what to attach to an actor, as CARLA's ROS 2 examples do.
+"""Sensor stacks: JSON files with the sensors of an actor, as in CARLA's ROS 2 examples.
 
 A stack is a list of sensors, or an object with a list `sensors`: each has an `id`, a `type`
 (blueprint), a `spawn_point` (x, y, z in m, roll, pitch, yaw in degrees, in the axes of ROS: x
 forward, y left, z up), and `attributes`.
 
-CARLA 0.9.16 publishes by itself (`--ros2` of the server) what sensors see, under
-`/carla/<ros_name of the vehicle>/<ros_name of the sensor>`.
+CARLA 0.9.16 publishes the data of sensors itself (`--ros2` of the server), under `/carla/<ros_name
+of the vehicle>/<ros_name of the sensor>`.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ SUFFIXES: Mapping[str, Sequence[str]] = {
     "sensor.lidar": CLOUD,
     "sensor.other.radar": ("",),
 }
-"""Endings of the topics of a sensor, by the begin of its blueprint; others have none."""
+"""Suffixes of the topics of a sensor, by the first part of its blueprint; others have none."""
 
 UNPUBLISHED = ("sensor.other.obstacle", "sensor.other.rss", "sensor.other.v2x")
 MISSING_TOPICS = ("odometry", "vehicle_status", "vehicle_info")
-"""Topics missing in the native ROS 2 of 0.9.16, though the ROS bridge had them."""
+"""Topics of the ROS bridge that the native ROS 2 of 0.9.16 lacks."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,12 +110,12 @@ class SensorStacks:
 
     @property
     def see_velocities(self) -> bool:
-        """Whether a sensor measures how fast others are."""
+        """Whether a sensor measures velocities of other actors."""
         sensors = (each for stack in self._stacks.values() for each in stack)
         return any(each.type == "sensor.other.radar" for each in sensors)
 
     def attach(self, client: ClientProcess, members: Mapping[str, CastMember]) -> None:
-        """Spawn the sensors with their names, then have them published.
+        """Spawn the sensors with their names, then publish them.
 
         Raises:
             SettingsError: There is no such actor.
@@ -131,7 +131,7 @@ class SensorStacks:
                 client.ask("enable_for_ros", found["id"])
 
     def table(self, roles: Mapping[str, str]) -> Iterator[str]:
-        """Yield lines that say which topics there will be."""
+        """Yield lines with the expected topics."""
         for actor, sensors in self._stacks.items():
             vehicle = roles.get(actor, actor)
             for sensor in sensors:

@@ -1,4 +1,4 @@
-"""Actors in CARLA: spawned by us, or by another client that we wait for."""
+"""Actors in CARLA: spawned by the run, or by another client."""
 
 from __future__ import annotations
 
@@ -19,19 +19,20 @@ OUT_OF_THE_WAY = 50.0
 """Height (m) above the ground at which actors are spawned before they are moved."""
 
 HEIGHTS = (ABOVE, 2.0 * ABOVE, 4.0 * ABOVE)
-"""Heights (m) at which to spawn who falls on its feet, one after the other: a mesh that rises above
-the lane refuses the lower ones."""
+"""Heights (m) at which to spawn falling actors, in order of trial: a mesh above the lane blocks the
+lower ones."""
 
 CLOSE = 8.0  # m: radius of the search for blocking actors
 
 
 class Spawning:
-    """Makes the actors of a run.
+    """Spawns the actors of a run.
 
     Args:
-        client: A connected one.
+        client: A connected session.
         waiting: Seconds to wait for actors of other clients, by id.
-        gains: Of the controllers of driven vehicles, where they are not those of the category.
+        gains: Gains of the controllers of driven vehicles, if they differ from those of the
+            category.
     """
 
     def __init__(
@@ -55,7 +56,7 @@ class Spawning:
         """Return an actor that another client spawns.
 
         Raises:
-            SimulatorError: It does not come in time.
+            SimulatorError: It does not appear in time.
         """
         spec = setpoint.spec
         patience = self._waiting[spec.id]
@@ -76,10 +77,10 @@ class Spawning:
         return member
 
     def spawn(self, setpoint: Setpoint, control: ControlMode) -> CastMember:
-        """Spawn an actor where it starts.
+        """Spawn an actor at its start.
 
         Raises:
-            SimulatorError: There is no such blueprint, or the place is taken.
+            SimulatorError: There is no such blueprint, or the position is occupied.
         """
         spec, state = setpoint.spec, setpoint.state
         blueprint = blueprint_for(spec, self._library)
@@ -118,7 +119,7 @@ class Spawning:
 def _refused(
     setpoint: Setpoint, blueprint: str, error: SimulatorError, others: str
 ) -> SimulatorError:
-    """Name what the server does not spawn, and who is there."""
+    """Return the error for an actor that the server does not spawn, with actors nearby."""
     who = f"; there is {others}" if others else ""
     return SimulatorError(
         f"{setpoint.spec.id}: CARLA does not spawn {blueprint} at"

@@ -1,4 +1,4 @@
-"""Lights, weather, friction and traffic lights: written where they change."""
+"""Lights, weather, friction and traffic lights: written when they change."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from .client_process import ClientProcess
 from .motion_lights import MotionLights
 
 STATES = (("Red", "red"), ("Yellow", "yellow"), ("Green", "green"))
-"""State and color, from the one that stops to the one that lets go."""
+"""State and color, from stop to go."""
 
 DARK = ("is_off", "unknown")
 
 
 def state_for(lamps: Sequence[Lamp], shown: Sequence[BulbState]) -> str:
-    """Return the state that stands for lamps; yellow with red is yellow."""
+    """Return the state for lamps; yellow with red is yellow."""
     lit = {lamp.color for lamp, state in zip(lamps, shown, strict=True) if state not in DARK}
     if "yellow" in lit:
         return "Yellow"
@@ -39,13 +39,13 @@ def lamps_for(lamps: Sequence[Lamp], state: str) -> tuple[BulbState, ...] | None
 
 
 LONGEST_ID = 32
-"""Bytes of the id of a signal that snapshots have room for (`ActorDynamicState.h`)."""
+"""Greatest length (bytes) of the id of a signal in snapshots (`ActorDynamicState.h`)."""
 
 
 def same_ids(ours: Iterable[str], theirs: Iterable[str]) -> Mapping[str, str]:
     """Return the ids of lights on the server by those on the map.
 
-    Longer ones arrive without their end: what several ids of the map begin with stands for none.
+    Longer ids are truncated: a common prefix of several ids of the map is ambiguous, and ignored.
     """
     found = {_cut(each): each for each in theirs}
     alike = Counter(map(_cut, ours := list(ours)))
@@ -67,7 +67,7 @@ FLAGS: Mapping[LightMode, int] = {
     "low_beam": POSITION | LOW_BEAM,
     "high_beam": POSITION | LOW_BEAM | HIGH_BEAM,
 }
-"""Flags of `carla.VehicleLightState` by what shines."""
+"""Flags of `carla.VehicleLightState` by shining light."""
 
 
 HOUR = 3600.0
@@ -79,14 +79,14 @@ def _percent(value: float) -> float:
 
 
 def _rain(intensity: float) -> dict[str, float]:
-    """From m/s of water: 50 mm/h, a cloudburst, is all that CARLA has."""
+    """From m/s of water: 50 mm/h, a cloudburst, is the maximum in CARLA."""
     percent = _percent(2.0 * intensity * MM * HOUR)
     wet = _percent(30.0 + percent) if percent else 0.0
     return {"precipitation": percent, "precipitation_deposits": wet, "wetness": wet}
 
 
 def _fog(visual_range: float) -> dict[str, float]:
-    """Dense where one sees 50 m; clear from 5 km on."""
+    """Dense at a visual range of 50 m, clear from 5 km."""
     density = 0.0 if visual_range >= 5000.0 else _percent(5000.0 / max(visual_range, 1.0))
     return {"fog_density": density, "fog_distance": 0.0}
 
@@ -115,11 +115,11 @@ MISSING: Mapping[str, str] = {
     "relative_humidity": "CARLA has no humidity",
     "wind_direction": "wind has no direction in CARLA",
 }
-"""Quantities of the scenario alone: their effects and conditions hold, but are not visible."""
+"""Quantities that CARLA lacks: their effects and conditions hold, but are not visible."""
 
 
 def losses_of(environment: Mapping[str, float]) -> tuple[str, ...]:
-    """Return what of an environment CARLA does not show, or not so."""
+    """Return the parts of an environment that CARLA does not show, or only approximates."""
     losses = {**APPROXIMATED, **MISSING}
     return tuple(losses[name] for name in losses if environment.get(name))
 
@@ -134,14 +134,14 @@ def weather_of(environment: Mapping[str, float]) -> Mapping[str, float]:
 
 
 TYRE_FRICTION = 3.5
-"""Of CARLA's vehicles: what holds on a dry road."""
+"""Friction of CARLA's vehicles on a dry road."""
 
 
 class CarlaSurroundings:
     """The surroundings of the actors, and their lights.
 
     Args:
-        client: A connected one.
+        client: A connected session.
     """
 
     def __init__(self, client: ClientProcess) -> None:
@@ -150,7 +150,7 @@ class CarlaSurroundings:
         self._moving: defaultdict[str, MotionLights] = defaultdict(MotionLights)
         self._environment: Mapping[str, float] = {}
         self._adhesion = 1.0
-        self._signals: Mapping[str, str] = {}  # ids of the map -> those of the server
+        self._signals: Mapping[str, str] = {}  # ids of the map -> ids of the server
         self._shown: dict[str, str] = {}
 
     def begin(self, scene: Scene, *, ticks: bool) -> None:
@@ -161,7 +161,7 @@ class CarlaSurroundings:
             self._client.ask("reset_lights")
 
     def commands(self, scene: Scene, members: Mapping[str, CastMember]) -> Iterator[Command]:
-        """Bring the surroundings of the next step about; yields what goes with its batch."""
+        """Set the surroundings of the next step; yield the commands of its batch."""
         self._set_weather(scene)
         self._set_traffic_lights(scene)
         yield from self._vehicle_lights(scene, members)
@@ -187,7 +187,7 @@ class CarlaSurroundings:
                 continue
             lights = scene.lights.get(actor)
             flags = 0 if lights is None else FLAGS[lights.lit]
-            if member.control not in EXTERNAL:  # their own drivers decide when they brake
+            if member.control not in EXTERNAL:  # their own drivers switch brake lights
                 flags |= self._moving[actor].after(scene.setpoints[actor])
             if flags != self._lit.get(actor, 0):
                 self._lit[actor] = flags

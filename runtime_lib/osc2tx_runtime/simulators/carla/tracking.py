@@ -1,8 +1,8 @@
 """Controllers: a driven actor follows its reference.
 
-Vehicles have a PI controller of the speed with feed-forward of the acceleration, and steer by
-pure pursuit: towards a point ahead on the path, on a circle from the rear axle through it
-(R. C. Coulter, Implementation of the Pure Pursuit Path Tracking Algorithm, CMU-RI-TR-92-01).
+Vehicles have a PI controller of the speed with feed-forward of the acceleration, and steer by pure
+pursuit: towards a point ahead on the path, along a circle from the rear axle through it (R. C.
+Coulter, Implementation of the Pure Pursuit Path Tracking Algorithm, CMU-RI-TR-92-01).
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from osc2tx_shared.classes import dataclass
 
 from .gains import Gains
 
-LEAST_SHARE = 0.05  # of the full lock: a curve that goes to nothing steers nothing
-STANDING = 0.5  # m/s below which brakes hold a vehicle that is to stand
+LEAST_SHARE = 0.05  # of the full lock: least share of a steering curve
+STANDING = 0.5  # m/s below which brakes hold a vehicle at standstill
 HOLD = 0.6  # of the brake
-NEAR = 0.5  # m: a point that is nearer says nothing about steering
-CATCHING_UP = 1.0  # m/s that a walker adds to its speed to come back to its way
+NEAR = 0.5  # m: a nearer point does not define steering
+CATCHING_UP = 1.0  # m/s added to the speed of a walker to return to its path
 
 
 class Pedals(NamedTuple):
@@ -45,7 +45,7 @@ class SpeedControl:
     _sum: float = 0.0
 
     def reset(self) -> None:
-        """Forget the past: the vehicle was teleported, or its speed was set."""
+        """Reset the integral: the vehicle was teleported, or its speed was set."""
         self._sum = 0.0
 
     def pedals(self, wanted: float, acceleration: float, speed: float, dt: float) -> Pedals:
@@ -53,8 +53,8 @@ class SpeedControl:
 
         Args:
             wanted: Speed at its end (m/s).
-            acceleration: So, too (m/s^2).
-            speed: Measured at its begin (m/s).
+            acceleration: Likewise (m/s^2).
+            speed: Measured speed at its start (m/s).
             dt: Its length (s).
         """
         if wanted == 0.0 and abs(speed) < STANDING:
@@ -62,7 +62,7 @@ class SpeedControl:
             return Pedals(0.0, HOLD, False)
         back = wanted < 0.0 or (wanted == 0.0 and speed < 0.0)
         if speed < -STANDING if wanted > 0.0 else back and speed > STANDING:
-            self._sum = 0.0  # it rolls the other way: no gear is changed before it stands
+            self._sum = 0.0  # it rolls in the other direction: the gear only changes at standstill
             return Pedals(0.0, HOLD, False)
         sign = -1.0 if back else 1.0
         error, rate = sign * (wanted - speed), sign * acceleration
@@ -83,7 +83,7 @@ class Steering:
         wheelbase: m.
         largest: Angle of the wheels at full lock (rad).
         gains: Of the vehicle.
-        curve: Share of that angle which the simulator allows, by speed (m/s), ascending.
+        curve: Share of that angle that the simulator allows, by ascending speed (m/s).
     """
 
     wheelbase: float
@@ -116,7 +116,7 @@ class Steering:
 
 
 def walking(setpoint: Setpoint, now: Measurement, dt: float) -> tuple[float, float, float]:
-    """Return the direction in which a walker goes, as a vector of our axes, and its speed (m/s)."""
+    """Return the direction of a walker, as a vector in ISO 8855 axes, and its speed (m/s)."""
     goal, at = setpoint.state, now.pose
     dx, dy = goal.x - at.x, goal.y - at.y
     far = math.hypot(dx, dy)

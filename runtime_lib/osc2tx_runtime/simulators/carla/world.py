@@ -1,4 +1,4 @@
-"""The world `carla`: how it is made for a run."""
+"""The world `carla`: its creation for a run."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def parse_port(text: str) -> int:
 
 
 def parse_factor(text: str) -> float:
-    """Read how much faster than real time a run may be."""
+    """Read the factor of real time of a run."""
     try:
         factor = to_float(text)
     except ValueError:
@@ -140,10 +140,10 @@ OPTIONS: tuple[Option, ...] = (
 
 
 def make(request: WorldRequest) -> EmbeddedWorld:
-    """Make the world of a run, connected to the server.
+    """Create the world of a run, connected to the server.
 
     Raises:
-        SimulatorError: There is no server, or none that this run can use.
+        SimulatorError: There is no usable server.
     """
     options = request.options
     sensors = SensorStacks(options.get("sensors", {}))

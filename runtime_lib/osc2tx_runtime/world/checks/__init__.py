@@ -1,1 +1,1 @@
-"""Checks of values and commands that code outside this package hands in."""
+"""Checks of values and commands from code outside this package."""

@@ -1,4 +1,4 @@
-"""Checks of commands when they are handed in: a world computes with them, step after step."""
+"""Checks of commands when they are given, before a world computes with them."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ COMMANDS = {
 
 
 def command_problem(command: object, slot: str, actors: Collection[str]) -> str:
-    """Return why a slot cannot pursue a command; empty if it can.
+    """Return why a slot cannot execute a command; empty if it can.
 
     Args:
-        command: What was handed in.
+        command: The given value.
         slot: The slot.
         actors: Ids of the placed actors.
     """
@@ -43,7 +43,7 @@ def command_problem(command: object, slot: str, actors: Collection[str]) -> str:
 
 
 def _references(command: Command) -> Iterator[str]:
-    """Yield the actors that a command names, also in the commands that it holds."""
+    """Yield the actors that a command refers to, also in its inner commands."""
     for each in fields(command):
         value = getattr(command, each.name)
         if isinstance(value, Command):

@@ -1,4 +1,4 @@
-"""Checks of what code of the user's own hands in: the types of its annotations, finite numbers."""
+"""Checks of values from user code: the annotated types, finite numbers."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from typing import (
 from osc2tx_runtime.errors import OwnCode, ScenarioError, SimulatorError, is_own, name_of
 
 LARGEST = 1e12
-"""What no quantity of a world is above, in SI units: a step could make it infinite."""
+"""Upper limit of all quantities of a world, in SI units: a step could make larger ones infinite."""
 
 Check = Callable[[Any], str]
 
@@ -36,16 +36,16 @@ def problem_of(value: object, wanted: Any) -> str:
     """Return why a value is not of a type, as `target is nan, no number ...`; empty if it is.
 
     Args:
-        value: What was handed in.
-        wanted: A class, or a type as in annotations. Of data classes and named tuples all fields
-            are checked, too.
+        value: The given value.
+        wanted: A class, or a type as in annotations. All fields of data classes and named tuples
+            are checked as well.
     """
     return _check_for(wanted)(value)
 
 
 @cache
 def _check_for(wanted: Hashable) -> Check:
-    """Return the check for a type, which is built once."""
+    """Return the check for a type, built once."""
     if wanted is Any or wanted is object:
         return lambda value: ""
     if get_origin(wanted) in (Union, types.UnionType):
@@ -81,7 +81,7 @@ def _any_of(checks: list[Check], *, may_be_none: bool) -> Check:
         if value is None and may_be_none:
             return ""
         found = [each(value) for each in checks]
-        return "" if "" in found else max(found, key=len)  # the one that went deepest
+        return "" if "" in found else max(found, key=len)  # the deepest one
 
     return check
 
@@ -142,7 +142,7 @@ def _unless(is_fine: bool, value: object, wanted: object) -> str:
 
 
 def _shown(value: object) -> str:
-    """Return a value in a few characters; its own `repr` may be anything."""
+    """Return a value in a few characters, without its own `repr`."""
     if type(value) in (bool, float, type(None)) or (type(value) is int and abs(value) < 10**30):
         return str(value)
     return repr(value[:40]) if type(value) is str else f"a {type(value).__name__}"
@@ -153,12 +153,12 @@ _SIMULATORS = "osc2tx_runtime.simulators."
 
 
 class CheckedCalls:
-    """Calls an object, and names it when it fails or returns a value of the wrong type.
+    """Calls an object; errors name it when it fails or returns a value of the wrong type.
 
     Args:
         part: Its role in the run: `plant`, `world`.
-        object_: The object. What the embedded world raises is passed on as it is; one that speaks
-            to a simulator fails as a rule for what that answered.
+        object_: The object. Exceptions of the embedded world are passed on unchanged; a world with
+            a simulator usually fails because of its responses.
     """
 
     def __init__(self, part: str, object_: object) -> None:
@@ -167,21 +167,21 @@ class CheckedCalls:
 
     @staticmethod
     def _translated(factory: type) -> type[ScenarioError] | None:
-        """The class that exceptions become; None for bugs of the embedded world."""
+        """The class of translated exceptions; None for internal errors of the embedded world."""
         if is_own(factory):
             return ScenarioError
         return SimulatorError if factory.__module__.startswith(_SIMULATORS) else None
 
     def ask(self, name: str, call: Callable[[], T], wanted: Any) -> T:
-        """Return the answer to a call.
+        """Return the result of a call.
 
         Args:
             name: Of the method, for messages.
             call: Calls it.
-            wanted: Type of the answer, as in annotations.
+            wanted: Type of the result, as in annotations.
 
         Raises:
-            ScenarioError: It is no such thing, or code of the user's own raised something.
+            ScenarioError: The result has another type, or user code raised an exception.
         """
         if self._error is None:
             found = call()
@@ -195,5 +195,5 @@ class CheckedCalls:
         return found
 
     def refuse(self, name: str, problem: str) -> NoReturn:
-        """Raises the error in the answer of a method, as a `ScenarioError`."""
+        """Raises the error in the result of a method, as a `ScenarioError`."""
         raise ScenarioError(f"{self._told}: {name}: {problem}")

@@ -1,7 +1,7 @@
 """All commands: frozen values, one per slot.
 
-A world takes a command over at the step it first sees the object and pursues it until another
-one (or None) comes. Worlds that cannot pursue a command say so in `World.capabilities()`.
+A world executes a command from the step at which it receives the object, until another command (or
+None) follows. `World.capabilities()` states the commands that a world can execute.
 """
 
 from __future__ import annotations

@@ -9,10 +9,10 @@ from osc2tx_shared.classes import dataclass
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Command:
-    """Base of all commands. Two commands are the same only if they are one object.
+    """Base of all commands. Commands are compared by identity.
 
     Attributes:
-        unphysical: Physics need not hold while it is at work.
+        unphysical: Whether physics need not hold while it is effective.
     """
 
     unphysical: bool = field(default=False, kw_only=True)

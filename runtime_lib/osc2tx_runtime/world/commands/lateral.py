@@ -22,11 +22,11 @@ class LaneChange(Command):
 
     Attributes:
         lanes: Drivable lanes to the left (negative: to the right) of the present one.
-        offset: Metres left of the centre of the target lane at the end.
+        offset: Metres to the left of the target lane centre at the end.
         profile: Shape of the lateral speed.
         rate_peak: Its peak (m/s).
         duration: Length of the change (s).
-        course: Instead of these three: the offset from the target lane at any time.
+        course: Instead of these three: the offset from the target lane over time.
     """
 
     lanes: int
@@ -54,7 +54,7 @@ class Turn(Command):
 
     Attributes:
         heading: None: the present one.
-        course: Instead of a heading: its course over time since the start.
+        course: Instead of a heading: its profile over time since the start.
         pitch: rad; None: that of the road, or as set before.
         roll: Likewise.
     """
@@ -67,13 +67,13 @@ class Turn(Command):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sideways(Command):
-    """Lateral: a speed (m/s) to the left across the lane, reached and then held.
+    """Lateral: reach and hold a lateral speed (m/s, to the left).
 
     Attributes:
         speed: The speed, or the difference to the speed of the reference.
         reference: Another actor whose lateral speed counts.
         factor: Multiplies its lateral speed.
-        course: How the speed is reached; None: at once.
+        course: How the speed is reached; None: instantly.
     """
 
     speed: float
@@ -84,18 +84,18 @@ class Sideways(Command):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RunOut(Command):
-    """Lateral: have a speed (m/s) to the left across the lane now, and let it run out."""
+    """Lateral: set a lateral speed (m/s, to the left) instantly, and let it decay."""
 
     speed: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Slant(Command):
-    """Lateral: a heading (rad) against the lane, counter-clockwise.
+    """Lateral: a heading (rad) relative to the lane, counter-clockwise.
 
     Attributes:
         angle: The heading.
-        course: Instead of it: its course over time since the start.
+        course: Instead of the heading: its profile over time since the start.
     """
 
     angle: float
@@ -104,17 +104,17 @@ class Slant(Command):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Beside(Command):
-    """Lateral: reach and hold a distance across the lane to another actor.
+    """Lateral: reach and hold a lateral distance to another actor.
 
     Attributes:
         reference: The other actor.
-        left: Required distance (m) of the own reference point to the left of the other one.
-        time: Instead: seconds in which the sides would meet at the lateral speed; the actor
-            approaches the reference with the gap over this time.
-        spread: Allowed distance (m) to the left of that.
-        projected: The reference counts as extrapolated from its motion at the start.
-        duration: Seconds after which the distance is to be reached; None: as is comfortable.
-        course: Instead of a distance: its course over time since the start.
+        left: Required distance (m) of the own reference point to the left of that of the reference.
+        time: Instead: the lateral time gap (s); the actor approaches the reference at the gap
+            divided by this time.
+        spread: Allowed range (m) to the left of that.
+        projected: Whether the motion of the reference is extrapolated from the start.
+        duration: Seconds after which the distance has to be reached; None: comfortable motion.
+        course: Instead of a distance: its profile over time since the start.
     """
 
     reference: str
@@ -131,9 +131,9 @@ class FollowCourse(Command):
     """Lateral: leave the lanes and steer along a curve, as the limits allow.
 
     Attributes:
-        curve: Where to.
-        begin: Arc length on it at which to begin (m).
-        end: Arc length at which the goal is reached (m).
+        curve: The curve.
+        begin: Arc length of the start (m).
+        end: Arc length of the goal (m).
     """
 
     curve: Curve
@@ -143,12 +143,12 @@ class FollowCourse(Command):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FollowRoute(Command):
-    """Lateral: take the branches that lead to a place, and stay in the lane but for `side`.
+    """Lateral: take the branches that lead to a position, and stay in the lane except for `side`.
 
     Attributes:
-        goal: The place; any lane beside it will do.
-        side: Where to go across the road on the way.
-        ends: It is done at the place, and not when `side` is.
+        goal: The position; any adjacent lane counts.
+        side: Lateral command meanwhile.
+        ends: Whether it is done at the position, and not with `side`.
     """
 
     goal: LanePosition
@@ -158,7 +158,7 @@ class FollowRoute(Command):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ReplayCourse(Command):
-    """Lateral: be on a curve exactly, at the own speed; attributes as of `FollowCourse`."""
+    """Lateral: follow a curve exactly, at the own speed; attributes as of `FollowCourse`."""
 
     curve: Curve
     begin: float
@@ -167,7 +167,7 @@ class ReplayCourse(Command):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ReplayTrajectory(Command):
-    """Both slots: be on a curve over time exactly; attributes as of `KeepSchedule`."""
+    """Both slots: follow a curve over time exactly; attributes as of `KeepSchedule`."""
 
     curve: Curve
     begin: float

@@ -23,9 +23,9 @@ class SpeedChange(Command):
         profile: Shape of the acceleration.
         rate_peak: Its peak (m/s^2); None: from the duration or the limits of the actor.
         duration: Length of the change (s); None: from the peak.
-        start: Speed to begin with (m/s), at once; None: the present one.
-        course: Instead of profile, peak and duration: the speed at any time since the start.
-        exact: With a course: the speed may jump.
+        start: Initial speed (m/s), set instantly; None: the present one.
+        course: Instead of profile, peak and duration: the speed over time since the start.
+        exact: With a course: whether the speed may jump.
     """
 
     target: float
@@ -43,7 +43,7 @@ class Accelerate(Command):
 
     Attributes:
         acceleration: m/s^2; None: the present one.
-        start: Speed to begin with (m/s), at once; None: the present one.
+        start: Initial speed (m/s), set instantly; None: the present one.
     """
 
     acceleration: float | None
@@ -59,8 +59,8 @@ class AccelerationChange(Command):
         profile: Shape of the jerk.
         rate_peak: Its peak (m/s^3); None: from the duration or the limits of the actor.
         duration: Length of the change (s); None: from the peak.
-        start: Acceleration to begin with (m/s^2); None: the present one.
-        course: Instead of all these: the acceleration at any time since the start.
+        start: Initial acceleration (m/s^2); None: the present one.
+        course: Instead of all these: the acceleration over time since the start.
     """
 
     target: float
@@ -78,7 +78,7 @@ class Careful(Command):
     Attributes:
         course: Command on a free road; None: hold the speed.
         headway: Time gap (s) to an obstacle.
-        gap: Metres to keep behind it at standstill.
+        gap: Gap (m) to it at standstill.
     """
 
     course: Command | None
@@ -88,12 +88,12 @@ class Careful(Command):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class KeepSchedule(Command):
-    """Longitudinal: be along a curve over time when it says so, as the limits allow.
+    """Longitudinal: follow a curve over time as the limits allow.
 
     Attributes:
         curve: Its parameter is the time (s).
-        begin: Time on it at which the command starts (s).
-        end: Time at which it ends (s).
+        begin: Time of the start (s).
+        end: Time of the end (s).
     """
 
     curve: Curve
@@ -110,10 +110,10 @@ class FollowSpeed(Command):
         factor: Multiplies its speed.
         difference: Least difference (m/s).
         spread: Allowed surplus (m/s) of the difference.
-        course: Instead of a difference: its course over time since the start.
-        due: Seconds in which it has this speed, infinite if that is open: comfort is for the
-            approach, as far as that takes no more; what the other actor does comes on top. None:
-            all is done in comfort.
+        course: Instead of a difference: its profile over time since the start.
+        due: Seconds in which the speed has to be reached, infinite if open. The approach uses
+            comfortable limits if they suffice; the acceleration of the reference is added. None:
+            comfortable limits for all.
     """
 
     reference: str
@@ -130,12 +130,12 @@ class KeepGap(Command):
 
     Attributes:
         reference: The other actor.
-        ahead: True if this actor is to be ahead of it.
+        ahead: Whether this actor has to be ahead of it.
         measure: Between facing ends ("gap"), fronts ("headway") or reference points.
         distance: Metres; exclusive with `time`.
-        time: Seconds times the speed of the trailing one.
+        time: Seconds times the speed of the follower.
         spread: Allowed surplus (m or s).
-        projected: The reference counts as extrapolated from its motion at the start.
+        projected: Whether the motion of the reference is extrapolated from the start.
     """
 
     reference: str
@@ -149,12 +149,12 @@ class KeepGap(Command):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Arrive(Command):
-    """Longitudinal: be somewhere after a time, at a speed of its own if one is given.
+    """Longitudinal: reach a position after a time, at a speed if one is given.
 
     Attributes:
         duration: Seconds.
         way: Metres to cover until then; exclusive with `gap`.
-        gap: Place relative to another actor.
+        gap: Position relative to another actor.
         speed: Speed at the end: a number (m/s), or relative to an actor; None: any.
     """
 
@@ -166,11 +166,11 @@ class Arrive(Command):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Cover(Command):
-    """Longitudinal: cover a distance over time since the start, then stand.
+    """Longitudinal: cover a distance over time since the start, then stop.
 
     Attributes:
-        course: The metres.
-        exact: The speed may jump.
+        course: The distance (m).
+        exact: Whether the speed may jump.
     """
 
     course: Profile
@@ -179,13 +179,13 @@ class Cover(Command):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class GapCourse(Command):
-    """Longitudinal: have a distance to another actor over time since the start, then hold it.
+    """Longitudinal: follow a distance to another actor over time since the start, then hold it.
 
     Attributes:
         reference: The other actor.
         course: Metres between the reference points; negative: behind it.
-        projected: The reference counts as extrapolated from its motion at the start.
-        exact: The speed may jump.
+        projected: Whether the motion of the reference is extrapolated from the start.
+        exact: Whether the speed may jump.
     """
 
     reference: str
@@ -196,4 +196,4 @@ class GapCourse(Command):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Standstill(Command):
-    """Longitudinal: brake as hard as the limits allow, then stand."""
+    """Longitudinal: brake to standstill with the greatest deceleration."""

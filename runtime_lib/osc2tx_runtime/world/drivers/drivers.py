@@ -24,7 +24,7 @@ class SingleTrack:
     """One vehicle.
 
     Attributes:
-        pose: Of the middle of its rear axle, level.
+        pose: Pose of the middle of its rear axle, level.
         speed: m/s, never negative.
         yaw_rate: rad/s over the last step.
     """
@@ -50,12 +50,12 @@ class SingleTrack:
         after = max(self.speed + rate * dt, 0.0)
         way = 0.5 * (self.speed + after) * dt
         if after == 0.0 and rate < 0.0:
-            way = -0.5 * self.speed**2 / rate  # it stands before the step is over
+            way = -0.5 * self.speed**2 / rate  # it reaches standstill within the step
         self._go(way, bend * way)
         self.speed, self.yaw_rate = after, bend * way / dt
 
     def _bend(self, steering: float, grip: float) -> float:
-        """Curvature (1/m) of its way, as sharp as steering and road allow."""
+        """Curvature (1/m) of its path, within the limits of steering and road."""
         most = self._shape.steering
         bend = math.tan(min(max(steering, -most), most)) / self._shape.wheelbase
         limit = grip / self.speed**2 if self.speed > 0.0 else math.inf
@@ -77,7 +77,7 @@ class DriversPlant:
     """The embedded world with external drivers.
 
     Args:
-        drivers: By the id of their actor.
+        drivers: The drivers, by the id of their actor.
     """
 
     name = "embedded"
@@ -88,7 +88,7 @@ class DriversPlant:
         self._lines: StopLines | None = None
 
     def control(self, actor: str) -> ControlMode:
-        """`external` for those that have a driver."""
+        """`external` for actors with a driver."""
         return "external" if actor in self._drivers else "exact"
 
     def capabilities(self) -> frozenset[Feature]:
@@ -100,7 +100,7 @@ class DriversPlant:
         return None
 
     def begin(self, scene: Scene) -> Mapping[str, Measurement]:
-        """Put the vehicles where they start.
+        """Place the vehicles at their start.
 
         Raises:
             SettingsError: A driver has no vehicle.
@@ -115,10 +115,10 @@ class DriversPlant:
         return {actor: self._measured(scene, setpoints[actor]) for actor in self._drivers}
 
     def moved(self, scene: Scene) -> Mapping[str, Measurement]:
-        """Ask the drivers, and let their vehicles go one step on.
+        """Call the drivers, and advance their vehicles by one step.
 
         Raises:
-            ScenarioError: A driver raises something, or answers no `Control`.
+            ScenarioError: A driver raises an exception, or does not return a `Control`.
         """
         setpoints = scene.setpoints
         for actor in self._drivers if scene.step == 0 else ():
@@ -137,7 +137,7 @@ class DriversPlant:
         """Nothing to leave."""
 
     def _put(self, setpoint: Setpoint) -> None:
-        """Put a vehicle where it starts."""
+        """Place a vehicle at its start."""
         state = setpoint.state
         pose = Pose(state.x, state.y, state.z, state.h)
         self._vehicles[setpoint.spec.id] = SingleTrack(pose, state.v, state.shape)

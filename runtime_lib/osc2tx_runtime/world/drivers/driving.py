@@ -16,7 +16,7 @@ class Control:
     """The controls of a driver, valid until the next ones.
 
     The vehicle follows them within its limits, the steering of its front wheels, and the grip of
-    the road. It does not roll backwards when it brakes.
+    the road. Braking never reverses it.
 
     Attributes:
         acceleration: m/s^2 along its axis; negative brakes.
@@ -34,7 +34,7 @@ class LaneView:
     Attributes:
         position: Road, lane, road coordinate (m), offset to the left of the centre (m).
         width: m.
-        heading: How far (rad) the vehicle is turned to the left of it.
+        heading: Heading of the vehicle relative to the lane (rad), positive to the left.
     """
 
     position: LanePosition
@@ -51,10 +51,10 @@ class OtherActor:
         kind: Actor kind of the language: `vehicle`, `person`, ...
         pose: Of its reference point.
         speed: m/s along its heading.
-        shape: Its box, and where the reference point is in it.
+        shape: Its box and reference point.
         ahead: Metres along the lanes from one reference point to the other, negative behind; None
             if no lanes lead there.
-        left: Metres that it is to the left across the lane; None likewise.
+        left: Lateral distance (m), positive to the left; None likewise.
     """
 
     id: str
@@ -68,7 +68,7 @@ class OtherActor:
 
 @dataclass(frozen=True, slots=True)
 class Observation:
-    """The world as an external driver sees it at one step.
+    """The world at one step for an external driver.
 
     World axes are the axes of the map (x, y in metres, counter-clockwise angles in radians), and
     the reference point of a vehicle is the middle of its rear axle.
@@ -81,10 +81,10 @@ class Observation:
         shape: Size of the vehicle, with its wheelbase.
         limits: Its limits on the present road.
         lane: The lane under it; None off the road.
-        route: Places on the centre of the lanes ahead, every `ROUTE_STEP` metres, at forks along
-            the destination of the actor; empty off the road.
+        route: Positions on the centre of the lanes ahead, every `ROUTE_STEP` metres, at forks
+            towards the destination of the actor; empty off the road.
         others: Other actors in sight, in the order of the cast.
-        stop_line: First line ahead at which a traffic light asks to stop; None if none does.
+        stop_line: First stop line ahead whose light requires a stop; None without one.
         lights: Its own lights.
     """
 
@@ -102,7 +102,7 @@ class Observation:
 
 
 class Driver(Protocol):
-    """The driver of an actor of the scenario, made anew for each run: `Driver()`."""
+    """The driver of an actor of the scenario, created for each run: `Driver()`."""
 
     def step(self, observation: Observation, dt: float) -> Control:
-        """Decide what to do until the next step, `dt` seconds from now."""
+        """Return the controls until the next step, `dt` seconds from now."""

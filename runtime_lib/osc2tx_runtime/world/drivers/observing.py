@@ -14,15 +14,15 @@ from osc2tx_runtime.world.surroundings.stop_lines_ahead import StopLines
 from .driving import LaneView, Observation, OtherActor
 
 ROUTE_STEP = 2.0
-"""Metres between the places of a route."""
+"""Metres between the positions of a route."""
 ROUTE_LENGTH = 100.0
-"""Metres that the route ahead is long."""
+"""Length (m) of the route ahead."""
 SIGHT = 200.0
-"""Metres within which others are seen; in fog the visual range counts."""
+"""Visual range (m) of other actors; in fog that of the weather counts."""
 
 
 def observe(scene: Scene, setpoint: Setpoint, lines: StopLines) -> Observation:
-    """The observation of the driver of an actor at the begin of a step."""
+    """The observation of the driver of an actor at the start of a step."""
     me, sight = setpoint.now, min(SIGHT, scene.environment.get("visual_range", math.inf))
     place, route = me.lane_position, setpoint.route
     return Observation(

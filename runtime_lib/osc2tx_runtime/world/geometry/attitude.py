@@ -1,7 +1,7 @@
 """Pitch and roll of actors: from the road, or as commanded (DSL 8.3, 8.14.2).
 
-Angles follow ISO 8855, applied in the order yaw, pitch, roll: a raised nose has a negative pitch, a
-left side that is raised a positive roll.
+Angles follow ISO 8855, applied in the order yaw, pitch, roll: nose up is a negative pitch, left
+side up a positive roll.
 """
 
 from __future__ import annotations
@@ -21,21 +21,21 @@ class Tilt(NamedTuple):
     roll: float | None = None
 
     def over(self, ground: tuple[float, float]) -> tuple[float, float]:
-        """Pitch and roll, the open ones from the ground."""
+        """Pitch and roll; open values are those of the ground."""
         pitch, roll = ground
         return pitch if self.pitch is None else self.pitch, roll if self.roll is None else self.roll
 
 
 LEVEL = Tilt()
-"""As the road has it."""
+"""As the road."""
 
 
 def tilt_on(surface: Pose, heading: float) -> tuple[float, float]:
-    """Pitch and roll (rad) of what lies on a surface, with a heading (rad) of its own.
+    """Pitch and roll (rad) on a surface at a heading (rad).
 
     Args:
-        surface: Pose of a lane at the place: how it is tilted in its own direction.
-        heading: Where the actor points to.
+        surface: Pose of a lane at the position, with the tilt in its own direction.
+        heading: Heading of the actor (rad).
     """
     if not (surface.pitch or surface.roll):
         return 0.0, 0.0
@@ -43,7 +43,7 @@ def tilt_on(surface: Pose, heading: float) -> tuple[float, float]:
     if turn == 0.0:
         return surface.pitch, surface.roll
     sine = math.sin(surface.pitch) * math.cos(surface.roll)
-    # What stands upright on the surface, seen in the axes of the lane, then of the actor.
+    # The normal of the surface, in the axes of the lane, then of the actor.
     ahead, left = sine, -math.sin(surface.roll)
     up = math.cos(surface.pitch) * math.cos(surface.roll)
     ahead, left = (

@@ -19,8 +19,8 @@ _GAUSS = (
     (0.5, 0.4444444444444444),
     (0.8872983346207417, 0.2777777777777778),
 )
-_COARSE = 0.02  # of the distance to a point: so long are the steps of a search for its foot
-_REMEMBERED = 64  # parameters kept by arc length: a search asks for some of them again
+_COARSE = 0.02  # of the distance to a point: step of the search for its foot
+_REMEMBERED = 64  # parameters cached by arc length: a search repeats some
 _STILL = 1e-9  # metres per unit of the parameter
 
 Vector = tuple[float, float, float]
@@ -71,7 +71,7 @@ class Curve:
     # --- by parameter -------------------------------------------------------------------------
 
     def point(self, at: float) -> Vector:
-        """Place at a parameter; beyond the ends straight on."""
+        """Position at a parameter; beyond the ends on a straight line."""
         inside = min(max(at, self.begin), self.end)
         i, w, step = self._piece(inside)
         a, b = self._knots[i], self._knots[i + 1]
@@ -94,12 +94,12 @@ class Curve:
         return _hermite_rate(a, b, self._slopes[i], self._slopes[i + 1], step, w)
 
     def heading(self, at: float) -> float | None:
-        """Direction of the way (rad); None where it stands still."""
+        """Direction of motion (rad); None at standstill."""
         dx, dy, _ = self.rate(at)
         return math.atan2(dy, dx) if math.hypot(dx, dy) > _STILL else None
 
     def yaw(self, at: float) -> float | None:
-        """Heading that the points ask for (rad); None where they leave it open."""
+        """Heading that the points require (rad); None if open."""
         i, w, _ = self._piece(min(max(at, self.begin), self.end))
         a, b = self._knots[i].yaw, self._knots[i + 1].yaw
         if a is None or b is None:
@@ -115,7 +115,7 @@ class Curve:
     # --- by arc length ------------------------------------------------------------------------
 
     def length_at(self, at: float) -> float:
-        """Arc length (m) from the begin to a parameter; beyond the ends straight on."""
+        """Arc length (m) from the start to a parameter; beyond the ends on a straight line."""
         inside = min(max(at, self.begin), self.end)
         i = min(max(bisect_right(self._nodes, inside) - 1, 0), len(self._nodes) - 2)
         along = self._sums[i] + self._arc(self._nodes[i], inside)
@@ -125,7 +125,7 @@ class Curve:
         return along + (at - inside) * math.hypot(dx, dy)
 
     def at_length(self, along: float) -> float:
-        """Parameter at an arc length (m); beyond the ends straight on where the curve moves."""
+        """Parameter at an arc length (m); beyond the ends extrapolated if the curve moves there."""
         found = self._parameters.get(along)
         if found is None:
             if len(self._parameters) >= _REMEMBERED:
@@ -152,13 +152,13 @@ class Curve:
         return at
 
     def nearest(self, x: float, y: float, along: float, reach: float) -> float:
-        """Arc length of the foot of a point, searched from `along` as far as it comes nearer.
+        """Arc length of the foot of a point, searched from `along` while the distance decreases.
 
         Args:
             x: World x (m).
             y: World y (m).
-            along: Where to begin (m).
-            reach: How far beyond a worse place to look (m).
+            along: Start of the search (m).
+            reach: Distance (m) to search beyond a worse position.
         """
         best, best_distance = along, self.distance_to(x, y, along)
         step, ahead = 0.25 * reach, along
@@ -187,7 +187,7 @@ class Curve:
         return best
 
     def distance_to(self, x: float, y: float, along: float) -> float:
-        """Metres from a point to the place at an arc length."""
+        """Metres from a point to the position at an arc length."""
         px, py, _ = self.point(self.at_length(along))
         return math.hypot(x - px, y - py)
 
@@ -203,7 +203,7 @@ class Curve:
         )
 
     def _speed(self, at: float) -> float:
-        """Length of `rate` on the ground; asked so often that it stands here in plain numbers."""
+        """Length of `rate` on the ground, written in plain numbers because it is called often."""
         inside = self.begin if at < self.begin else self.end if at > self.end else at
         i = bisect_right(self._starts, inside) - 1
         piece = self._on_ground[i]
@@ -245,7 +245,7 @@ class Curve:
 
 
 def _exact(knot: Knot) -> Knot:
-    """The same in plain numbers, also where a scenario measured them."""
+    """The same in plain numbers, if a scenario has measured them."""
     at, x, y, z = map(float, knot[:4])
     return Knot(at, x, y, z, None if knot.yaw is None else float(knot.yaw))
 

@@ -13,18 +13,18 @@ from osc2tx_runtime.world.actor_dimensions import COMFORT
 
 from .profiles import Linear, Profile, Quintic
 
-_SPAN = 1e-3  # s: half of the interval that a rate is the mean over
+_SPAN = 1e-3  # s: half of the interval of a mean rate
 _LONGEST = 3600.0  # s: no change takes longer
-_HALVINGS = 60  # of that time; more than the resolution of a float
-_SAMPLES = 200  # of a course, to see whether it turns back
+_HALVINGS = 60  # of that time; beyond the resolution of a float
+_SAMPLES = 200  # of a profile, to find reversals
 _ONE_WAY = 2.5  # change / rate: a smooth change that takes longer overshoots
 
 
 class Computed:
-    """A course that a function gives: the quantity at each time since the start (s).
+    """A profile computed by a function: the quantity over the time since the start (s).
 
     Attributes:
-        duration: When it ends (s); infinite if it never ends.
+        duration: Time of its end (s); infinite if it never ends.
     """
 
     def __init__(self, compute: Callable[[float], float], duration: float = math.inf) -> None:
@@ -38,15 +38,15 @@ class Computed:
 
     @property
     def end(self) -> float:
-        """Quantity at the end, if there is one; else at the start."""
+        """Quantity at the end; at the start if it never ends."""
         return self._compute(0.0 if math.isinf(self.duration) else self.duration)
 
     def value(self, t: float) -> float:
-        """Quantity at time t (s); the last one from the end on."""
+        """Quantity at time t (s); after the end the last value."""
         return self._compute(min(max(t, 0.0), self.duration))
 
     def rate(self, t: float) -> float:
-        """First derivative at time t (s), from two values close to it."""
+        """First derivative at time t (s), from two close values."""
         if t < 0.0 or t >= self.duration:
             return 0.0
         low, high = max(t - _SPAN, 0.0), min(t + _SPAN, self.duration)
@@ -54,7 +54,7 @@ class Computed:
 
 
 class Mapped:
-    """Another course, stretched and shifted: `shift + factor * value`."""
+    """Another profile, scaled and shifted: `shift + factor * value`."""
 
     def __init__(self, course: Profile, factor: float, shift: float) -> None:
         self._course = course
@@ -103,7 +103,7 @@ class Peaks:
         yield from _roots(20.0 * k, 12.0 * q, 6.0 * c)
 
     def time_for(self, peak: float, of: Callable[[float], float]) -> float:
-        """The length (s) with which a peak is as wanted: longer ones have smaller peaks."""
+        """The length (s) for a peak; longer changes have smaller peaks."""
         short, long = 0.0, _LONGEST
         for _ in range(_HALVINGS):
             middle = 0.5 * (short + long)
@@ -138,13 +138,13 @@ def change_profile(
     course: tuple[DynamicProfile, float | None, float | None],
     limits: tuple[float, float],
 ) -> Profile:
-    """Closed form of a change of a place (m) or of another quantity whose rate comes along.
+    """Closed form of a change of a position (m) or of another quantity with an initial rate.
 
-    `constant` has its rate at once, the others take over the present one and end at rest.
+    `constant` has its rate instantly; the others continue the present rate and end at rest.
 
     Args:
-        start: Where it starts.
-        end: Where it ends.
+        start: Its start.
+        end: Its end.
         rate: The rate at the start.
         course: Profile, peak of the rate, duration (s).
         limits: Largest rate for `constant`, largest derivative of the rate for the others.
@@ -170,7 +170,7 @@ def change_profile(
 
 
 def turns_back(course: Profile) -> float | None:
-    """When (s) a course begins to run the other way; None if it never does."""
+    """Time (s) at which a profile reverses; None if it never does."""
     last = course.duration
     if math.isinf(last) or last == 0.0:
         return None

@@ -13,7 +13,7 @@ from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
 def lane_with_number(
     road_map: RoadMap, place: LanePosition, number: int, edge: SideLeftRight
 ) -> LanePosition | None:
-    """Centre of the lane with a number (1: outermost on `edge`), at the height of `place`."""
+    """Centre of the lane with a number (1: outermost on `edge`), abreast of `place`."""
     lanes = road_map.lanes(place.road, place.s, like=place.lane)
     if not 1 <= number <= len(lanes):
         return None
@@ -22,7 +22,7 @@ def lane_with_number(
 
 
 def number_of_lane(road_map: RoadMap, place: LanePosition, edge: SideLeftRight) -> int:
-    """Number of the lane of `place`, counted from `edge`; 0 if it is no driving lane."""
+    """Number of the lane of `place`, counted from `edge`; 0 if it is not a driving lane."""
     lanes = road_map.lanes(place.road, place.s, like=place.lane)
     if place.lane not in lanes:
         return 0
@@ -31,13 +31,13 @@ def number_of_lane(road_map: RoadMap, place: LanePosition, edge: SideLeftRight) 
 
 
 def lanes_to_left(road_map: RoadMap, place: LanePosition, lane: LanePosition) -> int:
-    """How many driving lanes `lane` is to the left of `place`; negative: to the right.
+    """Number of driving lanes from `place` to the left to `lane`; negative: to the right.
 
     On different roads both are counted from the right edge.
 
     Raises:
-        ScenarioError: One of them is no driving lane, or they are oncoming lanes of one road with
-            something else between them.
+        ScenarioError: One of them is not a driving lane, or they are opposite lanes of one road
+            with another lane between them.
     """
     numbers = [number_of_lane(road_map, each, "right") for each in (lane, place)]
     for each, number in zip((lane, place), numbers, strict=True):
@@ -55,7 +55,7 @@ def lanes_to_left(road_map: RoadMap, place: LanePosition, lane: LanePosition) ->
 
 
 def are_opposed(road_map: RoadMap, place: LanePosition, other: LanePosition) -> bool:
-    """Whether two places of one road are on lanes that lead opposite ways."""
+    """Whether two positions on one road are on lanes of opposite direction."""
     ways = [road_map.travel_direction(each.road, each.lane) for each in (place, other)]
     return place.road == other.road and ways[0] != ways[1]
 
@@ -69,7 +69,7 @@ def lane_beside(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosit
     Args:
         road_map: The map.
         place: In a driving lane, or beside the innermost one in a lane of oncoming traffic.
-        lanes: How many; negative: to the right.
+        lanes: Number of lanes; negative: to the right.
     """
     beyond = _lanes_beyond(road_map, place)
     wanted = beyond + lanes
@@ -87,16 +87,16 @@ def lane_beside(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosit
 
 
 def actual_lane(road_map: RoadMap, place: LanePosition) -> LanePosition:
-    """Centre of the lane that a place is in, which may be one of oncoming traffic."""
+    """Centre of the actual lane of a position, which may be one of oncoming traffic."""
     lane = _beside(road_map, place, _lanes_beyond(road_map, place))
     return LanePosition(place.road, place.lane, place.s) if lane is None else lane
 
 
 def seen_along(road_map: RoadMap, place: LanePosition, heading: float) -> LanePosition:
-    """A place on a road as an actor with a heading (rad) sees it.
+    """A position on a road from the perspective of an actor with a heading (rad).
 
-    In a lane of oncoming traffic that is beside the innermost lane of its own direction (as
-    `lane_beside` has it); without such a lane the place stays as it is.
+    In a lane of oncoming traffic it is relative to the innermost lane of the own direction (as in
+    `lane_beside`); without such a lane it is unchanged.
     """
     pose = road_map.pose(place)
     if math.cos(heading - pose.h) >= 0.0:
@@ -108,20 +108,20 @@ def seen_along(road_map: RoadMap, place: LanePosition, heading: float) -> LanePo
 
 
 def width_at(road_map: RoadMap, place: LanePosition) -> float:
-    """Width (m) of the lane that a place is in, which may be one of oncoming traffic."""
+    """Width (m) of the actual lane of a position, which may be one of oncoming traffic."""
     lane = actual_lane(road_map, place)
     return road_map.lane_width(lane.road, lane.lane, lane.s)
 
 
 def offset_from(road_map: RoadMap, lane: LanePosition, x: float, y: float) -> float:
-    """How far (m) a point is to the left of the centre of a lane, along its surface."""
+    """Distance (m) of a point to the left of a lane centre, along the surface."""
     centre = road_map.pose(lane)
     left = (y - centre.y) * math.cos(centre.h) - (x - centre.x) * math.sin(centre.h)
     return left / math.cos(centre.roll) if centre.roll else left
 
 
 def lane_under(road_map: RoadMap, bound: LanePosition, pose: Pose) -> LanePosition:
-    """The lane under the reference point: beside the bound one during a lane change."""
+    """The lane under the reference point: during a lane change beside the bound lane."""
     while True:
         half = 0.5 * road_map.lane_width(bound.road, bound.lane, bound.s)
         if abs(bound.offset) <= half:
@@ -140,14 +140,14 @@ def _side(lanes: int) -> SideLeftRight:
 
 
 def _beside(road_map: RoadMap, place: LanePosition, lanes: int) -> LanePosition | None:
-    """Centre of the driving lane that many lanes to the left of a place, of any direction."""
+    """Centre of the driving lane a number of lanes to the left of a position, of any direction."""
     if lanes == 0:
         return LanePosition(place.road, place.lane, place.s)
     return road_map.neighbour(place, _side(lanes), abs(lanes), either_way=True)
 
 
 def _around(road_map: RoadMap, place: LanePosition) -> Iterator[tuple[int, LanePosition]]:
-    """Yield the lanes beside a place of any direction, the nearest first, and how many left."""
+    """Yield the lanes beside a position, of any direction, nearest first, with their number."""
     for lanes in range(1, len(road_map.roads[place.road].section_at(place.s).lanes)):
         for signed in (lanes, -lanes):
             lane = _beside(road_map, place, signed)
@@ -158,7 +158,7 @@ def _around(road_map: RoadMap, place: LanePosition) -> Iterator[tuple[int, LaneP
 def _lanes_beyond(road_map: RoadMap, place: LanePosition) -> int:
     """Number of lanes of oncoming traffic between the offset of a position and its lane.
 
-    In a junction, where roads have none beside them, they have the width of its own lane.
+    In junctions, whose roads have no such lanes, the width of its own lane counts.
     """
     width = road_map.lane_width(place.road, place.lane, place.s)
     if abs(place.offset) <= 0.5 * width:

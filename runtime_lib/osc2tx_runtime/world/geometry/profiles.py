@@ -1,7 +1,7 @@
 """Rate profiles in closed form (DSL 8.8.2.18).
 
 A profile shapes the first derivative (the rate) of a controlled quantity: speed, or the lateral
-offset. All forms are evaluated at absolute times since their start, never integrated, so the end
+offset. All forms are evaluated at absolute times since their start, not integrated, so the end
 value is exact and the step size has no influence.
 
 | profile    | form here                                                     |
@@ -32,17 +32,17 @@ QUINTIC_PEAK = 1.875  # peak rate of the quintic, in units of change / duration
 
 
 class Profile(Protocol):
-    """Course of a quantity over the time since the start of a change."""
+    """A quantity over the time since the start of a change."""
 
     @property
     def duration(self) -> float:
         """Time (s) at which the end value is reached."""
 
     def value(self, t: float) -> float:
-        """Quantity at time t (s); the end value from `duration` on."""
+        """Quantity at time t (s); the end value after `duration`."""
 
     def rate(self, t: float) -> float:
-        """First derivative of the quantity at time t (s); zero from `duration` on."""
+        """First derivative of the quantity at time t (s); zero after `duration`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +119,7 @@ class Quintic:
         start: Value at time 0.
         end: Value at `duration`.
         duration: Length of the change (s); 0 is a jump.
-        start_rate: Rate at time 0, for a change that takes over from another one.
+        start_rate: Rate at time 0, for a change that continues another.
     """
 
     start: float
@@ -165,8 +165,8 @@ class SCurve:
         end: Value at `duration`.
         limit: Largest absolute rate, e.g. acceleration (m/s^2).
         jerk: Largest absolute derivative of the rate (m/s^3).
-        start_rate: Rate at time 0, for a change that takes over from another one; it may be
-            beyond the limit, and then comes back to it.
+        start_rate: Rate at time 0, for a change that continues another; it may exceed the limit,
+            and then returns to it.
     """
 
     start: float
@@ -177,13 +177,13 @@ class SCurve:
 
     @cached_property
     def _sign(self) -> float:
-        """Direction of the change that is left when the present rate has gone."""
+        """Direction of the remaining change after the present rate has decayed."""
         gone = self.start + self.start_rate * abs(self.start_rate) / (2.0 * self.jerk)
         return 1.0 if self.end >= gone else -1.0
 
     @cached_property
     def _parts(self) -> tuple[float, float, float]:
-        """Times (s) until the rate is at its peak, until it leaves it, until it is zero."""
+        """Times (s) at which the rate reaches its peak, leaves it, and reaches zero."""
         jerk, sign = self.jerk, self._sign
         rate = sign * self.start_rate
         double = 2.0 * jerk * sign * (self.end - self.start)  # of the peak's square, but for `rate`
@@ -232,5 +232,5 @@ class SCurve:
         return self.start_rate + self._sign * self._slope(peak) * min(t, to_peak)
 
     def _slope(self, peak: float) -> float:
-        """Derivative of the rate until it is at its peak, in the direction of the change."""
+        """Derivative of the rate until its peak, in the direction of the change."""
         return -self.jerk if self._sign * self.start_rate > peak else self.jerk

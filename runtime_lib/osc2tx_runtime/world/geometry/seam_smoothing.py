@@ -1,9 +1,9 @@
-"""Driving over seams of the map: lanes whose successor begins elsewhere, or in another direction.
+"""Motion over seams of the map: lanes whose successor begins at another position or heading.
 
 At a seam an actor keeps its position and its heading. Its offset from the lane, and its angle to
 it, return to zero along a quintic over the distance driven, so the same path results at any speed
-and step size. It stays near the centre of the lane: where a kink is so sharp that this takes more
-than the grip of the vehicle, the motion is reported like any other.
+and step size. The path stays near the lane centre: if a kink is so sharp that this exceeds the grip
+limit, the motion is reported like any other.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, Seam
 from .profiles import Quintic
 
 _LEAST_WAY = 5.0  # m over which the smallest seam is smoothed
-_ROOM = 0.4  # m that a kink may carry one out of the centre
+_ROOM = 0.4  # m of deviation from the centre at a kink
 _CURVE = 5.8  # peak of the second derivative of a quintic, in units of change / duration^2
 _BEND = 4.0  # the same from a slope, in units of slope / duration
-_SWING = 0.2  # how far a slope carries, in units of slope * duration
-_MOST = 1.2  # rad of a turn that is smoothed; sharper ones are corners
+_SWING = 0.2  # overshoot of a slope, in units of slope * duration
+_MOST = 1.2  # rad: sharper turns are corners, which are not smoothed
 
 Jump = tuple[float, float, float]
 """World x, y (m) and heading (rad) that a seam adds."""
@@ -29,15 +29,15 @@ class Residual:
     """The remaining offset from the seams behind an actor.
 
     Attributes:
-        along: Metres before its place in the lane.
-        aside: Metres left of it.
-        slope: Tangent of the angle at which it is turned to the left.
+        along: Metres ahead of its position in the lane.
+        aside: Metres to the left of it.
+        slope: Tangent of its angle to the left.
 
     Args:
-        along: The first of these, at the seam.
-        aside: The second.
-        slope: The third.
-        way: Metres over which it vanishes.
+        along: Initial `along`, at the seam.
+        aside: Initial `aside`.
+        slope: Initial `slope`.
+        way: Metres over which it decays.
         sense: 1 forwards, -1 backwards.
     """
 
@@ -62,7 +62,7 @@ class Residual:
         return 1.0 / math.hypot(1.0, self.slope)
 
     def drift(self, speed: float) -> float:
-        """Speed (m/s) to the left that comes of it."""
+        """Resulting lateral speed (m/s), to the left."""
         return speed * self.slope * self.share
 
     def on(self, pose: Pose) -> Pose:
@@ -85,9 +85,9 @@ def crossed(
 
     Args:
         road_map: The map.
-        before: Place in the lane at its begin.
-        after: Place at its end.
-        residual: What was left before.
+        before: Position in the lane at its start.
+        after: Position at its end.
+        residual: Residual before the step.
         speed: m/s.
         comfort: Lateral acceleration (m/s^2) that is comfortable.
     """
@@ -131,9 +131,9 @@ def _between(
 
 
 def _jump(seams: list[Seam], here: Pose, *, backwards: bool) -> Jump:
-    """The offset that seams add, for an actor that comes from them to a pose.
+    """The offset that seams add to the pose of an actor behind them.
 
-    An actor that continues straight on behind a kink is beside the lane when the step is over.
+    An actor that continues straight at a kink is beside the lane at the end of the step.
     """
     sign = -1.0 if backwards else 1.0
     x = y = h = 0.0
@@ -158,6 +158,6 @@ def _is_between(
     if here == there:
         low, high = min(before.s, after.s), max(before.s, after.s)
         return own == here and low < seam.s <= high
-    if own == here:  # left behind on the way out
+    if own == here:  # already passed
         return seam.s > before.s if ahead else seam.s <= before.s
     return False

@@ -1,1 +1,1 @@
-"""Friction, and the accelerations that the grip of the road allows."""
+"""Friction, and the accelerations within the grip limit of the road."""

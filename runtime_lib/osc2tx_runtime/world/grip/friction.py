@@ -3,13 +3,13 @@
 The accelerations of a vehicle stay within the friction circle: the sum of the squares of the
 longitudinal and the lateral one is at most (mu g)^2.
 
-The coefficients are a choice of this runtime, one round number for each kind of road. Published
-ones spread with surface, tyre, speed and depth of the water: R. K. Noon, Engineering Analysis of
+The coefficients are chosen for this runtime, one round number for each road condition. Published
+values vary with surface, tyre, speed and depth of the water: R. K. Noon, Engineering Analysis of
 Vehicular Accidents (CRC Press, 1994) has 0.5 to 0.6 for wet asphalt and concrete, 0.20 to 0.25 for
 snow, 0.10 to 0.15 for ice. W. Bartlett's reviews of braking tests on dry asphalt have 0.76 with
 locked wheels and 0.82 with antilock brakes, each with a standard deviation of 0.07; the 0.9 here is
-the upper end, so that every motion reported as impossible is. On a dry road no motion is reduced:
-excess is reported (`feasibility`).
+the upper end, so that all motions reported as impossible are impossible. On a dry road no motion is
+reduced: excess is reported (`feasibility`).
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ GRAVITY = 9.80665
 RoadCondition = Literal["dry", "wet", "snow", "ice"]
 
 ADHESION: Mapping[RoadCondition, float] = {"wet": 0.6, "snow": 0.2, "ice": 0.1}
-"""Coefficient of friction of a road: wet, under snow, under ice."""
+"""Coefficients of friction: wet road, snow, ice."""
 
 DRY_ADHESION = 0.9
-"""The same of a dry road; see above."""
+"""Coefficient of friction of a dry road; see above."""
 
 _FREEZING = 273.15  # K
 
@@ -46,9 +46,9 @@ _WORDS: Mapping[RoadCondition, str] = {
 
 
 def road_condition(environment: Mapping[str, float]) -> RoadCondition:
-    """How the roads are while the weather is so: rain on them freezes below 0 degrees Celsius.
+    """Condition of the roads by weather: rain freezes below 0 degrees Celsius.
 
-    Roads are wet or white exactly while it rains or snows.
+    Roads are wet or snow-covered exactly while it rains or snows.
     """
     if environment.get("snow_intensity", 0.0) > 0.0:
         return "snow"
@@ -63,9 +63,9 @@ def adhesion_of(condition: RoadCondition) -> float:
 
 
 def grip(condition: RoadCondition) -> float:
-    """Largest acceleration (m/s^2) in any direction that commands are held to.
+    """Largest acceleration (m/s^2) in any direction for commands.
 
-    On a dry road explicit rates beyond `RATE_CAP` are refused, and nothing is held back.
+    On a dry road explicit rates beyond `RATE_CAP` are rejected, and nothing is limited.
     """
     adhesion = ADHESION.get(condition)
     return RATE_CAP if adhesion is None else adhesion * GRAVITY
@@ -86,7 +86,7 @@ def held_by(limits: Limits, condition: RoadCondition) -> Limits:
 
 
 def along_limit(grip: float, across: float) -> float | None:
-    """Acceleration (m/s^2) that is left along the way beside one across it; None: it slides."""
+    """Longitudinal acceleration (m/s^2) that a lateral one leaves; None: the vehicle slides."""
     left = grip * grip - across * across
     return math.sqrt(left) if left >= 0.0 else None
 
@@ -99,7 +99,7 @@ class Wheels:
 
     Attributes:
         road: Condition of the road.
-        slipping: In the last step it could not follow the wanted speed.
+        slipping: Whether it could not reach the commanded speed in the last step.
         sliding: Why it cannot follow its lane; None while it can.
     """
 
@@ -107,20 +107,20 @@ class Wheels:
         self.road = road
         self.slipping = False
         self.sliding: str | None = None
-        self._aside = 0.0  # m/s across the lane, one step before
+        self._aside = 0.0  # m/s: lateral speed one step before
 
     @property
     def limited(self) -> bool:
-        """True if the road takes anything away."""
+        """Whether the road reduces the limits."""
         return self.road != "dry"
 
     def held(self, wanted: float, state: ActorState, curvature: float, dt: float) -> float:
-        """Speed (m/s) at the next step: the wanted one, as far as the friction circle allows.
+        """Speed (m/s) at the next step: the commanded one, within the friction circle.
 
         Args:
-            wanted: Speed that is commanded.
+            wanted: Commanded speed.
             state: Present state.
-            curvature: Of the way (1/m).
+            curvature: Curvature of the path (1/m).
             dt: Length of the step (s).
         """
         across = state.v * state.v * curvature + (state.lateral_speed - self._aside) / dt
@@ -140,7 +140,7 @@ class Wheels:
 
 
 def curvature_ahead(road_map: RoadMap, place: LanePosition | None, route: Route | None) -> float:
-    """Curvature (1/m) of the lane right ahead; 0 off the lanes and at their end."""
+    """Curvature (1/m) of the lane ahead; 0 off the lanes and at their end."""
     if place is None:
         return 0.0
     step = road_map.advance(place, _PROBE, route)

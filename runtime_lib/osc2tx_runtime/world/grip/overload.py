@@ -1,4 +1,4 @@
-"""Motions beyond the grip or rollover limit of a vehicle, as warnings state them."""
+"""Motions beyond the grip or rollover limit of a vehicle, for warnings."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ WORDS: Mapping[RoadCondition, str] = {
     "snow": "snowy",
     "ice": "icy",
 }
-_STRAIGHT = 1e3  # m: from this radius on it is not the bend that causes the acceleration
+_STRAIGHT = 1e3  # m: at larger radii the bend does not cause the acceleration
 
 
 @dataclass(slots=True)
@@ -33,7 +33,7 @@ class Overload:
         end: Its last instant (s).
         last: The last instant of a later excess at the same position (s).
         again: Number of later excesses at the same position.
-        excess: The limit that is exceeded.
+        excess: The exceeded limit.
         speed: Speed at the largest excess (m/s).
         along: Longitudinal acceleration at the largest excess (m/s^2).
         across: Lateral acceleration at the largest excess (m/s^2); of a jump, the change of the

@@ -15,7 +15,7 @@ _TURNED = 1e-9  # rad
 
 
 class Turning:
-    """Turns as fast as actors can, or as a course says."""
+    """Turns at the limit of the actor, or along a profile."""
 
     def __init__(self, command: Turn) -> None:
         self._command = command
@@ -34,14 +34,14 @@ class Turning:
         return wrap(state.h + heading), tilt
 
     def progress(self, state: ActorState) -> Progress:
-        """Done when it is turned so."""
+        """Done when the orientation is reached."""
         course = self._command.course
         over = course is None or self._time >= course.duration - _TURNED
         there = all(abs(left) < _TURNED for left in self._missing(state))
         return REACHED if over and there else PENDING
 
     def _missing(self, state: ActorState) -> tuple[float, float, float]:
-        """How far (rad) it is to be turned yet: heading, pitch, roll."""
+        """Remaining turn (rad): heading, pitch, roll."""
         turn = self._command
         heading = turn.heading if turn.course is None else turn.course.value(self._time)
         return (

@@ -1,8 +1,8 @@
 """Following and replaying curves off the lanes.
 
-`Replay` and `TimedReplay` write the pose as the curve has it. `Follow` steers there as the limits
-allow: a bicycle with its reference point at the rear axle, steered at a point ahead on the curve
-(pure pursuit), over a step exactly along an arc of a circle.
+`Replay` and `TimedReplay` set the pose to that of the curve. `Follow` steers as the limits allow: a
+bicycle with its reference point at the rear axle, steered at a point ahead on the curve (pure
+pursuit), over a step exactly along an arc of a circle.
 """
 
 from __future__ import annotations
@@ -18,46 +18,46 @@ from osc2tx_runtime.world.protocol import PENDING, REACHED, Progress
 from osc2tx_runtime.world.state import ActorState
 
 TURN_RATE = math.pi
-"""Radians per second at which actors without wheels turn."""
+"""Turn rate (rad/s) of actors without wheels."""
 
 _LOOK_AHEAD = 0.5  # s ahead at which a follower steers
 _NEAREST = 1.5  # wheelbases: the least look-ahead
 _ON_FOOT = 0.3  # m: the least look-ahead of actors without wheels
-_JOINED = 0.5  # m from the curve at which a follower is on it
-_LOST = 3.0  # m from the curve at which it is off it again
-_DETOUR = 40.0  # m, with five times the distance at the start: the longest way onto the curve
+_JOINED = 0.5  # m from the curve within which a follower is on it
+_LOST = 3.0  # m from the curve beyond which it has left it
+_DETOUR = 40.0  # m, plus five times the distance at the start: the longest path to the curve
 _PASSED = 0.02  # m before the end that count as passed
 
 
 class Course(Protocol):
-    """A course at work on one actor."""
+    """Execution of a course for one actor."""
 
     def after(self, me: ActorState, speed: float, path: float, dt: float) -> tuple[Pose, float]:
         """Pose and speed (m/s) at the next step; called once per step.
 
         Args:
             me: State at the present step.
-            speed: Speed that the longitudinal command wants (m/s).
+            speed: Speed of the longitudinal command (m/s).
             path: Metres driven in this step.
             dt: Length of the step (s).
         """
 
     def slid(self, along: float) -> None:
-        """The actor was measured this distance (m) ahead of its commanded position."""
+        """Notes that the actor was measured this distance (m) ahead of its commanded position."""
 
     def ahead(self, way: float) -> Pose:
-        """Position at a distance (m) along the course; beyond its end straight on."""
+        """Position at a distance (m) along the course; beyond its end on a straight line."""
 
     def progress(self) -> Progress:
         """Progress at the present step."""
 
 
 class Steering:
-    """How sharp an actor can turn.
+    """Limits of the curvature of an actor.
 
     Args:
-        shape: Its wheelbase counts.
-        limits: Of the actor; its lateral limit is its limit of braking.
+        shape: Its shape, with the wheelbase.
+        limits: Limits of the actor; the lateral limit is that of braking.
     """
 
     def __init__(self, shape: Shape, limits: Limits) -> None:
@@ -66,7 +66,7 @@ class Steering:
         self._bend = math.tan(shape.steering) / shape.wheelbase if shape.wheelbase else math.inf
 
     def look_ahead(self, speed: float) -> float:
-        """Metres ahead at which to steer."""
+        """Look-ahead distance (m)."""
         least = _NEAREST * self._wheelbase or _ON_FOOT
         return max(least, _LOOK_AHEAD * abs(speed) if self._wheelbase else 0.0)
 
@@ -79,7 +79,7 @@ class Steering:
         return min(self._bend, self._grip / (speed * speed))
 
     def towards(self, me: ActorState, x: float, y: float, path: float) -> Pose:
-        """Pose after a stretch of way (m) that is bent towards a point."""
+        """Pose after a distance (m) along an arc towards a point."""
         distance = math.hypot(x - me.x, y - me.y)
         angle = turn_between(me.h, math.atan2(y - me.y, x - me.x)) if distance > 0.0 else 0.0
         limit = self.sharpest(me.v)
@@ -116,7 +116,7 @@ class Follow:
         self._failed: str | None = None
 
     def after(self, me: ActorState, speed: float, path: float, dt: float) -> tuple[Pose, float]:
-        """Turns towards a point ahead on the curve."""
+        """Steers towards a point ahead on the curve."""
         ahead = self._along + self._steering.look_ahead(me.v)
         x, y, _ = self._curve.point(self._curve.at_length(ahead))
         pose = self._steering.towards(me, x, y, path)
@@ -138,10 +138,10 @@ class Follow:
         return pose, speed
 
     def slid(self, along: float) -> None:
-        """Nothing to do: it looks anew in each step where it is."""
+        """No effect: each step starts from the actual position."""
 
     def ahead(self, way: float) -> Pose:
-        """A place on the curve."""
+        """A position on the curve."""
         return _place_on(self._curve, self._along + way)
 
     def progress(self) -> Progress:
@@ -153,7 +153,7 @@ class Follow:
 
 
 class Replay:
-    """Is on the curve exactly, at its own speed."""
+    """Follows the curve exactly, at its own speed."""
 
     def __init__(self, command: ReplayCourse) -> None:
         self._curve = command.curve
@@ -161,7 +161,7 @@ class Replay:
         self._end = command.end
 
     def after(self, me: ActorState, speed: float, path: float, dt: float) -> tuple[Pose, float]:
-        """The place on the curve after the way driven."""
+        """The position on the curve after the distance driven."""
         self._along = max(self._along + path, self._begin)
         return _pose_at(self._curve, self._curve.at_length(self._along), me.h), speed
 
@@ -170,7 +170,7 @@ class Replay:
         self._along += along
 
     def ahead(self, way: float) -> Pose:
-        """A place on the curve."""
+        """A position on the curve."""
         return _place_on(self._curve, self._along + way)
 
     def progress(self) -> Progress:
@@ -179,7 +179,7 @@ class Replay:
 
 
 class TimedReplay:
-    """Is on the curve at its times exactly."""
+    """Follows the curve exactly in position and time."""
 
     def __init__(self, command: ReplayTrajectory) -> None:
         self._curve = command.curve
@@ -197,10 +197,10 @@ class TimedReplay:
         return pose, math.copysign(math.hypot(dx, dy), -1.0 if backwards else 1.0)
 
     def slid(self, along: float) -> None:
-        """Nothing: its times hold."""
+        """No effect: its times count."""
 
     def ahead(self, way: float) -> Pose:
-        """A place on the curve."""
+        """A position on the curve."""
         return _place_on(self._curve, self._curve.length_at(self._time) + way)
 
     def progress(self) -> Progress:

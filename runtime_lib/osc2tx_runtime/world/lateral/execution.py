@@ -1,9 +1,9 @@
 """Execution of lateral commands: closed-form offset over time.
 
-A lane change binds the actor to its target lane at once and lets the offset from there run to its
-end value; so curves, widths and section changes on the way need no care. The course is a function
-of time, which stands still while the actor is too slow for it: the heading never differs from the
-lane's by more than `HEADING_LIMIT`, and at standstill nothing moves sideways.
+A lane change binds the actor to its target lane instantly, and the offset from there runs to its
+end value; so curves, widths and section changes need no special treatment. The course is a function
+of a time that pauses while the actor is too slow for it: the heading never differs from that of the
+lane by more than `HEADING_LIMIT`, and at standstill there is no lateral motion.
 """
 
 from __future__ import annotations
@@ -56,18 +56,18 @@ __all__ = [
 ]
 
 LANE_CHANGE_TIME = 3.0
-"""Seconds of a lane change that says nothing about its course, for `LANE_CHANGE_WIDTH` metres."""
+"""Duration (s) of a lane change without stated profile, over `LANE_CHANGE_WIDTH` metres."""
 
 LANE_CHANGE_WIDTH = 3.5
-"""Metres; other distances take longer or shorter with their square root."""
+"""Metres; the duration grows with the square root of the distance."""
 
 _AT_REST = 1e-6  # m/s of lateral speed
-_RUN_OUT = 0.4  # s: how far a lateral speed carries when nothing holds it
-_SAME_LANE = 1.0  # m: as much as the centre of one lane of oncoming traffic wanders on the way
+_RUN_OUT = 0.4  # s: time in which a free lateral speed decays
+_SAME_LANE = 1.0  # m: drift of the centre of one lane of oncoming traffic
 
 
 class Lateral(Protocol):
-    """A command at work on one actor."""
+    """Execution of a command for one actor."""
 
     def offset_after(
         self, offset: float, path: float, me: ActorState, inputs: StepInputs
@@ -78,7 +78,7 @@ class Lateral(Protocol):
             offset: Offset at the present step (m).
             path: Metres driven in this step.
             me: State at the present step.
-            inputs: What can be read at the present step.
+            inputs: The snapshot of the present step.
         """
 
     def progress(self) -> Progress:
@@ -86,11 +86,11 @@ class Lateral(Protocol):
 
 
 class HoldOffset:
-    """Stays where it is in the lane.
+    """Keeps its position in the lane.
 
     Attributes:
-        centre: Offset (m) of the centre of the lane that it came to, which may be one of oncoming
-            traffic; None if no change of the offset brought it there.
+        centre: Offset (m) of the centre of the lane that it has reached, which may be one of
+            oncoming traffic; None without a change of the offset.
     """
 
     __slots__ = ("centre",)
@@ -110,7 +110,7 @@ class HoldOffset:
 
 
 class Impossible(HoldOffset):
-    """Stays, because what was asked for does not exist."""
+    """Keeps its position, because the target does not exist."""
 
     __slots__ = ("_reason",)
 
@@ -129,7 +129,7 @@ class Shift:
     __slots__ = ("_lag", "_profile", "_steps", "_time", "centre", "end")
 
     def __init__(self, profile: Profile, end: float, centre: float = 0.0) -> None:
-        """Takes the course and the end of the offset (m), and its value in the target lane."""
+        """Takes the profile and the end of the offset (m), and its value in the target lane."""
         self._profile = profile
         self.centre = centre
         self._steps = 0
@@ -140,7 +140,7 @@ class Shift:
     def offset_after(
         self, offset: float, path: float, me: ActorState, inputs: StepInputs
     ) -> tuple[float, float]:
-        """Value of the profile, at a time that does not run on where the actor is too slow."""
+        """Value of the profile, at a time that pauses while the actor is too slow."""
         if self._time >= self._profile.duration:
             return self.end, 0.0
         dt = inputs.dt
@@ -160,7 +160,7 @@ class Shift:
         return reached, (reached - offset) / dt
 
     def offset_in(self, seconds: float) -> float:
-        """Offset (m) some time from the present step, if nothing delays it."""
+        """Offset (m) after a time from the present step, without delays."""
         time = self._time + seconds
         return self.end if time >= self._profile.duration else self._profile.value(time)
 
@@ -181,7 +181,7 @@ def shift_profile(
     Args:
         offset: Where it starts (m).
         end: Where it ends (m).
-        rate: Lateral speed at the start (m/s); `constant` does not look at it.
+        rate: Lateral speed at the start (m/s); ignored by `constant`.
         command: Profile, peak of the lateral speed (m/s), duration (s).
         limits: Of the actor.
     """
@@ -201,7 +201,7 @@ def shift_profile(
         time = _usual_time(change, limits)
     if abs(rate) <= _AT_REST:
         return Cosine(offset, end, time)
-    # Taking over a lateral speed needs time even without a distance to cover.
+    # Continuing a lateral speed takes time even without a distance to cover.
     is_free = profile != "asap" and duration is None and peak is None
     return Quintic(offset, end, max(time, 1.0) if is_free else time, rate)
 
@@ -220,20 +220,19 @@ def lateral_of(
     before: Lateral,
     limits: Limits,
 ) -> tuple[LanePosition, Lateral]:
-    """Puts a lateral command to work.
+    """Returns the execution of a lateral command.
 
     Args:
-        command: What to do; None: stay in the lane.
+        command: The command; None: stay in the lane.
         road_map: The map.
         bound: Lane the actor follows now, with its offset from there.
         physical: Lane in which its reference point is.
         motion: World x, y (m) and lateral speed (m/s).
-        before: What was at work until now.
+        before: The execution until now.
         limits: Of the actor.
 
     Returns:
-        The lane to follow from now on, with the offset of the actor from there, and the command
-        at work.
+        The lane to follow, with the offset of the actor from it, and the execution.
     """
     x, y, rate = motion
     lane = LanePosition(physical.road, physical.lane, physical.s)
@@ -254,7 +253,7 @@ def lateral_of(
             start = offset_from(road_map, target, x, y)
             end = start + _RUN_OUT * rate
         case None | KeepLane() if isinstance(before, BesideRun | SidewaysRun):
-            # It may be in another lane by now; the rest of the lateral speed runs out.
+            # It may be in another lane now; the rest of the lateral speed decays.
             target, start = lane, offset_from(road_map, lane, x, y)
             end = start + _RUN_OUT * rate
         case None | KeepLane():
@@ -284,10 +283,10 @@ def lateral_of(
 
 
 def _in_own_lane(physical: LanePosition, bound: LanePosition, before: Lateral) -> LanePosition:
-    """A position, on the centre of its lane if the actor never entered one of oncoming traffic.
+    """A position, on the centre of its lane if the actor has not entered one of oncoming traffic.
 
-    An actor that only reaches over the line is still in its own lane, wherever its reference point
-    is.
+    An actor that only overlaps the lane boundary is still in its own lane, wherever its reference
+    point is.
     """
     centre = before.centre if isinstance(before, Shift | HoldOffset) else None
     same = (physical.road, physical.lane) == (bound.road, bound.lane)
@@ -302,13 +301,13 @@ def excessive_shift(
     duration: float,
     limits: Limits,
 ) -> str | None:
-    """Why a change of the place across the road cannot be driven in a time; None if it can.
+    """Why a lateral motion is infeasible in a time; None if it is feasible.
 
     Args:
         road_map: The map.
         me: The actor.
         target: Centre of the lane in which it ends.
-        offset: Metres left of it.
+        offset: Metres to the left of it.
         duration: Seconds.
         limits: Of the actor.
     """

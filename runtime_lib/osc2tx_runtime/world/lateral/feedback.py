@@ -16,10 +16,10 @@ from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.step_inputs import StepInputs
 
 HEADING_LIMIT = 0.5
-"""Radians between the heading of a vehicle and its lane."""
+"""Largest angle (rad) between the heading of a vehicle and its lane."""
 
 SIDEWAYS = math.sin(HEADING_LIMIT)
-"""Largest share of the driven path that goes sideways."""
+"""Largest share of lateral motion in the driven path."""
 
 
 _RATE = 1.0  # 1/s: how fast small errors decay
@@ -29,12 +29,12 @@ _HELD = 0.2  # s for which it must stay so
 
 
 class SidewaysRun:
-    """A speed across the lane, or a heading, as far as the heading allows."""
+    """A lateral speed or a heading, within the limit of the heading."""
 
     def __init__(self, command: Sideways | Slant) -> None:
         self._command = command
         self._steps = 0
-        self._over = False  # the course, if there is one
+        self._over = False  # the profile, if there is one
         self._reached = False
 
     def _wanted(self, path: float, inputs: StepInputs) -> float:
@@ -53,7 +53,7 @@ class SidewaysRun:
     def offset_after(
         self, offset: float, path: float, me: ActorState, inputs: StepInputs
     ) -> tuple[float, float]:
-        """One step to the side."""
+        """One step of lateral motion."""
         self._steps += 1
         room = abs(path) * SIDEWAYS / inputs.dt
         wanted = self._wanted(path, inputs)
@@ -69,15 +69,15 @@ class SidewaysRun:
 
 
 class BesideRun:
-    """Feedback on the distance across the lane to another actor."""
+    """Feedback on the lateral distance to another actor."""
 
     def __init__(self, command: Beside, limits: Limits, rate: float) -> None:
         self._command = command
         self._limits = limits
         self._speed = rate
         self._other = Tracked(command.reference, command.projected)
-        self._held = 0.0  # s for which it has been where it should
-        self._steps: int | None = None  # to go, where there is a time
+        self._held = 0.0  # s for which the distance has been reached
+        self._steps: int | None = None  # remaining, if there is a time
         self._elapsed = 0
         self._failed: str | None = None
 
@@ -125,7 +125,7 @@ class BesideRun:
         moving: float,
         dt: float,
     ) -> tuple[float, float]:
-        """One step on a course, if the reference continues as it does."""
+        """One step along a profile, if the reference continues its motion."""
         self._elapsed += 1
         time = self._elapsed * dt
         wanted = course.value(time) - own + moving * dt
@@ -138,7 +138,7 @@ class BesideRun:
         return offset + moved, self._speed
 
     def _towards(self, error: float, moving: float, dt: float) -> float:
-        """The lateral speed (m/s) that brings it nearer to its place."""
+        """The lateral speed (m/s) towards its target position."""
         if self._steps:
             missing = error - (self._speed - moving) * self._steps * dt
             change = moving - self._speed
@@ -153,7 +153,7 @@ class BesideRun:
         self._held = self._held + dt if near else 0.0
 
     def _judge(self, missed: float) -> None:
-        """Whether it is there when its time is over."""
+        """Whether the target is reached at the end of its duration."""
         if self._steps == 0:
             self._held = _HELD
             self._miss(missed)
@@ -166,5 +166,5 @@ class BesideRun:
             )
 
     def progress(self) -> Progress:
-        """Done when the distance has been held for a while, or at its time."""
+        """Done when the distance has been held for some time, or at the end of its duration."""
         return Progress(self._held >= _HELD - 1e-9, self._failed)

@@ -8,16 +8,16 @@ from osc2tx_runtime.world.protocol import PENDING, REACHED, Progress
 
 
 class Way:
-    """A route that an actor goes along.
+    """A route that an actor follows.
 
     Args:
-        command: Where to.
+        command: The command.
         road_map: The map.
-        before: What decided at forks before.
+        before: The previous route.
 
     Attributes:
-        route: What decides at forks now.
-        before: Likewise, once the actor goes along it no more.
+        route: The present route, which decides at forks.
+        before: The previous route, for the time after it.
         ends: As of the command.
     """
 
@@ -30,7 +30,7 @@ class Way:
     def look(self, place: LanePosition, along: float) -> None:
         """Updates the distance to the end, before a step of a length (m).
 
-        An actor that has passed the end has reached it for good.
+        After the end is passed it remains reached.
         """
         if self._progress.done:
             return
@@ -45,5 +45,5 @@ class Way:
             self._progress = REACHED
 
     def progress(self) -> Progress:
-        """Done at the end of the route; failed when it cannot be reached any more."""
+        """Done at the end of the route; failed when the end can no longer be reached."""
         return self._progress

@@ -11,7 +11,7 @@ from osc2tx_runtime.world.step_inputs import StepInputs
 
 
 class ConstantAcceleration:
-    """Constant acceleration from the speed at the start; does not go through standstill."""
+    """Constant acceleration from the speed at the start; ends at standstill."""
 
     __slots__ = ("_acceleration", "_start", "_steps")
 
@@ -26,7 +26,7 @@ class ConstantAcceleration:
         return self.foreseen(0.0, inputs.dt)
 
     def foreseen(self, steps: float, dt: float) -> float:
-        """Speed (m/s) so many steps after the last one that was asked for."""
+        """Speed (m/s) a number of steps after the last computed one."""
         speed = self._start + self._acceleration * (self._steps + steps) * dt
         return 0.0 if self._start >= 0.0 > speed or self._start < 0.0 < speed else speed
 
@@ -36,7 +36,7 @@ class ConstantAcceleration:
 
 
 class AssignedSpeed(ConstantAcceleration):
-    """A speed at one instant, without a statement about the time after it."""
+    """A speed at one instant; the time after it is open."""
 
     def __init__(self, speed: float) -> None:
         super().__init__(0.0, speed)
@@ -61,7 +61,7 @@ def acceleration_profile(
 
 
 class AccelerationRun:
-    """A change of the acceleration, which then stays; the speed is its integral."""
+    """A change of the acceleration, which is then held; the speed is its integral."""
 
     def __init__(self, command: AccelerationChange, me: ActorState, limits: Limits) -> None:
         start = me.a if command.start is None else command.start
@@ -73,7 +73,7 @@ class AccelerationRun:
         self._standing = False
 
     def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
-        """Start speed plus the integral of the acceleration; zero once it comes to a stand."""
+        """Start speed plus the integral of the acceleration; zero after standstill."""
         self._steps += 1
         before, self._time = self._time, self._steps * inputs.dt
         if isinstance(self._profile, Linear | Quintic):
@@ -86,7 +86,7 @@ class AccelerationRun:
         return 0.0 if self._standing else speed
 
     def foreseen(self, steps: float, dt: float) -> float:
-        """Speed (m/s) so many steps after the last one that was asked for."""
+        """Speed (m/s) a number of steps after the last computed one."""
         time = (self._steps + steps) * dt
         if isinstance(self._profile, Linear | Quintic):
             speed = self._start_speed + integral(self._profile, time)
@@ -96,7 +96,7 @@ class AccelerationRun:
         return 0.0 if self._standing or stops else speed
 
     def progress(self) -> Progress:
-        """Done when the acceleration is reached; failed if the actor stands before."""
+        """Done when the acceleration is reached; failed if the actor reaches standstill before."""
         if self._time >= self._profile.duration - 1e-9:
             return REACHED
         if self._standing:
@@ -111,7 +111,7 @@ class AccelerationRun:
 
 
 def _simpson(profile: Profile, low: float, high: float) -> float:
-    """Integral of a course over a step; exact up to the third power of the time."""
+    """Integral of a profile over a step; exact up to the third power of the time."""
     middle = profile.value(0.5 * (low + high))
     return (high - low) * (profile.value(low) + 4.0 * middle + profile.value(high)) / 6.0
 

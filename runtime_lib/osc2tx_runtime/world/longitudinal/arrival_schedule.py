@@ -11,13 +11,13 @@ from osc2tx_runtime.world.state import ActorState
 from osc2tx_runtime.world.step_inputs import StepInputs
 
 _CATCH_UP = 0.8  # 1/s: how fast a delay decays
-_ARRIVED = 0.1  # m from the end that count as there
+_ARRIVED = 0.1  # m from the end that count as reached
 PATIENCE = 10.0
-"""s after the last time in which an actor may still arrive."""
+"""Seconds after the last time within which an actor may still arrive."""
 
 
 def towards(speed: float, wanted: float, limits: Limits, share: float, dt: float) -> float:
-    """Speed one step on, within a share of the limits."""
+    """Speed at the next step, within a share of the limits."""
     rise = share * limits.acceleration * dt
     fall = share * limits.deceleration * dt
     if speed < 0.0:
@@ -26,7 +26,7 @@ def towards(speed: float, wanted: float, limits: Limits, share: float, dt: float
 
 
 class Schedule:
-    """Feedback: the speed of the curve, and more or less of it while the actor is late or early."""
+    """Feedback: the speed of the curve, increased or reduced while the actor is late or early."""
 
     def __init__(self, command: KeepSchedule, me: ActorState, limits: Limits) -> None:
         self._curve = command.curve

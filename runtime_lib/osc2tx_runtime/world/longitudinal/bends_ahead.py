@@ -1,4 +1,4 @@
-"""Bends ahead, and how fast a driver goes towards them.
+"""Bends ahead, and the speed at which a driver approaches them.
 
 A driver takes a bend at a comfortable lateral acceleration and brakes for it comfortably: v^2 <=
 a_y / |k| + 2 b d for each curvature k at a distance d.
@@ -21,11 +21,11 @@ from osc2tx_runtime.world.state import ActorState
 _STRETCH = 2.0  # m of a lane over which its curvature is taken
 _SHORTEST = 0.5  # m: lanes shorter than this have no bends
 _STRAIGHT = 5e-4  # 1/m: a lower curvature limits no speed
-_AT_THE_END = 1e-6  # m before it
+_AT_THE_END = 1e-6  # m before the end
 
 
 def lane_bends(lane: Lane) -> LaneBends:
-    """The bends of a lane, found on first use."""
+    """The bends of a lane, computed on first use."""
     bends = lane.bends
     if bends is None:
         bends = lane.bends = _find(lane, lane_line(lane))
@@ -50,10 +50,10 @@ def _find(lane: Lane, line: LaneLine) -> LaneBends:
     return LaneBends(max((each[2] for each in found), default=0.0), tuple(found))
 
 
-_STEP_OVER = 1e-6  # m beyond the end of a lane, so as to be on the next one
+_STEP_OVER = 1e-6  # m beyond the end of a lane, on the next one
 _OF_GRIP = 0.8  # share of the grip for the bend
 _OF_BRAKES = 0.5  # share for the brakes: with both the friction circle holds
-_LANES = 50  # how many lanes ahead are looked at
+_LANES = 50  # greatest number of lanes ahead
 
 
 class BendsAhead:
@@ -75,8 +75,8 @@ class BendsAhead:
             me: The actor.
             route: Its route at forks.
             limits: Of the vehicle on the present road.
-            grip: m/s^2 that the road holds.
-            lead: How many metres further on it will have that speed.
+            grip: Grip limit (m/s^2).
+            lead: Metres ahead at which it will have that speed.
         """
         place = me.lane_position
         if place is None or me.v <= 0.0:

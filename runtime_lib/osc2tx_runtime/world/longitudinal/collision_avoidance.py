@@ -1,9 +1,9 @@
 """Collision avoidance (intelligent driver model), slowing down for bends, stopping at red lights.
 
-For others ahead: the interaction term of the intelligent-driver model. The acceleration is at most
-a (1 - (g*/g)^2) with the wanted gap g* = g0 + v T + v dv / (2 sqrt(a b)), a and b being
+For vehicles ahead: the interaction term of the intelligent driver model. The acceleration is at
+most a (1 - (g*/g)^2) with the desired gap g* = g0 + v T + v dv / (2 sqrt(a b)), a and b being
 comfortable values of the actor. For bends see `bends_ahead`, for lights `red_lights`. On a free and
-straight road the inner command acts unchanged, so its closed forms stay exact. Deterministic; reads
+straight road the inner command is unchanged, so its closed forms remain exact. Deterministic; reads
 the snapshot only.
 """
 
@@ -24,20 +24,20 @@ _FROM_LINE = 1.0  # m between a stop line and the front of an actor waiting at i
 
 
 class RedLights:
-    """The lights on the way of one actor.
+    """The traffic lights on the route of one actor.
 
     Args:
         limits: Of the actor.
-        route: Its way at forks.
+        route: Its route at forks.
     """
 
     def __init__(self, limits: Limits, route: Route | None) -> None:
         self._limits = limits
         self._route = route
-        self._passing: str | None = None  # a light that it cannot stop at any more
+        self._passing: str | None = None  # a light at which it can no longer stop
 
     def allowed(self, me: ActorState, wanted: float, inputs: StepInputs) -> float:
-        """Speed (m/s) at the next step, at most `wanted`, with which it stops where it has to."""
+        """Speed (m/s) at the next step, at most `wanted`, that allows a required stop."""
         most = min(self._limits.deceleration, inputs.grip(me))
         comfort = min(COMFORT * self._limits.deceleration, most)
         line = self._line(me, wanted, (comfort, most), inputs)
@@ -46,14 +46,14 @@ class RedLights:
         way = line.distance - me.shape.front - _FROM_LINE
         left = way - 0.5 * (me.v + wanted) * inputs.dt
         if wanted * wanted <= 2.0 * comfort * max(left, 0.0):
-            return wanted  # there is time
+            return wanted  # braking can wait
         brake = min(0.5 * me.v * me.v / way, most) if way > 0.0 else most
         return min(wanted, max(me.v - brake * inputs.dt, 0.0))
 
     def _line(
         self, me: ActorState, wanted: float, brakes: tuple[float, float], inputs: StepInputs
     ) -> StopLine | None:
-        """The line to stop at; None without one near, or if it is too late for it."""
+        """The stop line; None without a near one, or if it is too late to stop."""
         comfort, most = brakes
         fast = max(me.v, wanted)
         reach = me.shape.front + _FROM_LINE + 0.5 * fast * fast / comfort + fast * inputs.dt
@@ -72,7 +72,7 @@ class RedLights:
         return None
 
 
-_LEAST_GAP = 0.1  # m: nearer counts as so near
+_LEAST_GAP = 0.1  # m: smaller gaps count as this one
 
 
 class _Inner(Protocol):
@@ -81,7 +81,7 @@ class _Inner(Protocol):
 
 
 class Hold:
-    """The speed at the start."""
+    """Holds the speed at the start."""
 
     def __init__(self, speed: float) -> None:
         self._speed = speed
@@ -96,18 +96,17 @@ class Hold:
 
 
 class Cautious:
-    """Another command, slowed down behind others, for bends and before red lights.
+    """Another command, slowed down behind other actors, in bends and at red lights.
 
-    While it is slower than the inner command, the time of that command continues; afterwards the
-    actor gains speed with a comfortable acceleration until it has reached the speed of the inner
-    command.
+    Meanwhile the time of the inner command continues; afterwards the actor accelerates comfortably
+    to its speed.
 
     Args:
-        command: What to keep clear of.
+        command: The command with headway and gap.
         inner: The other command; None holds the speed.
         speed: Present speed (m/s).
         limits: Of the actor.
-        route: Its way at forks.
+        route: Its route at forks.
     """
 
     def __init__(
@@ -125,7 +124,7 @@ class Cautious:
         self._held = False
 
     def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
-        """The inner speed, or what others, bends and lights leave room for."""
+        """The inner speed, limited by other actors, bends and lights."""
         speed = wanted = self._inner.speed_after(me, inputs)
         found = inputs.obstacle(me)
         if found is not None or self._held:
@@ -141,7 +140,7 @@ class Cautious:
         return speed
 
     def slid(self, along: float) -> None:
-        """Hands on the measured surplus (m) of a step."""
+        """Passes on the measured surplus (m) of a step."""
         slid = getattr(self._inner, "slid", None)
         if slid is not None:
             slid(along)
@@ -155,6 +154,6 @@ class Cautious:
         return a * (1.0 - (wanted / max(gap, _LEAST_GAP)) ** 2)
 
     def progress(self) -> Progress:
-        """Progress of the inner command; not reached while something is in the way."""
+        """Progress of the inner command; not reached while it is slowed down."""
         progress = self._inner.progress()
         return Progress(progress.done and not self._held, progress.failed)

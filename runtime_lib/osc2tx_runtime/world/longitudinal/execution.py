@@ -45,7 +45,7 @@ _SPEED_TOLERANCE = 0.05  # m/s at which a followed speed counts as reached
 
 
 class Longitudinal(Protocol):
-    """A command at work on one actor."""
+    """Execution of a command for one actor."""
 
     def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
         """Speed (m/s) at the next step; called once per step."""
@@ -71,7 +71,7 @@ class ProfileRun:
         return self._profile.value(self._time)
 
     def foreseen(self, steps: float, dt: float) -> float:
-        """Speed (m/s) so many steps after the last one that was asked for."""
+        """Speed (m/s) a number of steps after the last computed one."""
         return self._profile.value((self._steps + steps) * dt)
 
     def progress(self) -> Progress:
@@ -85,7 +85,7 @@ class ProfileRun:
 
 
 class _CourseRun(ProfileRun):
-    """A speed that a course gives, as long as the limits allow it."""
+    """A speed along a profile, within the limits."""
 
     __slots__ = ("_failed", "_limits")
 
@@ -95,7 +95,7 @@ class _CourseRun(ProfileRun):
         self._failed: str | None = None
 
     def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
-        """Value of the course; the nearest possible one where that cannot be reached."""
+        """Value of the profile, or the nearest feasible one."""
         speed, limits = super().speed_after(me, inputs), self._limits
         if limits is None:
             return speed
@@ -159,9 +159,9 @@ def speed_profile(
 ) -> Profile:
     """Closed form of a speed change that starts at `speed` (m/s) and `acceleration` (m/s^2).
 
-    `none` and `constant` use comfortable limits where the command gives no rate, `asap` the full
-    ones. Going faster uses the acceleration, going slower the deceleration; a change of direction
-    uses the smaller of both. Where the jerk is limited, the present acceleration is the start
+    `none` and `constant` use comfortable limits if the command states no rate, `asap` the full
+    ones. Higher speeds use the limit of acceleration, lower ones that of deceleration; a change of
+    direction uses the smaller of both. With a jerk limit, the present acceleration is the start
     value.
     """
     target, peak, duration = command.target, command.rate_peak, command.duration
@@ -194,17 +194,17 @@ def _limit(speed: float, target: float, limits: Limits) -> float:
 
 
 def excessive_rate(command: SpeedChange, speed: float, limits: Limits = TYRES) -> str | None:
-    """Why a speed change cannot be driven; None if it can.
+    """Why a speed change is infeasible; None if it is feasible.
 
     Args:
         command: The change.
         speed: Speed at its start (m/s).
-        limits: Those that must hold: of the actor, or of tyres only.
+        limits: The applicable limits: of the actor, or of tyres only.
     """
     cap = _limit(speed, command.target, limits)
     most = f"{cap:.4g} m/s^2{limits.road}"
     if command.course is not None:
-        return None  # it is looked at as a whole
+        return None  # it is checked as a whole
     if command.rate_peak is not None and not 0.0 < command.rate_peak <= cap:
         return f"rate_peak {command.rate_peak:g} m/s^2 is not between 0 and {most}"
     if command.duration is not None and command.profile != "asap":
@@ -219,10 +219,10 @@ def excessive_rate(command: SpeedChange, speed: float, limits: Limits = TYRES) -
 
 
 def within_limits(command: SpeedChange, speed: float, limits: Limits) -> SpeedChange:
-    """Return a speed change that can be driven, if there is one; else the change itself.
+    """Return a feasible speed change, if there is one; else the change itself.
 
-    Where nothing states the profile (§8.8.2.12), it is smooth, and has a constant acceleration
-    where only that reaches the speed in the time.
+    Without a stated profile (§8.8.2.12) it is smooth, or has a constant acceleration if only that
+    reaches the speed in time.
     """
     if command.profile != "none" or excessive_rate(command, speed, limits) is None:
         return command
@@ -231,7 +231,7 @@ def within_limits(command: SpeedChange, speed: float, limits: Limits) -> SpeedCh
 
 
 def excessive_acceleration(value: float, speed: float, limits: Limits = TYRES) -> str | None:
-    """Why an acceleration (m/s^2) cannot be; None if it can. Arguments as above."""
+    """Why an acceleration (m/s^2) is infeasible; None if it is feasible. Arguments as above."""
     cap = limits.acceleration if value * speed >= 0.0 else limits.deceleration
     if abs(value) <= cap * (1.0 + 1e-9):
         return None
@@ -243,7 +243,7 @@ def excessive_acceleration(value: float, speed: float, limits: Limits = TYRES) -
 def acceleration_of(run: Longitudinal | None, me: ActorState) -> float:
     """Acceleration (m/s^2) of this instant: that of a closed form, else the mean of the last step.
 
-    A mean would make what follows depend on the size of the step.
+    A mean would make the result depend on the step size.
     """
     return run.acceleration if isinstance(run, ProfileRun | AccelerationRun) else me.a
 

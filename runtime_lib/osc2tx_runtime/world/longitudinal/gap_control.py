@@ -1,4 +1,4 @@
-"""Gap and arrival control: longitudinal commands relative to a place or an actor."""
+"""Gap and arrival control: longitudinal commands relative to a position or an actor."""
 
 from __future__ import annotations
 
@@ -31,20 +31,22 @@ _STIFFNESS = 0.4  # of the spring that closes a gap, in units of the limit that 
 class GapRun:
     """Feedback on a distance to another actor.
 
-    A small error decays like that of a critically damped spring, as with tools that read
-    OpenSCENARIO XML; the closing speed grows with the square root of a large one, so that the
-    actor can always still brake. Within a range it keeps its speed as long as that does not lead
-    to an edge. It does not reverse.
+    A small error decays like that of a critically damped spring, as in players of OpenSCENARIO XML;
+    for a large error the closing speed grows with its square root, so that the actor can always
+    brake in time. Within a range it keeps its speed unless that leads to a bound. It does not
+    reverse.
     """
 
     __slots__ = ("_command", "_failed", "_held", "_least_time", "_limits", "_other")
 
     def __init__(self, command: KeepGap, limits: Limits) -> None:
         self._command = command
-        self._least_time = float(command.time or 0.0)  # it may be a measured one, with a tolerance
+        self._least_time = float(
+            command.time or 0.0
+        )  # it may be a measured number, with a tolerance
         self._limits = limits
         self._other = Tracked(command.reference, command.projected)
-        self._held = 0.0  # s for which the gap has been as it should
+        self._held = 0.0  # s for which the gap has been held
         self._failed: str | None = None
 
     def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
@@ -71,9 +73,10 @@ class GapRun:
     def _at_distance(
         self, me: ActorState, other: ActorState, found: tuple[float, float, float], dt: float
     ) -> float:
-        """The speed towards a distance. The acceleration of the reference is fed forward.
+        """The speed towards a distance.
 
-        So a reached distance is kept while the speed of the reference changes.
+        The acceleration of the reference is fed forward, so a reached distance is kept while the
+        speed of the reference changes.
         """
         here, *edges = found
         drift = 0.5 * (other.v - me.v) * dt  # in the middle of the step
@@ -84,7 +87,7 @@ class GapRun:
         return me.v + other.a * dt + blend * (goal - me.v - other.a * dt)
 
     def _ahead_in_time(self, me: ActorState, other: ActorState, here: float, dt: float) -> float:
-        """The speed ahead of a reference, from whose speed and a time the distance follows."""
+        """The speed ahead of a reference, whose speed and a time determine the distance."""
         its_speed = other.v + other.a * dt
         least, most = (
             its_speed + time * other.a + self._closing(time * max(other.v, 0.0) - here)
@@ -93,15 +96,14 @@ class GapRun:
         return min(max(me.v, least), most)
 
     def _behind_in_time(self, me: ActorState, other: ActorState, gap: float, dt: float) -> float:
-        """The speed behind a reference, from which and a time the distance follows.
+        """The speed behind a reference, which with a time determines the distance.
 
-        After the step the distance is the time multiplied by that speed, but for what is left of
-        the error.
+        After the step the distance is the time multiplied by that speed, plus the remaining error.
         """
-        next_gap = gap + (other.v + 0.5 * other.a * dt) * dt - 0.5 * me.v * dt  # of standing still
+        next_gap = gap + (other.v + 0.5 * other.a * dt) * dt - 0.5 * me.v * dt  # at standstill
         bounds = []
         for time in self._times():
-            error = time * me.v - gap  # > 0: it is too near
+            error = time * me.v - gap  # > 0: too near
             left = error + self._closing(-error) * dt
             bounds.append((next_gap + left) / (time + 0.5 * dt))
         return min(max(me.v, min(bounds)), max(bounds))
@@ -111,32 +113,31 @@ class GapRun:
         return self._least_time, self._least_time + self._command.spread
 
     def _closing(self, error: float, drift: float = 0.0) -> float:
-        """Rate (m/s) at which to close an error (m), which drifts by so much until it counts."""
+        """Rate (m/s) at which to close an error (m) with a drift."""
         soon = abs(error + drift)
         last = self._last(error)
         closing = min(0.5 * self._pace(error) * soon, math.sqrt(2.0 * COMFORT * last * soon))
         return math.copysign(closing, error)
 
     def _pace(self, error: float) -> float:
-        """Of the spring (1/s)."""
+        """Rate of the spring (1/s)."""
         return math.sqrt(_STIFFNESS * self._last(error))
 
     def _last(self, error: float) -> float:
-        """The limit (m/s^2) that counts at the end of closing an error."""
+        """The limit (m/s^2) at the end of closing an error."""
         return self._limits.acceleration if error < 0.0 else self._limits.deceleration
 
     def progress(self) -> Progress:
-        """Done when the gap has been held for a while."""
+        """Done when the gap has been held for some time."""
         return Progress(self._held >= _HELD - 1e-9, self._failed)
 
 
 class ArrivalRun:
-    """Is at a target when its time is over.
+    """Reaches a target at the end of a duration.
 
-    In each step it takes the acceleration of `guidance` for a goal that goes on as its command
-    tells, or else at its speed.
-    That corrects an error the harder the less time is left, so a deviation of a driven actor in the
-    last second is not corrected but judged at the end.
+    In each step it uses the acceleration of `guidance` for a goal that moves as its command
+    determines, or else at its speed. Corrections grow as the remaining time decreases, so a
+    deviation of a driven actor in the last second is not corrected but judged at the end.
     """
 
     def __init__(self, command: Arrive, limits: Limits) -> None:
@@ -144,15 +145,15 @@ class ArrivalRun:
         self._limits = limits
         gap = command.gap
         self._other = None if gap is None else Tracked(gap.reference, gap.projected)
-        self._steps: int | None = None  # to go
+        self._steps: int | None = None  # remaining
         self._last_steps = 0
         self._covered = 0.0
-        self._left_off = 0.0  # m that it is further on than the guidance counts on
+        self._left_off = 0.0  # m that it is ahead of the guidance
         self._near = _GAP_TOLERANCE
         self._progress = PENDING
 
     def speed_after(self, me: ActorState, inputs: StepInputs) -> float:
-        """One step on the way there; afterwards the same speed."""
+        """One step towards the target; afterwards the same speed."""
         dt = inputs.dt
         if self._steps is None:
             self._steps = max(whole_steps(self._command.duration, dt), 1)
@@ -194,7 +195,7 @@ class ArrivalRun:
     def _rest(
         self, me: ActorState, inputs: StepInputs, time: float, end: float | None
     ) -> tuple[float, float] | None:
-        """Metres from here to the goal, and the mean speed of the goal (m/s) until then."""
+        """Metres to the goal, and the mean speed of the goal (m/s) until then."""
         gap = self._command.gap
         if gap is None or self._other is None:
             return (self._command.way or 0.0) - self._covered, 0.0
@@ -211,7 +212,7 @@ class ArrivalRun:
         return min(max(steady, low), high) - here, mean
 
     def _outlook(self, actor: str, inputs: StepInputs) -> Outlook:
-        """How another actor will go on until then: as its command tells, or else at its speed."""
+        """The expected motion of another actor: as its command determines, or at its speed."""
         found = inputs.outlook(actor, self._steps or 1)
         if found is None:
             speed = inputs.state(actor).v
@@ -224,7 +225,7 @@ class ArrivalRun:
         if end is not None:
             return rate_to_place_and_speed(n, dt, missing, end - v)
         if v > 0.0 > v + mean_rate_to_place(n, dt, missing) * n * dt:
-            gain = rest + moving * n * dt  # it has to stop there before the time is over
+            gain = rest + moving * n * dt  # it has to stop there before the end of its duration
             return -v * v / (2.0 * gain) if gain > 0.0 else -self._limits.deceleration
         return rate_to_place(n, dt, missing)
 
@@ -242,7 +243,7 @@ class ArrivalRun:
             self._progress = REACHED
 
     def progress(self) -> Progress:
-        """Done or failed when the time is over."""
+        """Done or failed at the end of the duration."""
         return self._progress
 
 

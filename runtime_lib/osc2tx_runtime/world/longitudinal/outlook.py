@@ -1,4 +1,4 @@
-"""How a command in closed form will go on for a time."""
+"""The expected motion of a command in closed form."""
 
 from __future__ import annotations
 
@@ -7,20 +7,20 @@ from osc2tx_runtime.world.step_inputs import Outlook
 from .acceleration import AccelerationRun, AssignedSpeed, ConstantAcceleration
 from .execution import Longitudinal, ProfileRun
 
-_PIECES = 64  # of the time, at whose ends the speed is asked
+_PIECES = 64  # intervals between samples of the speed
 
 
 def outlook_of(run: Longitudinal | None, steps: int, dt: float, *, moved: bool) -> Outlook | None:
-    """How an actor will go on for so many steps from the present one.
+    """The expected motion of an actor over a number of steps from the present one.
 
     Args:
-        run: Its command at work.
+        run: The execution of its command.
         steps: At least one.
         dt: Their length (s).
-        moved: Its speed at the next step has been computed already.
+        moved: Whether its speed at the next step is already computed.
 
     Returns:
-        None if the command does not tell, or depends on others.
+        None if the command does not determine it, or depends on other actors.
     """
     if isinstance(run, AssignedSpeed) or not isinstance(
         run, ProfileRun | ConstantAcceleration | AccelerationRun

@@ -1,7 +1,7 @@
 """Longitudinal commands that give the position over time.
 
-The position after each step is that of the course, not the integral of a mean of two speeds, so
-that no error adds up. Distance lost to the limits is regained as soon as they allow.
+The position after each step is that of the profile, not the integral of a mean of two speeds, so
+that errors do not accumulate. Distance lost to the limits is regained as soon as they allow it.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from osc2tx_runtime.world.step_inputs import StepInputs
 
 from .arrival_schedule import towards
 
-_NEAR = 0.1  # m: allowed distance of an actor from its target at the end
+_NEAR = 0.1  # m: tolerance of the position at the end
 _CATCH_UP = 2.0  # 1/s: rate at which a deficit is regained
 _JUST_BEFORE = 1e-9  # s
 
 
 class PlacedRun:
-    """Is where a course says.
+    """Follows a position over time.
 
     Attributes:
-        path: Metres of the last step; None if they follow from its mean speed.
+        path: Length (m) of the last step; None: from its mean speed.
     """
 
     def __init__(self, course: Profile, exact: bool, limits: Limits) -> None:
@@ -50,7 +50,7 @@ class PlacedRun:
         return REACHED if self._done else PENDING
 
     def _step(self, me: ActorState, way: float, rate: float, dt: float) -> float:
-        """Speed after a step of a length (m) with this rate at its end, as the limits allow."""
+        """Speed after a step of a length (m) with this rate at its end, within the limits."""
         if self._exact:
             self.path = way
             return rate
@@ -61,12 +61,12 @@ class PlacedRun:
         return rate if straight else towards(me.v, wanted, self._limits, 1.0, dt)
 
     def _rate(self, t: float) -> float:
-        """Rate at a time; at the very end the one just before it."""
+        """Rate at a time; at the end that just before it."""
         end = self._course.duration
         return self._course.rate(end - _JUST_BEFORE if math.isclose(t, end) else t)
 
     def _judge(self, t: float, missed: float) -> None:
-        """Whether it is there when the course ends."""
+        """Whether the target is reached when the profile ends."""
         if self._done or t < self._course.duration - 1e-9:
             return
         self._done = True
@@ -76,7 +76,7 @@ class PlacedRun:
 
 
 class CoverRun(PlacedRun):
-    """Covers a distance over time; then it stands."""
+    """Covers a distance over time; then it stops."""
 
     def __init__(self, command: Cover, limits: Limits) -> None:
         super().__init__(command.course, command.exact, limits)
@@ -100,7 +100,7 @@ class CoverRun(PlacedRun):
         self._covered += along
 
     def _note(self, speed: float, dt: float) -> None:
-        """Counts the last step; slowed down, an actor did not complete it."""
+        """Counts the last step, which an actor that was slowed down did not complete."""
         if self._before is None:
             return
         before, planned = self._before
@@ -109,7 +109,7 @@ class CoverRun(PlacedRun):
 
 
 class GapCourseRun(PlacedRun):
-    """Has a distance to another actor over time; then it holds the last one."""
+    """Follows a distance to another actor over time; then it holds the last one."""
 
     def __init__(self, command: GapCourse, limits: Limits) -> None:
         super().__init__(command.course, command.exact, limits)

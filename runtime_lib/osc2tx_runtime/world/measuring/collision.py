@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from osc2tx_runtime.world.state import ActorState
 
-_NEAR = 1e-4  # m to which contacts of turning boxes are found
+_NEAR = 1e-4  # m: precision of contacts of turning boxes
 
 
 class Box(NamedTuple):
@@ -23,7 +23,7 @@ class Box(NamedTuple):
         sin: Sine of the heading.
         half_length: Metres.
         half_width: Metres.
-        reach_x: How far it reaches from the centre along the x axis of the world (m).
+        reach_x: Extent from the centre along the x axis of the world (m).
         reach_y: The same along the y axis (m).
     """
 
@@ -65,8 +65,8 @@ def contact_interval(
 ) -> tuple[float, float] | None:
     """Times between which b, moving by (dx, dy) per unit of time against a, touches a.
 
-    Exact for boxes that do not turn. None if they never touch, or come as near as `slack` (m);
-    heights are not looked at.
+    Exact for boxes that do not turn. None if they never touch, or come within `slack` (m); heights
+    are ignored.
     """
     px, py = b.x - a.x, b.y - a.y
     entry, leave = -math.inf, math.inf
@@ -88,7 +88,7 @@ def contact_interval(
 
 
 def apart(a: Box, b: Box) -> tuple[float, float, float]:
-    """Metres that two boxes are apart along the axis that separates them best, and that axis.
+    """Distance (m) of two boxes along the best separating axis, and that axis.
 
     Not positive if they have a common point.
     """
@@ -97,7 +97,7 @@ def apart(a: Box, b: Box) -> tuple[float, float, float]:
 
 
 def overlap_along(a: Box, b: Box) -> float:
-    """Distance (m) that two boxes share along the first one."""
+    """Overlap (m) of two boxes along the first one."""
     ux, uy, both = _axes(a, b)[0]
     return both - abs((b.x - a.x) * ux + (b.y - a.y) * uy)
 
@@ -132,10 +132,10 @@ def overlapped(box: Box, others: Mapping[str, Box]) -> list[str]:
 
 
 class Swept(NamedTuple):
-    """A box on its way through a step.
+    """The motion of a box in a step.
 
     Attributes:
-        begin: The box at the begin of the step.
+        begin: The box at the start of the step.
         end: The box at its end.
         left: Least x that it covers (m).
         right: Greatest x.
@@ -171,7 +171,7 @@ def touch(one: Swept, other: Swept) -> bool:
 
 
 def _meet(a: Box, a_end: Box, b: Box, b_end: Box, slack: float) -> bool:
-    """True if two boxes that do not turn come nearer than `slack` (m) on their way."""
+    """True if two boxes that do not turn come nearer than `slack` (m) in their motion."""
     moving = contact_interval(
         a, b, b_end.x - b.x - a_end.x + a.x, b_end.y - b.y - a_end.y + a.y, slack
     )
@@ -179,15 +179,15 @@ def _meet(a: Box, a_end: Box, b: Box, b_end: Box, slack: float) -> bool:
 
 
 _Sweep = tuple[Box, Box, float]
-"""A box at begin and end of a step, and how much it turns (rad)."""
+"""A box at start and end of a step, and its turn (rad)."""
 
 
 def _meet_turning(one: _Sweep, other: _Sweep, begin: float, end: float) -> bool:
     """True if two boxes touch within a part of a step.
 
-    Within the part they are taken at its middle. Their corners are then off by at most half of the
-    turn times their distance from the centre: boxes farther apart do not touch, else the halves of
-    the part are tested, until that is less than `_NEAR`.
+    The boxes are evaluated with the heading at the middle of the part. Their corners then deviate
+    by at most half of the turn times their distance from the centre: boxes farther apart do not
+    touch; otherwise the halves of the part are tested, until the deviation is below `_NEAR`.
     """
     middle = 0.5 * (begin + end)
     a, a_end = _part(one, begin, end)
@@ -215,13 +215,13 @@ def _part(sweep: _Sweep, begin: float, end: float) -> tuple[Box, Box]:
 
 
 def _moved(box: Box, goal: Box, share: float) -> Box:
-    """A box on its way, without turning."""
+    """A box in motion without turning."""
     x, y = box.x + share * (goal.x - box.x), box.y + share * (goal.y - box.y)
     return box._replace(x=x, y=y)
 
 
 def _turn(begin: Box, end: Box) -> float:
-    """How much a box turns in a step (rad)."""
+    """Turn of a box in a step (rad)."""
     if begin.cos == end.cos and begin.sin == end.sin:
         return 0.0
     sin = begin.cos * end.sin - begin.sin * end.cos
@@ -229,10 +229,10 @@ def _turn(begin: Box, end: Box) -> float:
 
 
 def swept(b: Box, e: Box) -> Swept:
-    """The area that a box covers during a step."""
+    """The area covered by a box during a step."""
     x = b.reach_x if b.reach_x > e.reach_x else e.reach_x
     y = b.reach_y if b.reach_y > e.reach_y else e.reach_y
-    # In between one that turns reaches farther, but not beyond its corners.
+    # In between, a turning box extends farther, but not beyond its corners.
     if b.cos != e.cos or b.sin != e.sin:
         turn = abs(_turn(b, e))
         bulge = math.hypot(b.half_length, b.half_width) * (1.0 - math.cos(min(0.5 * turn, 1.6)))

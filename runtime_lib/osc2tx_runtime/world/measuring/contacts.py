@@ -1,10 +1,9 @@
 """Contacts between actors over the steps, each reported once.
 
-Moving actors are tested against actors near them. These neighbours are searched again only when an
-actor may have come near since: when one has moved by the margin of the last search. A pair is
-tested only when the two may have met since they were found apart: if both move evenly, when they
-will have closed the distance; else when the largest distance moved by any actor since is half of
-it.
+Moving actors are tested against actors near them. Neighbours are searched again only when an actor
+may have come near: when one has moved by the margin of the last search. A pair is tested only when
+both may have met since the last test: with uniform motion when they will have closed the distance,
+else when the largest distance moved by any actor is half of it.
 """
 
 from __future__ import annotations
@@ -18,22 +17,22 @@ from osc2tx_runtime.world.state import ActorState
 
 from .collision import apart, box_of, swept, touch
 
-_STEPS = 10  # at the present speeds, for which a search is valid
+_STEPS = 10  # for which a search is valid, at the present speeds
 _NARROW = 1.0  # m: the least margin of a search
 _ROUNDING = 1e-3  # m: nearer pairs are tested in each step
-_CREEP = 1e-6  # m of a step: coming nearer by less is rounding
+_CREEP = 1e-6  # m per step: a slower approach is rounding
 
 
 class _Apart(NamedTuple):
     """The relative pose of two actors that did not touch.
 
     Attributes:
-        x: Of the axis that separated them, a unit vector.
+        x: X of the separating axis, a unit vector.
         y: Likewise.
-        along: From the one to the other along it (m).
-        one: Heading of the one (rad).
-        other: Heading of the other (rad).
-        room: Metres between them along it.
+        along: Distance along it (m).
+        one: Heading of the first (rad).
+        other: Heading of the second (rad).
+        room: Gap between them along it (m).
     """
 
     x: float
@@ -44,7 +43,7 @@ class _Apart(NamedTuple):
     room: float
 
     def left(self, x: float, y: float, one: float, other: float, reach: float) -> float:
-        """How much of the room is left at least, with no corner farther away than a reach (m)."""
+        """Lower bound of the present gap (m), for corners within a reach (m)."""
         turned = abs(one - self.one) + abs(other - self.other)
         return self.room - abs(x * self.x + y * self.y - self.along) - 2.0 * reach * turned
 
@@ -54,8 +53,8 @@ class _Apart(NamedTuple):
 
 
 _Pair = tuple[float, int, int, float]
-"""Two actors: when they are due to be looked at, their numbers, the lower first, and the sum (m)
-of how far their corners are."""
+"""A pair: when it is due, the numbers of the actors, the lower first, and the sum of their reaches
+(m)."""
 
 
 class Contacts:
@@ -71,15 +70,15 @@ class Contacts:
         self.begin()
 
     def begin(self) -> None:
-        """Start anew where the actors are before the next step."""
+        """Restart from the positions before the next step."""
         self._states: Sequence[ActorState] = ()
         self._reach: list[float] = []  # m from the reference points to the farthest corners
         self._ways: Sequence[float] = ()  # of the last step
         self._way = 0.0  # the longest of them
         self._moved: set[int] = set()  # moved in the last step
-        self._uneven: set[int] = set()  # moved otherwise than in the step before
-        self._sought: set[int] = set()  # whose neighbours are known
-        self._gone = self._room = 0.0  # m that one has gone since, and may go
+        self._uneven: set[int] = set()  # with another motion than in the step before
+        self._sought: set[int] = set()  # with known neighbours
+        self._gone = self._room = 0.0  # m moved since the search, and its margin
         self._steps = 0
         self._apart: dict[tuple[int, int], _Apart] = {}
         self._due: list[_Pair] = []  # a heap, by the distance moved
@@ -87,7 +86,7 @@ class Contacts:
         self._close: list[_Pair] = []  # tested in each step
 
     def put(self, index: int, state: ActorState) -> None:
-        """Take a new place of an actor, by its number in the cast, between two steps."""
+        """Note a new position of an actor, by its number in the cast, between two steps."""
         if self._states:
             self._states = [*self._states[:index], state, *self._states[index + 1 :]]
             self._moved.add(index)
@@ -108,11 +107,11 @@ class Contacts:
     ) -> None:
         """Find the contacts of one step.
 
-        Two actors that have not moved again touch if they did before.
+        Two actors that have not moved touch if they touched before.
 
         Args:
             ids: The actors.
-            before: States at its begin, in the same order.
+            before: States at its start, in the same order.
             states: States at its end.
             ways: Upper bounds of the distance (m) moved by their corners; negative: unknown.
             jumped: Teleported actors, which touch nothing in between.
@@ -163,7 +162,7 @@ class Contacts:
         return looked_at
 
     def _upset(self, who: set[int]) -> None:
-        """Test those pairs again that no longer move evenly."""
+        """Test pairs again whose motion is no longer uniform."""
         pairs, self._due_evenly = self._due_evenly, []
         for pair in pairs:
             is_even = who.isdisjoint(pair[1:3])
@@ -181,7 +180,7 @@ class Contacts:
         self._gone, self._room = 0.0, margin
 
     def _is_anybody_due(self) -> bool:
-        """Whether a pair is to be looked at in this step."""
+        """Whether a pair is due in this step."""
         due, evenly = self._due, self._due_evenly
         if self._close or (due and due[0][0] <= self._gone):
             return True
@@ -219,7 +218,7 @@ class Contacts:
                 heappush(self._due, (self._gone + 0.5 * (room - _ROUNDING), i, j, reach))
 
     def _go_evenly(self, begin: Sequence[ActorState], i: int, j: int) -> bool:
-        """Whether two go straight on by the same way in each step, or stand."""
+        """Whether both move uniformly, or stand still."""
         end = self._states
         is_told = i in self._uneven or j in self._uneven
         return not is_told and begin[i].h == end[i].h and begin[j].h == end[j].h

@@ -1,4 +1,4 @@
-"""How far a measured actor is from where it is to be."""
+"""Deviations of a measured actor from its reference."""
 
 from __future__ import annotations
 
@@ -11,24 +11,24 @@ from osc2tx_runtime.world.state import ActorState
 STANDSTILL = 0.05
 """m/s: a lower measured speed counts as standstill."""
 SPEED_TOLERANCE = 0.5
-"""m/s off the commanded speed that count as reached; at standstill none do."""
+"""Tolerance (m/s) of the commanded speed; not applied at standstill."""
 ACCELERATION_TOLERANCE = 0.5
-"""m/s^2 off the commanded acceleration that count as reached."""
+"""Tolerance (m/s^2) of the commanded acceleration."""
 PLACE_TOLERANCE = 0.5
-"""m beside the commanded path that count as on it."""
+"""Tolerance (m) of the lateral deviation from the commanded path."""
 HEADING_TOLERANCE = math.radians(3.0)
-"""rad off the commanded heading that count as reached."""
+"""Tolerance (rad) of the commanded heading."""
 PATIENCE = 5.0
-"""s after the end of its reference at which an actor has to be there."""
+"""Seconds after the end of its reference within which an actor has to arrive."""
 OFF_ITS_PATH = 1.0
-"""m beside its path at which an actor has left it, if it stays so for a second."""
+"""Lateral deviation (m) beyond which an actor has left its path, if it lasts for a second."""
 
 
 class Deviation(NamedTuple):
-    """How far an actor is from where it is to be.
+    """Deviation of an actor from its reference.
 
     Attributes:
-        speed: m/s it is too fast.
+        speed: m/s: excess speed.
         place: m to the left of its path.
         heading: rad to the left of its path.
         late: s since the reference has completed its command.

@@ -1,7 +1,7 @@
 """Distances and times between two actors (OpenSCENARIO DSL 8.7.3.1, 8.7.6.1).
 
 Signs: `object_distance` and `road_distance` are positive if the reference is ahead of (left of,
-above) the caller. Gaps are positive if the caller is ahead (left), headways if it trails.
+above) the caller. Gaps are positive if the caller is ahead (left), headways if it follows.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .collision import Box, box_of, contact_interval
 def object_distance(
     caller: ActorState, reference: ActorState, direction: DistanceDirection, mode: DistanceMode
 ) -> float:
-    """Where the reference is in the caller's axes, or how far away (m).
+    """Position of the reference in the axes of the caller, or its distance (m).
 
     With `bounding_boxes` the distance is between the nearest faces along the axis (0 if the boxes
     overlap on it), or between the nearest points for `euclidean`.
@@ -87,13 +87,14 @@ def _corner_distance(a: Box, b: Box) -> float:
 
 
 def along_lanes(road_map: RoadMap, a: ActorState, b: ActorState) -> float | None:
-    """Route distance (m) between reference points, positive if b is ahead; None without a way."""
+    """Route distance (m) between reference points, positive if b is ahead; None without a route."""
     place_a, place_b = a.lane_position, b.lane_position
     if place_a is not None and place_b is not None:
         along = road_map.route_distance(place_a, place_b)
         if along is not None:
             return along
-    # One is beside the driving lanes (a person on a sidewalk): its nearest driving lane counts.
+    # An actor is beside the driving lanes (a person on a sidewalk): its nearest driving lane
+    # counts.
     place_a, place_b = _on_lane(road_map, a), _on_lane(road_map, b)
     if place_a is None or place_b is None:
         return None
@@ -101,7 +102,7 @@ def along_lanes(road_map: RoadMap, a: ActorState, b: ActorState) -> float | None
 
 
 def _on_lane(road_map: RoadMap, state: ActorState) -> LanePosition | None:
-    """The place of an actor; beside the driving lanes the nearest place on one of them."""
+    """The position of an actor; beside the driving lanes the nearest position on one of them."""
     place = state.lane_position
     if place is not None and road_map.lane_type(place.road, place.lane, place.s) in DRIVING:
         return place
@@ -109,9 +110,9 @@ def _on_lane(road_map: RoadMap, state: ActorState) -> LanePosition | None:
 
 
 def lateral_on_road(road_map: RoadMap, a: ActorState, b: ActorState) -> float | None:
-    """How far (m) b is to the left of a, across the lane of a at the height of b.
+    """Lateral distance (m) of b to the left of a, in the lane of a abreast of b.
 
-    On other roads that is the lane on the way between them.
+    On other roads that is the lane on the route between them.
     """
     place, there = _on_lane(road_map, a), _on_lane(road_map, b)
     along = along_lanes(road_map, a, b)
@@ -122,13 +123,13 @@ def lateral_on_road(road_map: RoadMap, a: ActorState, b: ActorState) -> float | 
         return None if beside is None else _left_of(road_map.pose(beside), b)
     if place.road == there.road:
         return _left_of(road_map.pose(road_map.advance(place, along).position), b)
-    if along < 0.0:  # the way forks towards a
+    if along < 0.0:  # the route forks towards a
         return -_left_of(_on_way_to(road_map, there, -along, place), a)
     return _left_of(_on_way_to(road_map, place, along, there), b)
 
 
 def lateral_straight_on(road_map: RoadMap, a: ActorState, b: ActorState) -> float | None:
-    """As `lateral_on_road`, across the lane in which a gets to the height of b by itself."""
+    """As `lateral_on_road`, in the lane in which a gets abreast of b without lane changes."""
     place, along = _on_lane(road_map, a), along_lanes(road_map, a, b)
     if place is None or along is None:
         return None
@@ -157,7 +158,7 @@ def along_own_lane(road_map: RoadMap, a: ActorState, b: ActorState) -> float | N
 def _beside_oncoming(
     place: LanePosition, there: LanePosition, road_map: RoadMap
 ) -> LanePosition | None:
-    """The place in a lane at the height of one in a lane of oncoming traffic on its road."""
+    """The position in a lane abreast of one in a lane of oncoming traffic on its road."""
     if there.road != place.road or there.lane * place.lane > 0:
         return None
     section = road_map.roads[place.road].section_at(there.s)
@@ -165,7 +166,7 @@ def _beside_oncoming(
 
 
 def is_oncoming(a: ActorState, b: ActorState) -> bool:
-    """Whether two actors are in lanes of one road that lead opposite ways."""
+    """Whether two actors are in lanes of opposite direction on one road."""
     here, there = a.lane_position, b.lane_position
     if here is None or there is None:
         return False
@@ -173,7 +174,7 @@ def is_oncoming(a: ActorState, b: ActorState) -> bool:
 
 
 def drift(a: ActorState, b: ActorState) -> float:
-    """The lateral speed (m/s) of b, to the left as a drives."""
+    """The lateral speed (m/s) of b, to the left in the direction of a."""
     return -b.lateral_speed if is_oncoming(a, b) else b.lateral_speed
 
 
@@ -206,7 +207,7 @@ def _on_one_road(
 
 
 def _beside_reference(road_map: RoadMap, place: LanePosition, state: ActorState) -> float:
-    """The t (m) of an actor: left of the reference line of its road, on the surface."""
+    """The t (m) of an actor: to the left of the reference line of its road, on the surface."""
     return _left_of(road_map.road_pose(place.road, place.s, 0.0), state)
 
 
@@ -214,9 +215,9 @@ def gap_between(along: float, caller: Shape, other: Shape) -> float:
     """Space gap (m) from facing end to facing end; positive if the caller is ahead.
 
     Args:
-        along: Route distance from the other to the caller (m).
+        along: Route distance from the other actor to the caller (m).
         caller: Shape of the caller.
-        other: Shape of the other.
+        other: Shape of the other actor.
     """
     if along >= 0.0:
         return max(along - caller.rear - other.front, 0.0)
@@ -232,12 +233,12 @@ def headway_between(along: float, caller: Shape, other: Shape) -> float:
 
 
 def side_gap(lateral: float, caller: Shape, other: Shape) -> float:
-    """Space (m) between facing sides; positive if the caller is left of the other.
+    """Space (m) between facing sides; positive if the caller is to the left of the other actor.
 
     Args:
-        lateral: How far the other is to the left of the caller (m).
+        lateral: Lateral distance of the other actor to the left of the caller (m).
         caller: Shape of the caller.
-        other: Shape of the other.
+        other: Shape of the other actor.
     """
     reach = 0.5 * (caller.width + other.width)
     if abs(lateral) <= reach:
@@ -246,7 +247,7 @@ def side_gap(lateral: float, caller: Shape, other: Shape) -> float:
 
 
 def time_to_cover(distance: float, speed: float) -> float:
-    """Distance over speed (s); infinite with the sign of the distance where nothing moves."""
+    """Distance over speed (s); infinite with the sign of the distance at standstill."""
     if distance == 0.0:
         return 0.0
     return math.copysign(math.inf, distance) if speed <= 0.0 else distance / speed

@@ -1,14 +1,13 @@
 """Velocity and acceleration in the axes of the actor (DSL 8.7.5), from its last three states.
 
-How fast it goes, and how this changes, says the state: `v` on the ground and `a`. In which
-direction of its own axes it goes says the way of the last step, seen from the attitude in the
-middle of it; on a circle this is exactly forwards. How steeply says the slope of the surface that
-it lies on: heights of maps have steps of fractions of a millimetre, which the shortest step of time
-would make a leap of. Turning is the change of attitude over the last
-step. What changes in the moving axes and what their turning adds make up the acceleration:
-a = du/dt + w x u.
+The state has the speed `v` on the ground and its change `a`. The direction in the own axes follows
+from the last step, relative to the attitude at its middle; on a circle this is exactly forwards.
+The climb follows from the slope of the surface: heights of maps have steps of fractions of a
+millimetre, which short time steps would amplify. Turning is the change of attitude over the last
+step. The acceleration is the change in the moving axes plus the effect of their turning: a = du/dt
++ w x u.
 
-A jump is no motion: nothing is computed from a step in which an actor was teleported.
+Teleports are not motion: their steps are not evaluated.
 """
 
 from __future__ import annotations
@@ -33,13 +32,13 @@ from .velocities import (
 )
 
 _STILL = 1e-9  # m
-_STRAIGHT = 1e-3  # rad beside its axis at which an actor still goes along it
+_STRAIGHT = 1e-3  # rad from its axis within which an actor moves along it
 
 Vector = tuple[float, float, float]
 
 
 class Motion(Protocol):
-    """How an actor moves at one instant, in its own axes."""
+    """Motion of an actor at one instant, in its own axes."""
 
     @property
     def velocity(self) -> Velocity:
@@ -63,10 +62,10 @@ class Track:
 
     def __init__(self) -> None:
         self._last: _Step | None = None
-        self._before: _Step | None = None  # the one before that
+        self._before: _Step | None = None  # the step before that
 
     def add(self, ids: Sequence[str], before: Sequence[ActorState], jumped: frozenset[str]) -> None:
-        """Note a step that was made.
+        """Note a step.
 
         Args:
             ids: The actors.
@@ -87,7 +86,7 @@ class Track:
             actor: Its id.
             now: Its present state.
             dt: Length of a step (s).
-            lies: Its pitch and roll follow the surface below it.
+            lies: Whether its pitch and roll follow the surface.
         """
         states = [now]
         for step in (self._last, self._before):
@@ -101,9 +100,9 @@ class Kinematics:
     """Motion of an actor at one instant.
 
     Args:
-        states: The present one, and up to two before it that are connected by motion.
+        states: The present state, and up to two before it that are connected by motion.
         dt: Length of a step (s).
-        lies: Its pitch and roll follow the surface below it.
+        lies: Whether its pitch and roll follow the surface.
     """
 
     def __init__(self, states: list[ActorState], dt: float, *, lies: bool = False) -> None:
@@ -148,7 +147,7 @@ class Kinematics:
 
     @property
     def _way(self) -> Vector:
-        """Where it goes in its own axes, per metre on the ground forwards."""
+        """Direction of motion in its own axes, per metre forwards on the ground."""
         return self._ways[0] if self._ways else _forwards(self._now)
 
 
@@ -157,7 +156,7 @@ def _forwards(state: ActorState) -> Vector:
 
 
 def _direction(before: ActorState, after: ActorState, *, lies: bool) -> Vector:
-    """Way of a step in the own axes in the middle of it, per metre on the ground forwards."""
+    """Displacement of a step in the own axes at its middle, per metre forwards on the ground."""
     dx, dy, dz = after.x - before.x, after.y - before.y, after.z - before.z
     ground = math.hypot(dx, dy)
     if ground < _STILL:
@@ -183,7 +182,7 @@ def _direction(before: ActorState, after: ActorState, *, lies: bool) -> Vector:
 
 
 def _rates(before: ActorState, after: ActorState, dt: float) -> Vector:
-    """Turning about the own axes (rad/s) over a step, from the changes of yaw, pitch, roll."""
+    """Rates about the own axes (rad/s) over a step, from the changes of yaw, pitch, roll."""
     yaw = turn_between(before.h, after.h) / dt
     pitch, roll = (after.pitch - before.pitch) / dt, (after.roll - before.roll) / dt
     if not (pitch or roll or after.pitch or after.roll):

@@ -1,8 +1,8 @@
 """Numbers read from the world, compared with a tolerance.
 
-A car that is 5 m behind another one and 20 km/h faster is 20 m ahead of it after 4.5 s; summing up
-the steps gives 19.999999999999986 m. So comparisons of what was measured allow for rounding:
-`>=` holds at 4.5 s in every run, `>` one step later.
+A car that is 5 m behind another and 20 km/h faster is 20 m ahead of it after 4.5 s; summing up the
+steps gives 19.999999999999986 m. So comparisons of measured values allow for rounding: `>=` holds
+at 4.5 s in every run, `>` one step later.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import Any
 
 ROUNDING = 1e-9
-"""Numbers that differ by less, or by less of their size, count as equal."""
+"""Numbers with a smaller absolute or relative difference count as equal."""
 
 
 class Measured(float):
@@ -23,7 +23,7 @@ class Measured(float):
     __hash__ = float.__hash__
 
     def __eq__(self, other: object) -> bool:
-        """Whether both are the same but for rounding."""
+        """Whether both are equal up to rounding."""
         if not isinstance(other, float | int):
             return NotImplemented
         return math.isclose(self, other, rel_tol=ROUNDING, abs_tol=ROUNDING)
@@ -37,7 +37,7 @@ class Measured(float):
         return float.__lt__(self, other) and self != other
 
     def __le__(self, other: float) -> bool:
-        """Whether it is less, or the same but for rounding."""
+        """Whether it is less, or equal up to rounding."""
         return float.__le__(self, other) or self == other
 
     def __gt__(self, other: float) -> bool:
@@ -45,7 +45,7 @@ class Measured(float):
         return float.__gt__(self, other) and self != other
 
     def __ge__(self, other: float) -> bool:
-        """Whether it is more, or the same but for rounding."""
+        """Whether it is more, or equal up to rounding."""
         return float.__ge__(self, other) or self == other
 
 

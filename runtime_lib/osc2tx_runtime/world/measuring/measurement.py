@@ -27,10 +27,10 @@ Vector = tuple[float, float, float]
 
 
 class Measurement(NamedTuple):
-    """Where an actor is, and how it moves, at its reference point.
+    """Pose and motion of an actor at its reference point.
 
     Attributes:
-        pose: Place of the reference point, heading, pitch and roll.
+        pose: Position of the reference point, heading, pitch and roll.
         velocity: m/s forwards, to the left and upwards, in its own axes.
         acceleration: m/s^2 in the same axes; None: from the change of the velocity.
         turning: rad/s about the same axes (roll, pitch, yaw); None: from the change of the pose.
@@ -52,7 +52,7 @@ class MeasuredMotion:
         self._faster: Vector = (0.0, 0.0, 0.0)
 
     def step(self, found: Measurement, dt: float) -> None:
-        """Take the measurement of the next step."""
+        """Add the measurement of the next step."""
         before, turning = self._last, found.turning
         if turning is None:
             a, b = before.pose, found.pose
@@ -93,7 +93,7 @@ class MeasuredMotion:
 
 
 def _cross(turning: Vector, found: Measurement) -> Vector:
-    """What turning adds to the acceleration in the moving axes."""
+    """Effect of turning on the acceleration in the moving axes."""
     (p, q, r), (x, y, z) = turning, found.velocity
     return q * z - r * y, r * x - p * z, p * y - q * x
 

@@ -12,18 +12,18 @@ from .collision import box_of
 from .distances import along_lanes, lateral_straight_on
 
 _SIGHT = 60.0  # m
-_SIGHT_TIME = 6.0  # s at the own speed that are added
-_HEIGHT = 3.0  # m: higher or lower is another level
-_BESIDE = 0.3  # m to the sides that are kept free
+_SIGHT_TIME = 6.0  # s at the own speed, added
+_HEIGHT = 3.0  # m: a larger difference in height is another level
+_BESIDE = 0.3  # m: lateral clearance
 
 
 def nearest_ahead(
     road_map: RoadMap, me: ActorState, others: Iterable[ActorState], visual_range: float = math.inf
 ) -> tuple[float, float] | None:
-    """Free metres to the nearest actor ahead, and its speed (m/s) along the way.
+    """Free distance (m) to the nearest actor ahead, and its speed (m/s) along the path.
 
-    The way is the lane with the own width for those on a lane, else the own axis. An actor that
-    only reaches into it with its box counts.
+    The path is the lane with the own width for actors on a lane, else the own axis. An actor counts
+    if its box overlaps the path.
 
     Args:
         road_map: The map.
@@ -54,7 +54,7 @@ def nearest_ahead(
 
 
 def _extent(other: ActorState, turn: float) -> tuple[float, float]:
-    """Half extents (m) of a box along and across the way, seen from its centre."""
+    """Half extents (m) of a box along and across the path."""
     c, s = abs(math.cos(turn)), abs(math.sin(turn))
     half, width = 0.5 * other.length, 0.5 * other.width
     return half * c + width * s, half * s + width * c
@@ -63,7 +63,7 @@ def _extent(other: ActorState, turn: float) -> tuple[float, float]:
 def _on_way(
     road_map: RoadMap, me: ActorState, other: ActorState
 ) -> tuple[float, float, float] | None:
-    """Where the centre of the other box is: along (m), to the left (m), and how it is turned."""
+    """Centre of the other box: along (m), to the left (m), and its heading."""
     place = me.lane_position
     box = box_of(other)
     if place is not None:

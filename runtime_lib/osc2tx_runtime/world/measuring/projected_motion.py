@@ -10,7 +10,7 @@ from osc2tx_runtime.world.step_inputs import StepInputs
 
 
 def projected(road_map: RoadMap, state: ActorState, seconds: float) -> ActorState:
-    """State after some time at the same speed: in the same lane, off the lanes straight on."""
+    """State after a time at the same speed: in the same lane, off the lanes straight ahead."""
     way, place = state.v * seconds, state.lane_position
     if place is None:
         x, y = state.x + way * math.cos(state.h), state.y + way * math.sin(state.h)
@@ -29,7 +29,7 @@ def projected(road_map: RoadMap, state: ActorState, seconds: float) -> ActorStat
 
 
 class Tracked:
-    """A reference of a command: its actual motion, or the projected one from the first look on."""
+    """A reference of a command: its actual motion, or the projected one from the first call."""
 
     __slots__ = ("_actor", "_first", "_projected", "_steps")
 

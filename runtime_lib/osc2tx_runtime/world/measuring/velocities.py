@@ -1,7 +1,7 @@
-"""Velocities and accelerations of actors against the world, in their own axes (DSL 8.7.5, 8.14.2).
+"""Velocities and accelerations of actors over ground, in their own axes (DSL 8.7.5, 8.14.2).
 
 The axes follow ISO 8855: x forward, y to the left, z up; turns are counter-clockwise about them, so
-a sinking nose has a positive pitch rate.
+nose down is a positive pitch rate.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class OrientationRate:
 
 @dataclass(frozen=True, slots=True)
 class Velocity:
-    """How something moves and turns."""
+    """Velocity and turning of an object."""
 
     translational: TranslationalVelocity = TranslationalVelocity()
     angular: OrientationRate = OrientationRate()
@@ -67,7 +67,7 @@ class OrientationAcceleration:
 
 @dataclass(frozen=True, slots=True)
 class Acceleration:
-    """How the motion of something changes."""
+    """Change of the motion of an object."""
 
     translational: TranslationalAcceleration = TranslationalAcceleration()
     angular: OrientationAcceleration = OrientationAcceleration()

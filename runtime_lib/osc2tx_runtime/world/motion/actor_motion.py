@@ -37,7 +37,7 @@ from osc2tx_shared.classes import dataclass
 from .actor_step import MovingActor
 
 STEADY = frozenset({type(None), AssignedSpeed, ConstantAcceleration, HoldOffset, ProfileRun, Shift})
-"""Kinds of commands at work that cannot fail."""
+"""Kinds of executions that cannot fail."""
 
 
 @dataclass
@@ -45,12 +45,12 @@ class CommandedActor(MovingActor):
     """An actor with its commands.
 
     Attributes:
-        follows: It follows its commands; False if it has another driver, and they are only expected
-            of it.
+        follows: Whether it follows its commands; False with another driver, of which they are only
+            expected.
         tracking: Quality of tracking, if it is measured.
-        motion: How it moves, if that was measured.
-        heading: Heading (rad) of its reference when grip was last looked at.
-        aside: Speed across its lane (m/s) then; None off the lanes.
+        motion: Its measured motion, if any.
+        heading: Heading (rad) of its reference at the last check of grip.
+        aside: Lateral speed (m/s) then; None off the lanes.
     """
 
     follows: bool = True
@@ -59,7 +59,7 @@ class CommandedActor(MovingActor):
     motion: MeasuredMotion | None = None
     heading: float | None = None
     aside: float | None = None
-    _last: tuple[Progress, Progress] | None = None  # progress when it was asked for news
+    _last: tuple[Progress, Progress] | None = None  # progress at the last check
 
     def progress(self, slot: str) -> Progress:
         """Progress of the command in a slot, by reference and measurement."""
@@ -71,13 +71,13 @@ class CommandedActor(MovingActor):
 
     @property
     def is_physical(self) -> bool:
-        """Whether it moves by its commands, and was not placed."""
+        """Whether it moves by its commands, and was not teleported."""
         if not self.follows or self._unphysical:
             return False
         return not isinstance(self._course, Replay | TimedReplay)
 
     def pursue(self, slot: str, command: Command | None, road_map: RoadMap) -> None:
-        """Puts the command of a slot to work; None holds the speed, or keeps the lane."""
+        """Executes the command of a slot; None holds the speed, or keeps the lane."""
         self._unphysical.discard(slot)
         if command is not None and command.unphysical:
             self._unphysical.add(slot)
@@ -89,12 +89,12 @@ class CommandedActor(MovingActor):
             self.pursue_side(command, road_map)
 
     def observe(self, inputs: StepInputs) -> None:
-        """Updates after a step the progress of its expectations."""
+        """Updates the progress of its expectations after a step."""
         for expectation in self._expected.values():
             expectation.look(self.state, inputs)
 
     def pursue_speed(self, command: Command | None) -> None:
-        """Puts a longitudinal command to work; None holds the speed."""
+        """Executes a longitudinal command; None holds the speed."""
         self.upset()
         if self.tracking is not None:
             self.tracking.forget(LONGITUDINAL)
@@ -109,9 +109,9 @@ class CommandedActor(MovingActor):
         self._speed = longitudinal_of(command, state, self.limits, self.route)
 
     def go_on_with(self, speed: float, acceleration: float) -> None:
-        """Continues from an assigned speed (m/s) and acceleration (m/s^2) until a command comes.
+        """Continues from an assigned speed (m/s) and acceleration (m/s^2) until the next command.
 
-        A speed alone holds at this instant, without a statement about the time after it.
+        A speed alone holds at this instant; the time after it is open.
         """
         self.upset()
         self._open.forget()
@@ -120,7 +120,7 @@ class CommandedActor(MovingActor):
         )
 
     def pursue_side(self, command: Command | None, road_map: RoadMap) -> None:
-        """Puts a lateral command to work; None keeps the lane, or returns to one."""
+        """Executes a lateral command; None keeps the lane, or returns to one."""
         self.upset()
         if self.tracking is not None:
             self.tracking.forget(LATERAL)
@@ -139,7 +139,7 @@ class CommandedActor(MovingActor):
             self._course = None
             self._return_to_lane(road_map)
             if self.bound is not None and (command is None or isinstance(command, KeepLane)):
-                return  # on its way to the middle of the lane
+                return  # it moves to the middle of the lane
         if self.home is not None or self._astray:
             self._return_to_lane(road_map, at_angle=isinstance(command, Sideways | Slant))
         if self.home is not None:
@@ -164,7 +164,7 @@ class CommandedActor(MovingActor):
             self.limits,
         )
         if self.bound is not before:
-            self.residual = None  # it counts from where it is
+            self.residual = None  # it counts from its position
 
     def _pursue_heading(self, command: Command | None) -> None:
         self._turning = Turning(command) if isinstance(command, Turn) else None
@@ -175,7 +175,7 @@ class CommandedActor(MovingActor):
             )
 
     def is_steady(self) -> bool:
-        """Returns whether its commands cannot fail: it continues in closed form, and alone."""
+        """Returns whether its commands cannot fail: closed forms, independent of others."""
         self.steady = (
             self.follows
             and type(self._speed) in STEADY
@@ -189,7 +189,7 @@ class CommandedActor(MovingActor):
         return self.steady
 
     def has_news(self) -> bool:
-        """Whether progress may be another than when this was asked before."""
+        """Whether progress may have changed since the last call."""
         if not (self.steady or self.is_steady()):
             self._last = None
             return True
@@ -197,12 +197,15 @@ class CommandedActor(MovingActor):
         return self._last != before
 
     def upset(self) -> None:
-        """As for all actors that move; its progress is tested."""
+        """As in the base class; its progress is checked again."""
         super().upset()
         self._last = None
 
     def outlook(self, steps: int, dt: float, *, moved: bool) -> Outlook | None:
-        """How it will go on for so many steps, where its command tells; see `outlook_of`."""
+        """Its expected motion over a number of steps, if its command determines it.
+
+        See `outlook_of`.
+        """
         is_told = self.follows and self._stopping is None
         return outlook_of(self._speed, steps, dt, moved=moved) if is_told else None
 
@@ -216,7 +219,7 @@ class CommandedActor(MovingActor):
 
     @property
     def _hindrance(self) -> str | None:
-        """Why it cannot continue; the end of the road is no reason if its goal was there."""
+        """Why it cannot continue; the end of the road is not a reason if its goal was there."""
         sliding = None if self.wheels is None else self.wheels.sliding
         arrived = self._way is not None and self._way.progress().done
         return sliding if arrived else self.blocked or sliding
@@ -235,7 +238,7 @@ class CommandedActor(MovingActor):
         return REACHED if self._turning is None else self._turning.progress(self.reference)
 
     def drift(self, aside: float, road_map: RoadMap) -> None:
-        """Has a lateral speed (m/s) at the start."""
+        """Sets a lateral speed (m/s) at the start."""
         if self.bound is not None:
             self.settle(self.on_lane(self.bound, self.reference.v, aside, 0.0, road_map))
             self.pursue_side(RunOut(aside), road_map)
@@ -247,7 +250,7 @@ class CommandedActor(MovingActor):
         self.state = self.reference = state
 
     def slid(self, along: float) -> None:
-        """Its reference is a distance (m) ahead on its path of where its commands take it to be."""
+        """Notes that its reference is a distance (m) ahead of its commanded position."""
         if self._course is not None:
             self._course.slid(along)
         if isinstance(self._speed, ArrivalRun | Cautious | CoverRun):
@@ -258,7 +261,7 @@ class CommandedActor(MovingActor):
         return None if self._course is None else self._course.ahead(way)
 
     def offset_after(self, seconds: float, rate: float) -> float:
-        """Offset in its lane some time from now, if it moves to the left so fast (m/s)."""
+        """Offset in its lane after a time, at a lateral speed (m/s, to the left)."""
         assert self.bound is not None
         if isinstance(self._side, Shift):
             return self._side.offset_in(seconds)

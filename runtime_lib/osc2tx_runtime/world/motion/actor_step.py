@@ -26,10 +26,10 @@ from .moving_body import STILL, MovingBody, cruise_of
 
 @dataclass
 class MovingActor(MovingBody):
-    """An actor that is moved step by step, along its lane if it has one."""
+    """An actor that moves step by step, along its lane if it has one."""
 
     def moved(self, inputs: StepInputs, road_map: RoadMap) -> ActorState:
-        """State at the next step; the snapshot itself stays as it is."""
+        """State at the next step; the snapshot is unchanged."""
         state, dt = self.reference, inputs.dt
         self.still, self.cruise, self.way = False, None, -1.0
         if self._course is not None and self._speed is None and state.v == 0.0:
@@ -61,7 +61,7 @@ class MovingActor(MovingBody):
         return self._straight_on(speed, path, road_map, dt)
 
     def _unsaid(self, inputs: StepInputs) -> float:
-        """Speed at the next step where no command says any."""
+        """Speed at the next step without a command."""
         state = self.reference
         if self.bound is None or self._unphysical or not state.shape.wheelbase or state.v <= 0.0:
             return state.v
@@ -116,7 +116,7 @@ class MovingActor(MovingBody):
         return state
 
     def _standing(self, speed: float, dt: float) -> ActorState:
-        """The same place; the same state if nothing else changes."""
+        """The state at standstill; the same object if nothing changes."""
         state, a = self.reference, (speed - self.reference.v) / dt
         if speed == state.v and a == state.a and state.lateral_speed == 0.0:
             self.still = self.home is None and self.residual is None and self._stays()
@@ -125,7 +125,7 @@ class MovingActor(MovingBody):
         return state._replace(v=speed, a=a, lateral_speed=0.0)
 
     def _stays(self) -> bool:
-        """Whether an actor at standstill stays there until a new command."""
+        """Whether an actor at standstill remains there until a new command."""
         run = self._speed
         held = (
             run is None
@@ -153,7 +153,7 @@ class MovingActor(MovingBody):
         raise NotImplementedError
 
     def _cross(self, place: LanePosition, along: float, speed: float, road_map: RoadMap) -> None:
-        """Takes over the offset from the seams up to a position, and lets it run out."""
+        """Adds the offset of the seams up to a position, and lets it decay."""
         bound = self.bound
         assert bound is not None
         if self.residual is not None and not self.residual.driven(along):
@@ -165,7 +165,7 @@ class MovingActor(MovingBody):
     def _over_the_end(
         self, place: LanePosition, rest: float, speed: float, road_map: RoadMap, dt: float
     ) -> ActorState:
-        """Goes straight on behind the end of its lane, and brakes there."""
+        """Continues straight beyond the end of its lane, and brakes there."""
         self.blocked = (
             f"{self.spec.id} has come to the end of lane {place.lane} of road {place.road}"
         )
@@ -182,7 +182,7 @@ class MovingActor(MovingBody):
     def on_lane(
         self, bound: LanePosition, speed: float, rate: float, a: float, road_map: RoadMap
     ) -> ActorState:
-        """State at a place in its lane.
+        """State at a position in its lane.
 
         Args:
             bound: The place.
@@ -201,7 +201,7 @@ class MovingActor(MovingBody):
             h += math.asin(min(max(rate / speed, -SIDEWAYS), SIDEWAYS))
             h = wrap(h)
         elif abs(speed) <= STILL and self._half_way(bound):
-            h = self.reference.h  # standing half way through a lane change
+            h = self.reference.h  # standstill within a lane change
         under = lane_under(road_map, bound, pose) if bound.offset else bound
         pitch = roll = 0.0
         if self.tilt is not LEVEL or pose.pitch or pose.roll:
@@ -219,7 +219,7 @@ class MovingActor(MovingBody):
         return not self._side.progress().done and bound.road == self.reference.road
 
     def rebind(self, bound: LanePosition, speed: float, road_map: RoadMap) -> ActorState:
-        """State after a jump to a place on a lane."""
+        """State after a teleport to a position on a lane."""
         self.bound, self.left, self.blocked, self.tilt = bound, None, None, LEVEL
         self._course, self.home, self._astray = None, None, False
         self.residual, self._stopping = None, None

@@ -13,15 +13,15 @@ from .towing import JACK_KNIFE, drawn
 
 
 class Couplings:
-    """Trailers on their hitches; a trailer may tow another one."""
+    """Trailers on their hitches; a trailer may tow another trailer."""
 
     def __init__(self) -> None:
         self._towed: dict[str, str] = {}  # towing vehicle to trailer
-        self._folded: set[str] = set()  # trailers that stand across their tow
+        self._folded: set[str] = set()  # jack-knifed trailers
         self._news: list[tuple[str, str, float]] = []
 
     def attach(self, tow: str, trailer: str | None) -> str | None:
-        """Couple a trailer, or None; return the one that is uncoupled for that."""
+        """Couple a trailer, or None; return the trailer that is uncoupled."""
         before = self._towed.pop(tow, None)
         self._folded.discard(before or "")
         if trailer is not None:
@@ -37,7 +37,7 @@ class Couplings:
         return self._towed.values()
 
     def is_towed(self, actor: str) -> bool:
-        """Whether an actor hangs on another one."""
+        """Whether an actor is towed."""
         return bool(self._towed) and actor in self._towed.values()
 
     def pairs(self) -> tuple[tuple[str, str], ...]:
@@ -51,10 +51,10 @@ class Couplings:
         dt: float,
         road_map: RoadMap,
     ) -> None:
-        """Put trailers behind the new states of what tows them, the foremost first.
+        """Compute the states of trailers from those of their towing vehicles, the foremost first.
 
         Args:
-            members: All actors, with their states at the begin of the step.
+            members: All actors, with their states at the start of the step.
             states: States at its end, in the same order; those of trailers are replaced.
             dt: Length of the step (s).
             road_map: The map.
@@ -74,7 +74,7 @@ class Couplings:
                 waiting.append(trailer)
 
     def _look(self, tow: str, trailer: str, angle: float) -> None:
-        """Note when a trailer folds against its tow (rad)."""
+        """Note when a trailer jack-knifes (rad)."""
         if abs(angle) <= JACK_KNIFE:
             self._folded.discard(trailer)
         elif trailer not in self._folded:
@@ -82,6 +82,6 @@ class Couplings:
             self._news.append((tow, trailer, angle))
 
     def take_folded(self) -> list[tuple[str, str, float]]:
-        """Hands over the jack-knives since the last call: tow, trailer, angle (rad)."""
+        """Returns the jack-knives since the last call: towing vehicle, trailer, angle (rad)."""
         news, self._news = self._news, []
         return news

@@ -1,8 +1,7 @@
-"""Going on in the middle of a lane at one speed: what nearly all actors do in nearly all steps.
+"""Motion on the lane centre at constant speed: that of nearly all actors in nearly all steps.
 
-What does not change from step to step is looked up once for a stretch of the lane. The rest is what
-`MovingActor` and `LaneCursor` compute, in the same order, so the states are the same to the last
-digit.
+Constant values are looked up once for a stretch of the lane. The rest is computed as in
+`MovingActor` and `LaneCursor`, in the same order, so the states are identical to the last digit.
 """
 
 from __future__ import annotations
@@ -17,16 +16,16 @@ from osc2tx_runtime.world.state import ActorState
 
 
 class Cruise:
-    """An actor that goes the same way in each step.
+    """An actor that moves equally in each step.
 
     Args:
-        place: Where it is.
-        stretch: The piece of its lane that it is on.
-        path: Metres that it goes in a step, negative backwards.
+        place: Its position.
+        stretch: The stretch of its lane.
+        path: Metres per step, negative backwards.
         state: Its state there.
 
     Attributes:
-        way: Metres that no corner of it moves more than in a step.
+        way: Upper bound of the distance (m) that its corners move in a step.
     """
 
     __slots__ = (
@@ -55,7 +54,7 @@ class Cruise:
         self.way = abs(path) + state.shape.reach * turn
 
     def after(self) -> ActorState | None:
-        """State at the next step; None behind the end of the stretch."""
+        """State at the next step; None beyond the end of the stretch."""
         place = self._place
         begin, end, node, length, rate, t, direction, segment, start, _ = self._stretch
         s = node + (length + (place.s - node) * rate + self._along - length) / rate

@@ -1,12 +1,9 @@
-"""The law of grip, on every road: motions that no vehicle can drive.
+"""The grip limit: motions that no vehicle can drive.
 
-Looked at are the motions that the scenario asks for, so the rule is the same in all worlds:
-
-- the sum of the squares of the accelerations along and across the way is at most (mu g)^2;
-- the one across it is less than that at which the vehicle tips over;
-- the speed across a lane changes no faster than that either.
-
-Jumps, replays, motions that need not be physical, and external drivers are left out.
+The commanded motions are checked, so the rule is the same in all worlds: - the sum of the squares
+of the longitudinal and lateral accelerations is at most (mu g)^2; - the lateral acceleration is
+below that of rollover; - the lateral speed does not change faster than that. Teleports, replays,
+non-physical motions and external drivers are not checked.
 """
 
 from __future__ import annotations
@@ -19,20 +16,20 @@ from osc2tx_runtime.world.grip.overload import Excess, Overload
 
 from .actor_motion import CommandedActor
 
-_SMOOTHING = 0.1  # s: where roads join, headings have small kinks
-_AT_THE_LIMIT = 1.01  # using all the grip is no excess
-_STRAIGHT = 1e-6  # rad/s below which an actor does not turn
-_APART = 1.0  # s between two overloads of one actor; nearer ones are one
-_AT_ONCE = 0.1  # m/s across a lane that are no jump yet
+_SMOOTHING = 0.1  # s: headings have small kinks where roads join
+_AT_THE_LIMIT = 1.01  # at the limit there is no excess
+_STRAIGHT = 1e-6  # rad/s: a lower rate counts as straight
+_APART = 1.0  # s: closer overloads of one actor count as one
+_AT_ONCE = 0.1  # m/s: a larger change of the lateral speed is a jump
 
 Place = tuple[str, str, int]
 
 
 class FrictionWatch:
-    """Looks at all vehicles after each step.
+    """Checks all vehicles after each step.
 
     Attributes:
-        overloads: What was found, in order of time; once for each actor and place.
+        overloads: The overloads in order of time, one for each actor and position.
     """
 
     def __init__(self, dt: float) -> None:
@@ -47,7 +44,7 @@ class FrictionWatch:
     def step(
         self, members: Iterable[CommandedActor], jumped: Collection[str], road: RoadCondition
     ) -> None:
-        """Look at the references after a step.
+        """Check the references after a step.
 
         Args:
             members: All actors.
@@ -70,15 +67,15 @@ class FrictionWatch:
                 and member.residual is None
                 and member.spec.id not in turning
             ):
-                continue  # straight on, nearly always
+                continue  # straight, the usual case
             self._look(member, jumped, road)
 
     def _look(self, member: CommandedActor, jumped: Collection[str], road: RoadCondition) -> None:
-        """Looks at one of them."""
+        """Checks one vehicle."""
         state, limit = member.reference, adhesion_of(road) * GRAVITY
         across, aside = 0.0, self._set_aside(member, jumped)
         if abs(aside) > _AT_ONCE + limit * self._dt:
-            member.heading = state.h  # a jump, and no turning
+            member.heading = state.h  # a jump is not a turn
             if member.is_physical:
                 self._note(member, "jumps", (0.0, aside), limit, road)
         if state.h != member.heading or member.spec.id in self._turning:
@@ -115,7 +112,7 @@ class FrictionWatch:
         return now - before
 
     def _turned(self, member: CommandedActor, heading: float, jumped: Collection[str]) -> float:
-        """Smoothed rad/s at which an actor turns; it has come to a new heading (rad)."""
+        """Smoothed yaw rate (rad/s) of an actor with a new heading (rad)."""
         actor, before, member.heading = member.spec.id, member.heading, heading
         if before is None or actor in jumped:
             return 0.0
@@ -158,6 +155,6 @@ class FrictionWatch:
 
 
 def _place_of(member: CommandedActor) -> Place:
-    """The key of one position for one actor: a lane of a road; off the roads all is one."""
+    """Key of a position of an actor: a lane of a road; off the roads one key for all."""
     place = member.reference.lane_position
     return (member.spec.id, "", 0) if place is None else (member.spec.id, place.road, place.lane)

@@ -1,4 +1,4 @@
-"""An actor between two steps, and its motion where it is on no lane."""
+"""The state of an actor between two steps, and its motion off the lanes."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ CRUISE_VEHICLE = 5.0
 
 
 def cruise_of(kind: str) -> float:
-    """Speed (m/s) at which an actor of a kind sets out."""
+    """Speed (m/s) at which an actor of a kind starts."""
     return CRUISE.get(kind, CRUISE_VEHICLE)
 
 
@@ -47,9 +47,9 @@ ANY_LANE = DRIVING | {
 }  # fmt: skip
 """Lane types on which actors off the lanes are located."""
 
-_NEAR = 0.5  # m: how far outside a lane an actor is still on it
+_NEAR = 0.5  # m outside a lane within which an actor is still on it
 STILL = 1e-9  # m/s
-ALIGNED = 0.3  # rad to its lane with which a vehicle is in it again
+ALIGNED = 0.3  # rad: a vehicle with a smaller angle to its lane is in it again
 
 
 class OpenSpeed:
@@ -58,7 +58,7 @@ class OpenSpeed:
     __slots__ = ("_held",)
 
     def __init__(self) -> None:
-        self._held = 0.0  # m/s to gain again behind a bend; no more than the present speed: none
+        self._held = 0.0  # m/s to regain after a bend; none if not above the present speed
 
     def forget(self) -> None:
         """A speed was stated."""
@@ -73,7 +73,7 @@ class OpenSpeed:
             me: The actor.
             inputs: The snapshot.
             route: Its route at forks.
-            limits: Of the vehicle on the road as it is.
+            limits: Limits of the vehicle on the present road.
         """
         held = max(self._held, me.v)
         fastest = inputs.bend(me, route, limits)
@@ -91,23 +91,23 @@ class MovingBody:
 
     Attributes:
         spec: Its description.
-        state: Snapshot of the present step: the state that all readers see.
+        state: Snapshot of the present step, for all readers.
         reference: State that its commands start from. The same, unless the actor is measured: then
-            it keeps the commanded speed and position in the lane, abreast of the actor.
+            it keeps the commanded speed and lateral position, abreast of the actor.
         bound: Lane it follows, with its offset from there; None off the lanes.
-        cursor: Moves along that lane with it.
+        cursor: The cursor on that lane.
         route: Decides at forks; None: the smallest change of heading.
         blocked: Why it cannot continue; None while it can.
-        jumped: In the last step it was teleported instead of moving.
+        jumped: Whether it was teleported in the last step.
         way: Upper bound of the distance (m) that its corners moved in the last step; negative:
             unknown.
         wheels: Its grip on the road; None without wheels.
-        tilt: Commanded pitch and roll; wheels that roll forget them.
+        tilt: Commanded pitch and roll; rolling wheels reset them.
         left: Its position in its lane before the last step.
-        home: Lane that it returns to; None: it is in one, or returns to none.
+        home: Lane that it returns to; None: none.
         residual: Its remaining offset from seams of the map; None: nothing.
-        steady: Its commands cannot fail, and none was given since that was found.
-        still: It was at standstill in the last step, and stays so until it is upset.
+        steady: Whether its commands cannot fail, and are unchanged since this was found.
+        still: Whether it was at standstill in the last step, and remains so until it is upset.
         cruise: Its motion in the last step, which continues until it is upset; None: otherwise.
     """
 
@@ -128,15 +128,15 @@ class MovingBody:
     steady: bool = False
     still: bool = False
     cruise: Cruise | None = None
-    _stopping: Longitudinal | None = None  # behind the end of its lane
+    _stopping: Longitudinal | None = None  # beyond the end of its lane
     _course: Course | None = None
     _way: Way | None = None
     _speed: Longitudinal | None = None
-    _open: OpenSpeed = field(default_factory=OpenSpeed)  # while there is no command for it
+    _open: OpenSpeed = field(default_factory=OpenSpeed)  # without a command
     _side: Lateral = field(default_factory=HoldOffset)
     _turning: Turning | None = None
     _unphysical: set[str] = field(default_factory=set)  # slots in which physics need not hold
-    _astray: bool = False  # turned where it stands, so that it is in no lane any more
+    _astray: bool = False  # turned at standstill, so that it is no longer in a lane
 
     @property
     def limits(self) -> Limits:
@@ -146,11 +146,11 @@ class MovingBody:
 
     @property
     def tyres(self) -> Limits:
-        """What tyres can do there."""
+        """The limits of tyres there."""
         return TYRES if self.wheels is None else held_by(TYRES, self.wheels.road)
 
     def _tilted(self, ground: Pose, heading: float) -> tuple[float, float]:
-        """Pitch and roll on the ground, or as commanded."""
+        """Pitch and roll of the ground, or as commanded."""
         if self.tilt is LEVEL and not (ground.pitch or ground.roll):
             return 0.0, 0.0  # nearly always
         return self.tilt.over(tilt_on(ground, heading))
@@ -178,11 +178,11 @@ class MovingBody:
         return self.free_state(pose, speed, (speed - state.v) / dt, road_map)
 
     def _return_to_lane(self, road_map: RoadMap, *, at_angle: bool = False) -> None:
-        """Is in its lane again if it is in it and along it, else on the way there, if any.
+        """Rejoins its lane if it is in it and aligned with it, else moves towards it, if any.
 
         Args:
             road_map: The map.
-            at_angle: It is to go on at an angle to its lane.
+            at_angle: Whether it has to keep an angle to its lane.
         """
         state, home, self._astray = self.reference, self.home, False
         if not self.spec.lane_bound:
@@ -203,11 +203,11 @@ class MovingBody:
             profile = shift_profile(offset, 0.0, rate, ("none", None, None), self.limits)
             self.bound = LanePosition(home.road, home.lane, home.s, offset)
             self.home = None
-            if not isinstance(self._side, Impossible):  # that is yet to be told
+            if not isinstance(self._side, Impossible):  # still to be reported
                 self._side = Shift(profile, 0.0)
 
     def _towards_lane(self, home: LanePosition, path: float, road_map: RoadMap) -> Pose:
-        """Steers at the centre of the lane, some way ahead."""
+        """Steers towards the lane centre ahead."""
         state = self.reference
         steering = Steering(state.shape, self.limits)
         ahead = road_map.advance(home, steering.look_ahead(state.v), self.route).position
@@ -217,14 +217,14 @@ class MovingBody:
     def lane_at(
         self, pose: Pose, hint: LanePosition | None, road_map: RoadMap
     ) -> LanePosition | None:
-        """The lane under a place; None off the lanes."""
+        """The lane under a position; None off the lanes."""
         heading = pose.h if self.spec.lane_bound else None
         return road_map.locate(
             pose.x, pose.y, pose.z, heading, hint=hint, lane_types=ANY_LANE, max_distance=_NEAR
         )
 
     def free_state(self, pose: Pose, speed: float, a: float, road_map: RoadMap) -> ActorState:
-        """State off the lanes: where it is, and which lane is under it, if any."""
+        """State off the lanes: its pose, and the lane under it, if any."""
         on = self.lane_at(pose, self.reference.lane_position, road_map)
         ground = Pose(pose.x, pose.y, pose.z, pose.h) if on is None else road_map.pose(on)
         pitch, roll = self._tilted(ground, pose.h)
@@ -233,16 +233,16 @@ class MovingBody:
         )
 
     def unbind(self) -> None:
-        """Is on no lane any more, and goes straight on."""
+        """Leaves its lane, and continues straight."""
         self.bound, self._course, self.home = None, None, None
         self.residual, self._stopping = None, None
         self.upset()
 
     def upset(self) -> None:
-        """Gets a command or a disturbance: its further motion is to be found anew."""
+        """Notes a command or a disturbance: its further motion is computed anew."""
         self.steady, self.still, self.cruise, self.way = False, False, None, -1.0
 
     def turn_away(self) -> None:
-        """Is turned by force: a vehicle goes back to its lane from there."""
+        """Turns it instantly: a vehicle then returns to its lane."""
         self.unbind()
         self._astray = self.spec.lane_bound

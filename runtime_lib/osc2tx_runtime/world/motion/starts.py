@@ -1,4 +1,4 @@
-"""Actors as they are before step 0."""
+"""Initial states of actors, before step 0."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from .actor_motion import CommandedActor
 
 
 class Start(NamedTuple):
-    """Where an actor starts, and how it moves there.
+    """Initial position and motion of an actor.
 
     Attributes:
-        at: Lane-bound actors follow the lane if it is one; others, and those placed by a pose,
-            go straight.
+        at: Lane-bound actors follow the lane of a lane position; others, and those placed by a
+            pose, move straight.
         speed: m/s.
-        heading: rad; with one against the lane an actor has to get into it first.
+        heading: rad; with a heading against the lane an actor first has to align with it.
         tilt: Pitch and roll.
-        aside: Lateral speed (m/s), which runs out if no command holds it.
+        aside: Lateral speed (m/s), which decays unless a command holds it.
     """
 
     at: LanePosition | Pose

@@ -1,4 +1,4 @@
-"""Instant changes of a state: speed, place, heading, tilt."""
+"""Instant changes of a state: speed, position, heading, tilt."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class StateChange:
     Attributes:
         speed: m/s.
         acceleration: m/s^2.
-        at: Where.
+        at: Position.
         heading: rad.
         tilt: Pitch and roll.
     """
@@ -30,7 +30,7 @@ class StateChange:
 
     @property
     def jumps(self) -> bool:
-        """Whether it puts the actor somewhere."""
+        """Whether it teleports the actor."""
         return self.at is not None
 
     @property
@@ -46,7 +46,7 @@ class StateChange:
         heading: float | None,
         tilt: Tilt,
     ) -> StateChange:
-        """This change and another one of the same instant.
+        """This change combined with another of the same instant.
 
         Measured values become plain numbers: the motion does not allow for rounding.
         """
@@ -59,7 +59,7 @@ class StateChange:
         )
 
     def carry_out(self, member: CommandedActor, road_map: RoadMap) -> None:
-        """Change the state of an actor, and what its commands count on."""
+        """Change the state of an actor, and the start values of its commands."""
         if isinstance(self.at, LanePosition) and member.spec.lane_bound and self.heading is None:
             member.settle(member.rebind(self.at, member.reference.v, road_map))
         elif self.at is not None or self.heading is not None:
@@ -82,7 +82,7 @@ class StateChange:
         return state if self.acceleration is None else state._replace(a=self.acceleration)
 
     def _put(self, member: CommandedActor, road_map: RoadMap) -> ActorState:
-        """State beside the lanes, or turned out of one."""
+        """State off the lanes, or turned out of one."""
         state = member.reference
         pose = Pose(state.x, state.y, state.z, state.h)
         if isinstance(self.at, LanePosition):

@@ -1,8 +1,8 @@
 """Kinematics of trailers: one axle behind the hitch of the towing vehicle.
 
-Where the scenario does not say otherwise, the hitch is at the rear end of the towing vehicle, and
-the coupler `DRAWBAR` before the box of the trailer. In a step the hitch goes straight, and the axle
-follows on a tractrix; the distance stays exact, and on a circle the trailer comes to the steady
+Unless the scenario states otherwise, the hitch is at the rear end of the towing vehicle, and the
+coupler `DRAWBAR` ahead of the box of the trailer. In a step the hitch moves straight, and the axle
+follows on a tractrix; the distance remains exact, and on a circle the trailer approaches the steady
 angle sin(angle) = distance / radius.
 """
 
@@ -16,7 +16,7 @@ from osc2tx_runtime.world.geometry.curve import turn_between
 from osc2tx_runtime.world.state import ActorState
 
 JACK_KNIFE = 0.5 * math.pi
-"""rad between a towing vehicle and its trailer from which on the bar cannot turn any more."""
+"""Largest angle (rad) between a towing vehicle and its trailer."""
 
 DRAWBAR = 0.5
 """Metres from the front of a trailer's box to its coupler."""
@@ -24,7 +24,7 @@ DRAWBAR = 0.5
 _STILL = 1e-12  # m
 
 COUPLING_REACH = 1.0
-"""Metres between hitch and coupler at which they can be coupled."""
+"""Largest distance (m) between hitch and coupler for coupling."""
 
 
 def _hitch(tow: ActorState) -> tuple[float, float]:
@@ -61,8 +61,8 @@ def pose_behind(tow: ActorState, trailer: Shape) -> Pose:
 def _turned(heading: float, dx: float, dy: float, bar: float) -> float:
     """Heading (rad) of a bar whose front end was drawn straight by (dx, dy).
 
-    Its angle to the way obeys d(angle)/d(way) = -sin(angle) / bar, so that the tangent of half of
-    it decays exponentially.
+    Its angle to the motion obeys d(angle)/d(distance) = -sin(angle) / bar, so the tangent of half
+    of it decays exponentially.
     """
     way = math.hypot(dx, dy)
     if way < _STILL:

@@ -1,1 +1,1 @@
-"""The interface to what moves the actors: setpoints out, measurements back."""
+"""The interface to the plant that moves the actors: setpoints out, measurements back."""

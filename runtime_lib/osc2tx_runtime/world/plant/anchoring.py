@@ -1,8 +1,8 @@
 """Measured actors, and the states from which their references continue.
 
-The reference of a driven actor keeps its speed and its lateral position, and comes abreast of the
-actor along the path: otherwise half of every error of the speed would add up, and the two would
-never meet again. Of an actor with an external driver, the measured state is the reference.
+The reference of a driven actor keeps its speed and its lateral position, and is set abreast of the
+actor along the path: otherwise half of each speed error would accumulate, and both would diverge.
+Of an actor with an external driver, the measured state is the reference.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def arrive(
     road_map: RoadMap,
     dt: float,
 ) -> list[ActorState]:
-    """Put the actors where they have come to.
+    """Set the actors to their new states.
 
     Args:
         cast: The actors.
@@ -73,7 +73,7 @@ def arrive(
 def track(
     member: CommandedActor, state: ActorState, commanded: ActorState, road_map: RoadMap, dt: float
 ) -> None:
-    """Put a driven actor where it was measured, and its reference beside it."""
+    """Set a driven actor to its measured state, and its reference abreast of it."""
     member.state = state
     member.upset()
     member.reference = anchored(member, commanded, road_map)
@@ -95,7 +95,7 @@ def observe(member: CommandedActor, state: ActorState, road_map: RoadMap) -> Non
 def measured_state(
     member: CommandedActor, found: Measurement, road_map: RoadMap, dt: float
 ) -> ActorState:
-    """State of an actor that was measured: on which lane it is, and how it moves on it."""
+    """State of a measured actor, with its lane and its motion on it."""
     before = member.state
     pose, (forwards, left, up) = found.pose, found.velocity
     forwards = forwards * math.cos(pose.pitch) + up * math.sin(pose.pitch)  # on the ground

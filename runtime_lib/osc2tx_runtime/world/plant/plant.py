@@ -1,12 +1,11 @@
 """The interface between commanded and measured states, implemented by simulators.
 
-The world turns commands into the states of its actors at the end of a step. A plant brings them
-about, and measures what has become of them: CARLA, another simulator, a vehicle model. `Identity`
-carries them out as they are.
+The world turns commands into the states of its actors at the end of a step. A plant realizes and
+measures them: CARLA, another simulator, a vehicle model. `Identity` realizes them exactly.
 
 An actor has one control mode. `exact`: it has the commanded state. `exact-physics`: the same, as a
-rigid body that its velocities bring there. `driven`: a controller follows the commanded states, and
-the actor is measured. `external` and `autopilot`: it has another driver, and is only measured.
+rigid body moved by its velocities. `driven`: a controller follows the commanded states, and the
+actor is measured. `external` and `autopilot`: it has another driver, and is only measured.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ __all__ = ["Identity", "Measurement", "Plant"]
 
 
 class Plant(Protocol):
-    """What moves the actors of a world.
+    """Moves the actors of a world.
 
     Attributes:
         name: For the header of the trace: `carla 0.9.16`.
@@ -42,27 +41,27 @@ class Plant(Protocol):
         """Size of an actor, requested before it is placed; None: that of the scenario."""
 
     def begin(self, scene: Scene) -> Mapping[str, Measurement]:
-        """Puts the actors where they start, after the last placement and before step 0.
+        """Sets the actors to their start, after the last placement and before step 0.
 
         Returns:
             The states of those actors that differ from the commanded ones.
 
         Raises:
-            SimulatorError: If it cannot.
+            SimulatorError: It cannot.
         """
 
     def moved(self, scene: Scene) -> Mapping[str, Measurement]:
-        """Goes one step on, and measures.
+        """Advances by one step, and measures.
 
         Returns:
             As of `begin`.
 
         Raises:
-            SimulatorError: If the simulator is lost.
+            SimulatorError: The simulator is lost.
         """
 
     def close(self) -> None:
-        """Leaves the simulator as it was; called once, however the run ends, begun or not."""
+        """Restores the simulator; called once at the end of each run, started or not."""
 
 
 class Identity:
@@ -95,13 +94,13 @@ class Identity:
 
 
 class CheckedPlant:
-    """Hands every call on to a plant, and names it when it answers garbage or fails.
+    """Passes all calls on to a plant, and names it in errors about its results.
 
     Args:
         plant: The plant.
 
     Attributes:
-        name: Of the plant.
+        name: Name of the plant.
     """
 
     def __init__(self, plant: Plant) -> None:
@@ -126,15 +125,15 @@ class CheckedPlant:
         return self._calls.ask("shape", lambda: self._plant.shape(spec), Shape | None)
 
     def begin(self, scene: Scene) -> Mapping[str, Measurement]:
-        """Puts the actors where they start."""
+        """Sets the actors to their start."""
         return self._measured("begin", lambda: self._plant.begin(scene), scene)
 
     def moved(self, scene: Scene) -> Mapping[str, Measurement]:
-        """Goes one step on."""
+        """Advances by one step."""
         return self._measured("moved", lambda: self._plant.moved(scene), scene)
 
     def close(self) -> None:
-        """Leaves the simulator."""
+        """Closes the plant."""
         self._calls.ask("close", self._plant.close, Any)
 
     def _measured(

@@ -17,15 +17,15 @@ from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
 
 from .weather_effects import Lights, Surroundings
 
-_SLOW = 1.0  # m/s: slower ones look ahead as if they had this speed
+_SLOW = 1.0  # m/s: slower actors look ahead as at this speed
 
 
 def pose_ahead(member: CommandedActor, state: ActorState, way: float, road_map: RoadMap) -> Pose:
-    """The position of an actor after a distance (m), if it moves on as commanded.
+    """The position of an actor after a distance (m) of its commanded motion.
 
     Args:
         member: The actor, whose commands have reached `state`.
-        state: Where to look from.
+        state: Start of the distance.
         way: Metres along its path; negative: backwards.
         road_map: The map.
     """
@@ -59,16 +59,16 @@ def _straight(pose: Pose, way: float) -> Pose:
 
 
 class Setpoint:
-    """What one actor is to do in a step.
+    """The command of one actor in a step.
 
     Attributes:
         spec: Its description.
-        now: Its state at the begin of the step.
+        now: Its state at the start of the step.
         state: Its commanded state at the end.
-        jumps: It is put there, instead of moving there.
-        kicked: It has the speed of `state` at once (`assign_speed`).
-        towed: It hangs on another actor, so it is there exactly.
-        route: What decides at forks; None: the smallest change of heading.
+        jumps: Whether it is teleported there.
+        kicked: Whether its speed is set instantly (`assign_speed`).
+        towed: Whether it is towed, and so follows exactly.
+        route: Decides at forks; None: the smallest change of heading.
     """
 
     def __init__(
@@ -115,7 +115,7 @@ class Scene:
         dt: Length of a step (s).
         step: Number of the commanded step; 0 before the first one.
         signals: The traffic lights. `states(id)` is the commanded state of a light; `lit()` lists
-            the ones that the scenario has switched, `observe` notes states of the simulator.
+            the lights that the scenario has switched, `observe` notes states of the simulator.
     """
 
     def __init__(
@@ -145,7 +145,7 @@ class Scene:
         jumped: frozenset[str] | set[str],
         kicked: frozenset[str] | set[str],
     ) -> None:
-        """Takes the commands of the actors for the next step."""
+        """Sets the commands of the actors for the next step."""
         self._members, self._commanded = members, states
         self._jumped, self._kicked = jumped, kicked
         self._setpoints = None
@@ -172,7 +172,7 @@ class Scene:
 
     @property
     def lights(self) -> Mapping[str, LightState]:
-        """Lights that vehicles are to show."""
+        """Commanded lights of the vehicles."""
         return self._lights.all
 
     @property
@@ -195,13 +195,13 @@ class Scene:
         self._notes.append((kind, values))
 
     def note_jack_knife(self, tow: str, trailer: str, angle: float) -> None:
-        """Says that a trailer stands across its towing vehicle (rad), as no bar can."""
+        """Reports a jack-knifed trailer with its angle (rad)."""
         degrees, time = round(math.degrees(angle), 1), self.step * self.dt
         self.note("jack_knife", actor=trailer, tow=tow, angle=degrees)
         self.warn(f"{trailer} jack-knifes at {time:.2f} s: it stands at {degrees:g}° to {tow}")
 
     def warn(self, text: str) -> None:
-        """Warns once about an impossible command, in a run that continues all the same."""
+        """Warns once about an impossible command; the run continues."""
         self._warnings[text] = None
 
     def warnings(self) -> tuple[str, ...]:
@@ -209,6 +209,6 @@ class Scene:
         return tuple(self._warnings)
 
     def take_notes(self) -> Sequence[Note]:
-        """Hands over the notes since the last call."""
+        """Returns the notes since the last call."""
         notes, self._notes = self._notes, []
         return notes

@@ -37,31 +37,31 @@ class Surroundings:
         self.values: Mapping[str, float] = MappingProxyType(self._now)
 
     def begin_under(self, sky: Sky) -> None:
-        """Lets sun and moon go their way from step 0 on, as far as no action sets them."""
+        """Moves sun and moon from step 0, unless an action sets them."""
         self.sky = sky
         self._move_lights(0)
 
     def set(self, values: Mapping[str, float]) -> None:
-        """Changes values; those that are not named stay."""
+        """Changes values; the others are unchanged."""
         self._now.update(values)
         self._pinned.update(values)
         self.road = road_condition(self._now)
 
     @property
     def sight(self) -> float:
-        """How far one sees (m) at the present step."""
+        """Visual range (m) at the present step."""
         return self._now.get("visual_range", math.inf)
 
     @property
     def automatic_light(self) -> LightMode:
-        """What lights in mode `auto` shine."""
+        """State of lights in mode `auto`."""
         elevation = self._now.get("sun_elevation", LOW_BEAM_SUN_ELEVATION)
         dark = elevation < LOW_BEAM_SUN_ELEVATION
         foggy = self._now.get("visual_range", math.inf) < FOG_LIGHT_RANGE
         return "low_beam" if dark or foggy else "off"
 
     def step(self) -> None:
-        """Goes to the next step."""
+        """Advances to the next step."""
         self._steps += 1
         if self.sky is not None:
             self._move_lights(self._steps)
@@ -84,7 +84,7 @@ class Lights:
         self.all: Mapping[str, LightState] = MappingProxyType(self._now)
 
     def add(self, actor: str) -> None:
-        """Makes a vehicle known, with its lights off."""
+        """Adds a vehicle, with its lights off."""
         self._now[actor] = LightState()
 
     def of(self, actor: str) -> LightState:
@@ -98,7 +98,7 @@ class Lights:
         return lights
 
     def follow(self, automatic: LightMode) -> Mapping[str, LightState]:
-        """Switches those that are automatic; returns the ones that change."""
+        """Switches automatic lights; returns the changed ones."""
         lights = LightState("auto", automatic)
         switched = {
             actor: lights

@@ -1,4 +1,4 @@
-"""Search for stop lines ahead whose lights ask to stop."""
+"""Search for stop lines ahead whose lights require a stop."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from osc2tx_runtime.opendrive.lane_line import lane_line
 from .traffic_light_states import LaneLines, Signals
 
 STOP: frozenset[SemanticTrafficLightState] = frozenset({"stop", "attention"})
-"""What forbids to pass."""
+"""States that forbid passing."""
 
 STOP_IF_POSSIBLE: frozenset[SemanticTrafficLightState] = frozenset({"stop_attention"})
 """States that require a stop of vehicles that can still stop comfortably."""
 
-_STEP_OVER = 1e-6  # m beyond the end of a lane, so as to be on the next one
-_AT = 1e-5  # m: a line so little behind is here
+_STEP_OVER = 1e-6  # m beyond the end of a lane, on the next one
+_AT = 1e-5  # m: a line within this distance behind is at the position
 
 
 class StopLine(NamedTuple):
-    """A line at which a light asks to stop.
+    """A stop line whose light requires a stop.
 
     Attributes:
         signal: The light.
@@ -37,7 +37,7 @@ class StopLine(NamedTuple):
 
 
 class StopLines:
-    """The stop lines of a map: a light holds where OpenDRIVE puts its signal, or a reference.
+    """The stop lines of a map: at the positions of signals and signal references in OpenDRIVE.
 
     Args:
         road_map: The map.
@@ -56,10 +56,10 @@ class StopLines:
         """The first line ahead whose light requires a stop; None without one.
 
         Args:
-            place: Where to look from.
+            place: Start of the search.
             route: Decides at forks, as for the motion.
-            nearest: Lines nearer than this (m) are passed already.
-            reach: How far to look (m).
+            nearest: Lines nearer than this (m) are already passed.
+            reach: Length of the search (m).
         """
         asking = {each: s for each in self._signals.lit() if (s := self._strict(each)) is not None}
         if not asking:
@@ -70,7 +70,7 @@ class StopLines:
         return None
 
     def _strict(self, signal: str) -> bool | None:
-        """Whether a light forbids all to pass; None if it forbids nothing to vehicles."""
+        """Whether a light forbids passing in any case; None if it has no effect on vehicles."""
         if all(lamp.for_pedestrians for lamp in self._signals.lamps(signal)):
             return None
         meaning = self._signals.meaning(signal)
@@ -78,13 +78,13 @@ class StopLines:
 
     @cached_property
     def _places(self) -> LaneLines:
-        """Where lights hold; asked for only when the cast is on the map."""
+        """Positions of the lights, read only after the cast is on the map."""
         return self._signals.lines(self._of_map)
 
     def _along(
         self, place: LanePosition, route: Route | None, reach: float
     ) -> Iterator[tuple[SignalPlace, float]]:
-        """Places of signals on the way, by distance (m)."""
+        """Positions of signals on the route, by distance (m)."""
         road_map, covered = self._map, 0.0
         while covered <= reach:
             section = road_map.roads[place.road].section_at(place.s)

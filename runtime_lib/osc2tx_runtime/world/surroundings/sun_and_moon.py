@@ -1,7 +1,7 @@
 """Positions of sun and moon (DSL 8.10.2).
 
 The series are those for low precision of the Astronomical Almanac: good to 0.01 degrees for the sun
-and to 0.3 degrees for the moon between 1950 and 2050. Air bends no light here.
+and to 0.3 degrees for the moon between 1950 and 2050. Refraction is ignored.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from osc2tx_shared.classes import dataclass
 
 _J2000 = 946_728_000.0
-"""Unix time (s) of 2000-01-01 12:00, where the series begin."""
+"""Unix time (s) of 2000-01-01 12:00, the epoch of the series."""
 
 _DAY = 86_400.0
 _CENTURY = 36_525.0  # days
@@ -34,7 +34,7 @@ _MOON_LATITUDE: _Terms = (
     (-0.28, 318.3, 6_003.18),
     (-0.17, 217.6, -407_332.20),
 )
-# Likewise with cosines: the angle at which the radius of the earth is seen from the moon.
+# Likewise with cosines: the parallax of the moon.
 _MOON_PARALLAX = 0.9508
 _MOON_PARALLAXES: _Terms = (
     (0.0518, 134.9, 477_198.85),
@@ -76,7 +76,7 @@ class Sky:
         }
 
     def _seen(self, days: float, longitude: float, latitude: float) -> tuple[float, float]:
-        """Return azimuth and elevation of what stands at a place (rad) of the ecliptic."""
+        """Return azimuth and elevation of a position (rad) on the ecliptic."""
         tilt = math.radians(23.439 - 4e-7 * days)
         x = math.cos(latitude) * math.cos(longitude)
         y, z = math.cos(latitude) * math.sin(longitude), math.sin(latitude)

@@ -1,7 +1,7 @@
 """Lamps of traffic light types and their meanings, as data (DSL 8.15.2, 8.15.3).
 
-OpenDRIVE names a box by its type only; `BOXES` says which lamps it has. A scenario may list the
-lamps of a box itself (`traffic_light.bulbs`).
+OpenDRIVE only states the type of a traffic light; `BOXES` lists its lamps. A scenario may list the
+lamps of a light itself (`traffic_light.bulbs`).
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from osc2tx_runtime.enums import BulbColor, BulbIcon, BulbState, SemanticTraffic
 
 
 class Lamp(NamedTuple):
-    """A lamp of a box.
+    """A lamp of a traffic light.
 
     Attributes:
         color: Its color.
@@ -25,12 +25,12 @@ class Lamp(NamedTuple):
 
     @property
     def is_arrow(self) -> bool:
-        """True if it speaks to one direction only."""
+        """Whether it applies to one direction only."""
         return self.icon.startswith("arrow")
 
     @property
     def for_pedestrians(self) -> bool:
-        """True if vehicles need not look at it."""
+        """Whether it does not apply to vehicles."""
         return self.icon.startswith(("pedestrian", "txt_"))
 
 
@@ -40,8 +40,8 @@ BOXES: Mapping[str, tuple[Lamp, ...]] = {
 }
 """Lamps by type of the signal in the catalogue `OpenDRIVE`, top to bottom."""
 
-# Meaning -> color, whether the lamp must (not) be an arrow, and how it is lit; other lamps
-# are off. The order decides where two meanings light the same lamps.
+# Meaning -> color, whether the lamp must (not) be an arrow, and how it is lit; other lamps are off.
+# If two meanings light the same lamps, the first counts.
 MEANINGS: Mapping[
     SemanticTrafficLightState, tuple[tuple[BulbColor, bool | None, BulbState], ...]
 ] = {
@@ -53,13 +53,13 @@ MEANINGS: Mapping[
     "go": (("green", False, "is_on"),),
     "go_exclusive": (("green", True, "is_on"),),
 }
-"""How a box says what (the lights of most of Europe)."""
+"""The lamps of each meaning (as in most of Europe)."""
 
 
 def lamps_that_mean(
     lamps: Sequence[Lamp], meaning: SemanticTrafficLightState
 ) -> tuple[BulbState, ...] | None:
-    """States of the lamps for a meaning; None if the box has no lamps for it."""
+    """States of the lamps for a meaning; None if the light has no lamps for it."""
     broken = meaning == "non_functional"
     states: list[BulbState] = ["unknown" if broken else "is_off" for _ in lamps]
     for color, arrow, state in MEANINGS.get(meaning, ()):
@@ -76,7 +76,7 @@ def lamps_that_mean(
 
 
 def meaning_of(lamps: Sequence[Lamp], states: Sequence[BulbState]) -> SemanticTrafficLightState:
-    """The meaning of a box; `non_functional` where no traffic rule covers its lamps."""
+    """The meaning of a light; `non_functional` if no traffic rule covers its lamps."""
     shown = tuple(states)
     for meaning in MEANINGS:
         if lamps_that_mean(lamps, meaning) == shown:

@@ -17,15 +17,15 @@ LinePlace = tuple[str, int, float]
 LaneLines = Mapping[tuple[str, int], tuple[SignalPlace, ...]]
 """Stop lines by road and lane, in order of s."""
 
-_NAMED = 12  # signals that a message lists
+_NAMED = 12  # greatest number of signals in a message
 
 
 class Signals:
     """The states of the lights of a map; all are off until they are switched.
 
-    Lights of a simulator run by themselves until the scenario switches one of them.
+    Lights of a simulator run their own cycles until the scenario switches one of them.
 
-    As everywhere in a world, values set at step k can be read from step k+1 on.
+    Values set at step k can be read from step k+1.
 
     Args:
         road_map: The map.
@@ -42,13 +42,13 @@ class Signals:
         self._shown_by: dict[str, object] = {}
         self._moved: dict[str, tuple[LinePlace, ...]] = {}
 
-    # --- boxes and groups ---------------------------------------------------------------------
+    # --- lights and groups --------------------------------------------------------------------
 
     def lamps(self, signal: str) -> tuple[Lamp, ...]:
-        """Lamps of a box.
+        """Lamps of a light.
 
         Raises:
-            ScenarioError: The map has no such traffic light, or nothing says what lamps it has.
+            ScenarioError: The map has no such traffic light, or its lamps are unknown.
         """
         found = self._boxes.get(signal)
         if found is not None:
@@ -64,7 +64,7 @@ class Signals:
         )
 
     def describe(self, signal: str, lamps: Sequence[Lamp]) -> None:
-        """Sets the lamps of a box, instead of those of its type.
+        """Sets the lamps of a light, instead of those of its type.
 
         Raises:
             ScenarioError: The map has no such traffic light.
@@ -99,7 +99,7 @@ class Signals:
         self._moved[signal] = tuple(places)
 
     def lines(self, of_map: LaneLines) -> LaneLines:
-        """Stop lines of the map, but for those that have been moved.
+        """Stop lines of the map, with those that have been moved.
 
         Args:
             of_map: The lines of the map.
@@ -115,7 +115,7 @@ class Signals:
                 found.setdefault((road, lane), []).append(SignalPlace(signal, s))
         return {lane: tuple(sorted(places, key=lambda p: p.s)) for lane, places in found.items()}
 
-    # --- their states -------------------------------------------------------------------------
+    # --- states -------------------------------------------------------------------------------
 
     def states(self, signal: str) -> tuple[BulbState, ...]:
         """States of the lamps at the present step, in their order."""
@@ -135,8 +135,8 @@ class Signals:
         """Switches a lamp; returns whether that changes anything.
 
         Args:
-            signal: The box.
-            lamp: Number of the lamp in it, from 0.
+            signal: The light.
+            lamp: Number of its lamp, from 0.
             state: Its new state.
             by: The origin of the change, for `shown_by`.
         """
@@ -151,8 +151,8 @@ class Signals:
         """Notes the state of a light in a simulator, unless the scenario has switched it.
 
         Args:
-            signal: The box.
-            states: Of its lamps, in their order, at the end of the step that is made.
+            signal: The light.
+            states: States of its lamps, in their order, at the end of the step.
         """
         if signal not in self._shown_by:
             self._shown[signal] = states

@@ -1,1 +1,1 @@
-"""Goals of actors whose motion is measured: how far they are from them, when they are reached."""
+"""Goals of measured actors: distances to them, and when they are reached."""

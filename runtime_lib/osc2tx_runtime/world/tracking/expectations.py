@@ -1,8 +1,8 @@
 """Expectations of actors with another driver: goals that are measured, not commanded.
 
-An expectation is reached as soon as the actor was measured at the goal of the command, in its own
-time and by a course of its own; a goal with a duration has to be reached by then, as always.
-Commands without a goal expect nothing.
+An expectation is reached as soon as the actor is measured at the goal of the command, at any time
+and along any path; a goal with a duration has to be reached by then. Commands without a goal expect
+nothing.
 """
 
 from __future__ import annotations
@@ -50,16 +50,16 @@ from osc2tx_runtime.world.step_inputs import StepInputs
 
 from .timed_expectations import Arrival, Timetable, gap_error, speed_error
 
-_JOINED = 1.0  # m from a path at which one is on it
+_JOINED = 1.0  # m from a path within which an actor is on it
 
 Judge = Callable[[ActorState, StepInputs], Progress]
 
 
 class Expectation:
-    """What one slot of an actor is expected to come to.
+    """The expected goal of one slot of an actor.
 
     Args:
-        judge: Looks at its state after a step.
+        judge: Evaluates its state after a step.
     """
 
     def __init__(self, judge: Judge) -> None:
@@ -67,7 +67,7 @@ class Expectation:
         self._progress = PENDING
 
     def look(self, state: ActorState, inputs: StepInputs) -> None:
-        """See how far it is after a step."""
+        """Evaluate a step."""
         self._progress = self._judge(state, inputs)
 
     def progress(self) -> Progress:
@@ -78,13 +78,13 @@ class Expectation:
 def expected(
     command: Command | None, state: ActorState, road_map: RoadMap, route: Route | None
 ) -> Expectation:
-    """Return the meaning of a command for an actor that is not commanded.
+    """Return the expectation of a command for an actor that is not commanded.
 
     Args:
         command: The command.
-        state: Of the actor, when it is given.
+        state: State of the actor at the command.
         road_map: The map.
-        route: What decides at forks.
+        route: Decides at forks.
     """
     return Expectation(_judge(command, state, road_map, route))
 
@@ -126,7 +126,7 @@ def _near(error: float, tolerance: float) -> Progress:
 
 
 def _last(course: Profile | None, otherwise: float) -> float:
-    """The end of a course; without one, the target."""
+    """The end of a profile; without one, the target."""
     return otherwise if course is None else course.value(course.duration)
 
 
@@ -164,7 +164,7 @@ def _gap(command: KeepGap | GapCourse) -> Judge:
 
 
 def _heading(command: Sideways | Slant | Turn, road_map: RoadMap) -> Judge:
-    """How an actor is turned, in the world or against its lane, or moves across the lane."""
+    """Heading of an actor, in the world or relative to its lane, or its lateral motion."""
     match command:
         case Turn(heading=heading, course=course):
             if heading is None and course is None:
@@ -186,7 +186,7 @@ def _heading(command: Sideways | Slant | Turn, road_map: RoadMap) -> Judge:
 
 
 def _missing_rate(command: Sideways, me: ActorState, inputs: StepInputs) -> float:
-    """How much (m/s) an actor moves to the left too slowly."""
+    """Missing lateral speed (m/s) of an actor, to the left."""
     other = command.reference
     moving = 0.0 if other is None else command.factor * inputs.state(other).lateral_speed
     return _last(command.course, command.speed) + moving - me.lateral_speed
@@ -225,7 +225,7 @@ def _lane(command: LaneChange | LaneOffset, state: ActorState, road_map: RoadMap
         if place is None:
             return PENDING
         ahead = road_map.route_distance(goal, place)
-        if ahead is not None:  # the lane continues, under whatever number
+        if ahead is not None:  # the lane continues, whatever its id
             lane = road_map.advance(LanePosition(goal.road, goal.lane, goal.s), ahead).position
             goal = lane._replace(offset=goal.offset)
         there = (place.road, place.lane) == (goal.road, goal.lane)

@@ -1,7 +1,7 @@
 """Expectations that have a time: arrivals and schedules.
 
-They are judged when their time is over, from what was measured until then; how an actor gets there
-is its own affair.
+They are judged at the end of their time, from the measurements until then; the motion until then is
+free.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ _OVER = 1e-9  # s
 
 
 class Arrival:
-    """Is somewhere after a time, with the speed that is asked for.
+    """Reaches a position after a time, with the required speed.
 
     Args:
-        command: Where, when and how fast.
+        command: The position, the time and the speed.
     """
 
     def __init__(self, command: Arrive) -> None:
@@ -31,7 +31,7 @@ class Arrival:
         self._judged: Progress | None = None
 
     def __call__(self, me: ActorState, inputs: StepInputs) -> Progress:
-        """Judge place and speed at the step at which the time is over."""
+        """Judge position and speed at the step at which the time ends."""
         self._covered += me.v * inputs.dt
         self._left -= inputs.dt
         if self._judged is None and self._left <= _OVER:
@@ -59,7 +59,7 @@ class Arrival:
 
 
 class Timetable:
-    """Is at the end of a curve over time, no later than is forgiven to actors of our own.
+    """Reaches the end of a curve over time, with the tolerance of driven actors.
 
     Args:
         command: The curve.
@@ -72,7 +72,7 @@ class Timetable:
         self._left = command.end - command.begin
 
     def __call__(self, me: ActorState, inputs: StepInputs) -> Progress:
-        """Judge how far along the curve it was measured."""
+        """Judge its measured position along the curve."""
         reach = max(2.0 * abs(me.v) * inputs.dt, 1.0)
         self._along = self._command.curve.nearest(me.x, me.y, self._along, reach)
         self._left -= inputs.dt
@@ -87,7 +87,7 @@ class Timetable:
 
 
 def speed_error(command: FollowSpeed, me: ActorState, inputs: StepInputs) -> float:
-    """How much (m/s) an actor is slower than another one asks for."""
+    """Missing speed (m/s) of an actor relative to a reference."""
     difference = command.difference
     if command.course is not None:
         difference = command.course.value(command.course.duration)
@@ -96,7 +96,7 @@ def speed_error(command: FollowSpeed, me: ActorState, inputs: StepInputs) -> flo
 
 
 def gap_error(command: KeepGap, me: ActorState, inputs: StepInputs) -> float | None:
-    """How many metres an actor is short of its place; None if no lanes lead there."""
+    """Distance (m) of an actor to its target position; None if no lanes lead there."""
     found = allowed_gap(command, me, inputs.state(command.reference), me.v, inputs)
     if found is None:
         return None

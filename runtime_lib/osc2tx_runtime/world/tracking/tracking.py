@@ -1,8 +1,7 @@
-"""How well a driven actor follows its reference, and when its command counts as done.
+"""Tracking of the reference by a driven actor, and completion of its command.
 
-A command is done when its reference has come to the end *and* the actor was measured there, within
-the tolerances. An actor that does not get there in time, or leaves its path, fails its
-command with the figures.
+A command is done when its reference has reached the end *and* the actor was measured there, within
+the tolerances. An actor that is late, or leaves its path, fails its command with the deviations.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from osc2tx_runtime.world.measuring.deviation import (
 from osc2tx_runtime.world.protocol import LONGITUDINAL, PENDING, REACHED, Progress
 from osc2tx_runtime.world.state import ActorState
 
-_LEFT = 1.0  # s beside its path after which an actor has left it
+_LEFT = 1.0  # s of deviation after which an actor has left its path
 
 
 class Tracking:
@@ -31,7 +30,7 @@ class Tracking:
         self._deviation: Deviation | None = None
         self._standing = False  # the reference
         self._late: dict[str, float] = {}
-        self._astray = 0.0  # s beside its path
+        self._astray = 0.0  # s of deviation from its path
 
     def step(
         self,
@@ -43,8 +42,8 @@ class Tracking:
         """Note a step.
 
         Args:
-            state: Measured at its end.
-            reference: As commanded at its end.
+            state: Measured state at its end.
+            reference: Reference at its end.
             commanded: Progress of the reference in each slot.
             dt: Its length (s).
         """
@@ -57,11 +56,11 @@ class Tracking:
         self._astray = self._astray + dt if astray else 0.0
 
     def forget(self, slot: str) -> None:
-        """Begin anew with a command of a slot."""
+        """Restart with a new command of a slot."""
         self._late.pop(slot, None)
 
     def deviation(self, slots: Sequence[str]) -> Deviation | None:
-        """How far it is off; None before it was measured."""
+        """Its deviation; None before a measurement."""
         if self._deviation is None:
             return None
         late = max((self._late.get(slot, 0.0) for slot in slots), default=0.0)

@@ -1,4 +1,4 @@
-"""Base classes of the traffic light actions: find the boxes, switch their lamps."""
+"""Base classes of the traffic light actions: find the lights, switch their lamps."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class SignalAction(Action):
-    """The common base of the actions."""
+    """Base class of the traffic light actions."""
 
     @property
     def signals(self) -> Signals:
@@ -32,7 +32,7 @@ class SignalAction(Action):
         return self.context.world.signals
 
     def setup(self, **kwargs: Any) -> None:
-        """Check that the map has the lights to switch."""
+        """Checks that the map has the lights to switch."""
         super().setup(**kwargs)
         try:
             self.find()
@@ -45,12 +45,12 @@ class SignalAction(Action):
         """Find the lights on the map.
 
         Raises:
-            ScenarioError: They are not there.
+            ScenarioError: The map does not have them.
         """
         raise NotImplementedError
 
     def switch(self, kind: str, signal: str, states: Mapping[int, BulbState]) -> None:
-        """Ask for new states of lamps of a box, by their numbers in it."""
+        """Request new states of lamps of a light, by their numbers in it."""
         for lamp, state in states.items():
             apply = partial(self._switch, signal, lamp, state)
             self.context.effect((f"{kind} {signal} lamp {lamp}",), self, state, apply)
@@ -60,14 +60,14 @@ class SignalAction(Action):
             self.note(signal, self.signals.states(signal))
 
     def note(self, signal: str, states: Sequence[BulbState], ignored: str | None = None) -> None:
-        """Write to the trace the meaning and the lamps of a light, and meanings it cannot show."""
+        """Write meaning and lamps of a light to the trace, and meanings that it cannot show."""
         meaning = meaning_of(self.signals.lamps(signal), states)
         self.context.trace.signal(signal, meaning, states, ignored)
 
 
 @dataclass(frozen=True, slots=True)
 class OneLamp:
-    """One lamp of a box, chosen by its color and symbol."""
+    """One lamp of a light, chosen by its color and symbol."""
 
     color: BulbColor
     icon: BulbIcon
@@ -86,34 +86,34 @@ class OneLamp:
 
 @dataclass(frozen=True, slots=True)
 class AllLamps:
-    """All lamps of a box, in their order."""
+    """All lamps of a light, in their order."""
 
     state: Bulbs
 
     def states(self, signal: str, lamps: Sequence[Lamp]) -> Mapping[int, BulbState]:
-        """Those given."""
+        """The given states."""
         return dict(enumerate(states_of(self.state, lamps, f"traffic light {signal}")))
 
 
 @dataclass(frozen=True, slots=True)
 class Saying:
-    """What boxes tell drivers; those that cannot say it stay as they are (DSL 8.15.9.3)."""
+    """A semantic state; lights that cannot show it keep their states (DSL 8.15.9.3)."""
 
     state: SemanticTrafficLightState
 
     def states(self, signal: str, lamps: Sequence[Lamp]) -> Mapping[int, BulbState] | None:
-        """Those that mean it."""
+        """The states that mean it."""
         states = lamps_that_mean(lamps, self.state)
         return None if states is None else dict(enumerate(states))
 
 
 class Switch(SignalAction):
-    """Switches the lamps of boxes at once.
+    """Switches the lamps of lights instantly.
 
     Args:
         actor: The actor.
         modifiers: None are accepted.
-        lights: The boxes.
+        lights: The lights.
         sync: Also switch the lights that are synchronized with them.
         shown: The state to show.
         options: Duration and label.
@@ -134,14 +134,14 @@ class Switch(SignalAction):
         self.shown = shown
 
     def find(self) -> None:
-        """Find the boxes, and check whether they can show the state."""
+        """Find the lights, and check whether they can show the state."""
         for signal in self.lights(self.signals):
             self.new_states(signal)
         if self.sync:
             self._cycles()
 
     def new_states(self, signal: str) -> Mapping[int, BulbState] | None:
-        """New states of lamps by their numbers; None where the box cannot show the state."""
+        """New states of lamps by their numbers; None if the light cannot show the state."""
         return self.shown.states(signal, self.signals.lamps(signal))
 
     def on_start(self) -> None:
@@ -158,7 +158,7 @@ class Switch(SignalAction):
                 self._in_step(signal, [states.get(lamp, old) for lamp, old in enumerate(now)])
 
     def on_update(self) -> Status:
-        """Ends at once."""
+        """Ends in the same step."""
         return Status.SUCCESS
 
     def _ignore(self, signal: str) -> None:
@@ -176,12 +176,12 @@ class Switch(SignalAction):
         return cycles
 
     def _in_step(self, signal: str, states: Sequence[BulbState]) -> None:
-        """Switches lights of the same synchronization group to their states at that time."""
+        """Switches the lights of the same synchronization group to their states at that time."""
         signals, cycles = self.signals, self._cycles()
         own = next((c for c in cycles if signal in c.phases[0].group.lights(signals)), None)
         time = None if own is None else time_of(own, states, signals.lamps(signal))
         if own is None or time is None or own.synchronization_group_id is None:
-            return  # nothing says what would be consistent with it
+            return  # no state is known to be consistent with it
         switched = self.lights(signals)
         for cycle in cycles:
             if cycle is own or cycle.synchronization_group_id != own.synchronization_group_id:

@@ -1,7 +1,7 @@
 """Actions of traffic light controllers (DSL 8.15.9).
 
-The state of a light lasts until it is switched again. A box or group that the map does not have,
-lamps that do not fit, and invalid cycles are rejected before the scenario starts.
+The state of a light lasts until it is switched again. Lights and groups that the map does not have,
+unsuitable lamps, and invalid cycles are rejected before the scenario starts.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 @action("traffic_light_controller", "play_cycles", ends="open", needs=("traffic_lights",))
 class PlayCycles(SignalAction):
-    """Run cycles, again and again, until another action switches one of the lights.
+    """Repeat cycles until another action switches one of the lights.
 
     Args:
         actor: The controller.
@@ -55,7 +55,7 @@ class PlayCycles(SignalAction):
         self._phases: dict[str, int] = {}
 
     def find(self) -> None:
-        """Find the lights, and see whether the cycles fit them."""
+        """Find the lights, and check that the cycles fit them."""
         signals = self.signals
         playing: dict[str, TrafficLightCycle] = {}
         found = []
@@ -79,7 +79,7 @@ class PlayCycles(SignalAction):
         self._play()
 
     def on_update(self) -> Status:
-        """Shows the phase of the present time; ends if another action has taken over a light."""
+        """Shows the present phase; ends if another action has switched a light."""
         if self.elapsed_steps == 0:
             return Status.RUNNING
         lights = [signal for _, each in self.playing for signal in each]
@@ -98,8 +98,8 @@ class PlayCycles(SignalAction):
                 self._phases[signal] = moment.number
                 lamps = self.signals.lamps(signal)
                 states = states_of(moment.phase.bulbs_state, lamps, moment.phase.group.name)
-                # Its own kind of effect: an action that switches the light is no conflict, it
-                # comes after (the kinds are carried out by name) and ends this one.
+                # A separate kind of effect: an action that switches the light does not conflict
+                # with it. It comes later (the kinds are applied by name) and ends this action.
                 self.switch("cycle of light", signal, dict(enumerate(states)))
 
 
@@ -109,7 +109,7 @@ def _alone(light: TrafficLight) -> Callable[[Signals], tuple[str, ...]]:
 
 @action("traffic_light_controller", "set_bulb_state", ends="instant", needs=("traffic_lights",))
 class SetBulbState(Switch):
-    """Switch one lamp of a box, chosen by its color and symbol."""
+    """Switch one lamp of a traffic light, chosen by its color and symbol."""
 
     def __init__(
         self,
@@ -128,7 +128,7 @@ class SetBulbState(Switch):
 
 @action("traffic_light_controller", "set_state", ends="instant", needs=("traffic_lights",))
 class SetState(Switch):
-    """Switch all lamps of a box, in their order."""
+    """Switch all lamps of a traffic light, in their order."""
 
     def __init__(
         self,
@@ -144,7 +144,7 @@ class SetState(Switch):
 
 @action("traffic_light_controller", "set_semantic_state", ends="instant", needs=("traffic_lights",))
 class SetSemanticState(Switch):
-    """Let a box say something; ignored if it has no lamps for it."""
+    """Set the semantic state of a traffic light; ignored if it has no lamps for it."""
 
     def __init__(
         self,
@@ -162,7 +162,7 @@ class SetSemanticState(Switch):
     "traffic_light_controller", "set_group_bulb_state", ends="instant", needs=("traffic_lights",)
 )
 class SetGroupBulbState(Switch):
-    """Switch one lamp in every box of the group that a light belongs to."""
+    """Switch one lamp of each traffic light in the group of a light."""
 
     def __init__(
         self,
@@ -181,7 +181,7 @@ class SetGroupBulbState(Switch):
 
 @action("traffic_light_controller", "set_group_state", ends="instant", needs=("traffic_lights",))
 class SetGroupState(Switch):
-    """Switch all lamps of every box of a group."""
+    """Switch all lamps of each traffic light in a group."""
 
     def __init__(
         self,
@@ -202,7 +202,10 @@ class SetGroupState(Switch):
     needs=("traffic_lights",),
 )
 class SetGroupSemanticState(Switch):
-    """Let every box of a group say something; boxes without lamps for it ignore it."""
+    """Set the semantic state of each traffic light in a group.
+
+    Lights without lamps for it ignore it.
+    """
 
     def __init__(
         self,

@@ -23,8 +23,8 @@ class SetLights(Action):
     Args:
         actor: The actor.
         *modifiers: None are accepted.
-        mode: `off`, `auto` (low beams while the sun is lower than 15 degrees or one sees less than
-            100 m far), `daytime`, `position`, `low_beam` or `high_beam`.
+        mode: `off`, `auto` (low beams while the sun is lower than 15 degrees or the visual range is
+            below 100 m), `daytime`, `position`, `low_beam` or `high_beam`.
         **options: Duration and label.
     """
 
@@ -46,7 +46,7 @@ class SetLights(Action):
         self.effect("lights", self.mode, self._switch)
 
     def on_update(self) -> Status:
-        """Ends at once."""
+        """Ends in the same step."""
         return Status.SUCCESS
 
     def _switch(self) -> None:

@@ -1,6 +1,6 @@
 """Acceleration actions: assign, keep and change it (DSL 8.8.2.7, 8.8.2.14, 8.8.2.15).
 
-A released speed slot holds the speed, so an acceleration lasts only as long as an action keeps it:
+A released speed slot holds the speed, so an acceleration lasts only while an action holds it:
 `assign_acceleration`, then `keep_acceleration`.
 """
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 @action("movable_object", "assign_acceleration", ends="at_once", slots=(LONGITUDINAL,))
 class AssignAcceleration(Assignment):
-    """Have an acceleration (m/s^2) at once, whatever the limits."""
+    """Set an acceleration (m/s^2) instantly, whatever the limits."""
 
     def __init__(
         self,
@@ -46,7 +46,7 @@ class AssignAcceleration(Assignment):
 
 @action("movable_object", "keep_acceleration", slots=(LONGITUDINAL,), ends="open")
 class KeepAcceleration(ModifiableAction):
-    """Hold the present acceleration; an actor that comes to a stand stays there."""
+    """Hold the present acceleration; an actor that reaches standstill remains there."""
 
     accepts: ClassVar[tuple[type, ...]] = SIDE_FREE
 
@@ -57,13 +57,13 @@ class KeepAcceleration(ModifiableAction):
 
 @action("movable_object", "change_acceleration", slots=(LONGITUDINAL,))
 class ChangeAcceleration(RatedChange):
-    """Reach an acceleration; fails if the actor comes to a stand before.
+    """Reach an acceleration; fails if the actor reaches standstill before.
 
     Args:
         actor: The actor.
         *modifiers: Modifiers of the lane.
         target: Acceleration (m/s^2), within the limits of the actor.
-        rate_profile: Course of the jerk; `constant`, `none` and `asap` keep it constant.
+        rate_profile: Profile of the jerk; `constant`, `none` and `asap` keep it constant.
         rate_peak: Its peak (m/s^3); default: the duration, else the limits of the actor.
         **options: Duration and label.
     """

@@ -1,4 +1,4 @@
-"""Actions that set position or orientation at once (DSL 8.8.2.4, 8.8.2.5)."""
+"""Actions that set position or orientation instantly (DSL 8.8.2.4, 8.8.2.5)."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ Target = Point | RoutePoint | OdrPoint
     paces=False,
 )
 class AssignPosition(Assignment):
-    """Be somewhere else at once; the speed stays.
+    """Teleport to a position; the speed remains.
 
     Args:
         actor: The actor.
@@ -79,10 +79,10 @@ class AssignPosition(Assignment):
 
 @action("movable_object", "assign_orientation", ends="at_once", slots=(LATERAL,))
 class AssignOrientation(Assignment):
-    """Have a heading, pitch and roll at once.
+    """Set heading, pitch and roll instantly.
 
-    A vehicle returns to its lane from there, and to its wheels as soon as they roll; other actors
-    keep the assigned pose. A pitch or roll of zero leaves it to the road.
+    A vehicle then returns to the direction of its lane, and to the attitude of the road as soon as
+    its wheels roll; other actors keep the assigned pose. A pitch or roll of zero follows the road.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""The action `change_position`: a generated path to a place (DSL 8.8.2.11)."""
+"""The action `change_position`: a generated path to a position (DSL 8.8.2.11)."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ TARGETS = ("target_position", "target_xyz", "target_st", "target_odr")
 
 @action("movable_object", "change_position", slots=(LATERAL,))
 class ChangePosition(CourseAction):
-    """Move to a position; the speed is free, from standstill it becomes `CRUISE`.
+    """Move to a position; the speed is free; from standstill it becomes `CRUISE`.
 
     Args:
         actor: The actor.
@@ -49,8 +49,8 @@ class ChangePosition(CourseAction):
         target_xyz: Point in the world.
         target_st: Point in route coordinates.
         target_odr: Point in road coordinates.
-        interpolation: `smooth` starts in the present direction; off the road network only.
-        on_road_network: Along lanes; default: for vehicles on a lane.
+        interpolation: `smooth` starts in the present heading; only off the road network.
+        on_road_network: Whether to move along lanes; default: vehicles on a lane do.
         **options: Duration and label.
     """
 
@@ -77,7 +77,7 @@ class ChangePosition(CourseAction):
         self.on_road_network = actor.lane_bound if on_road_network is None else on_road_network
 
     def commands(self) -> dict[str, Command]:
-        """The way to the target."""
+        """The path to the target."""
         target = cast(AnyPoint, now(self.target))
         place = self.place(target)
         path = self._along_lanes(place) if self.on_road_network else self._across(place)
@@ -86,7 +86,7 @@ class ChangePosition(CourseAction):
         }
 
     def place(self, target: AnyPoint) -> LanePosition | opendrive.Pose:
-        """The place of a point on the map."""
+        """The lane position of a point."""
         match target:
             case RoutePoint():
                 return place_of_route(self.world.map, target)
@@ -114,6 +114,6 @@ class ChangePosition(CourseAction):
         start, goal = Pose(here.x, here.y, here.z), Pose(pose.x, pose.y, pose.z)
         if self.interpolation == "straight_line" or away < 1e-6:
             return Path((start, goal))
-        lead = 0.25 * away  # a point straight ahead gives the first direction
+        lead = 0.25 * away  # a point straight ahead sets the initial direction
         ahead = Pose(here.x + lead * math.cos(here.h), here.y + lead * math.sin(here.h), here.z)
         return Path((start, ahead, goal), "smooth")

@@ -27,7 +27,7 @@ from .modifiable import ModifiableAction
 
 @action("movable_object", "move", ends="open")
 class Move(ModifiableAction):
-    """Move as the modifiers say."""
+    """Move as the modifiers state."""
 
     accepts: ClassVar[tuple[type, ...]] = (
         *SPEED_SHAPERS,
@@ -40,7 +40,10 @@ class Move(ModifiableAction):
 
 @action("vehicle", "drive", ends="open")
 class Drive(ModifiableAction):
-    """Drive as the modifiers say; without any, on in the lane at the same speed, less in bends."""
+    """Drive as the modifiers state.
+
+    Without modifiers along the lane at the present speed, slower in bends.
+    """
 
     accepts: ClassVar[tuple[type, ...]] = Move.accepts
 
@@ -53,7 +56,7 @@ class Drive(ModifiableAction):
 )
 @action("person", "walk", ends="open")
 class Walk(ModifiableAction):
-    """Walk as the modifiers say, straight on or along a path."""
+    """Walk as the modifiers state, straight ahead or along a path."""
 
     accepts: ClassVar[tuple[type, ...]] = (
         *(Speed, ChangeSpeed, KeepSpeed, Acceleration),

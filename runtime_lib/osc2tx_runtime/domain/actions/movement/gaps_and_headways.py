@@ -1,7 +1,7 @@
 """Gap and headway actions, relative to another actor (DSL 8.8.3.4 to 8.8.3.11).
 
-Gaps along the road count from end to end, across it from side to side; headways from front to
-front. A gap in time across the road is the gap over the lateral speed towards the reference.
+Longitudinal gaps are measured between facing ends, lateral gaps between facing sides, headways
+between fronts. A lateral time gap is the gap divided by the lateral approach speed.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ _DIRECTIONS: tuple[GapDirection, ...] = get_args(GapDirection)
 
 
 class _OneAxis(ModifiableAction):
-    """Controls the speed or the lane; modifiers may state the other one.
+    """Controls the speed or the lane; modifiers may constrain the other slot.
 
     Attributes:
-        measure: Between facing ends, or from front to front.
-        timed: It is a time.
+        measure: Between facing ends, or between fronts.
+        timed: Whether it is a time.
     """
 
     accepts: ClassVar[tuple[type, ...]] = (*SIDE_FREE, *SPEED_FREE)
@@ -58,12 +58,12 @@ class _OneAxis(ModifiableAction):
             self.slots = (LATERAL,)
 
     def gap(self, size: float, *, ahead: bool) -> KeepGap:
-        """The command for a size (m or s) along the road."""
+        """The command for a longitudinal size (m or s)."""
         distance, time = (None, size) if self.timed else (size, None)
         return KeepGap(self.reference.id, ahead, self.measure, distance=distance, time=time)
 
     def beside(self, size: float, *, left: bool, duration: float | None = None) -> Beside:
-        """The command for a size (m or s) across the road."""
+        """The command for a lateral size (m or s)."""
         if self.timed:
             return Beside(self.reference.id, time=size)
         reach = 0.5 * (self.here.width + self.world.state(self.reference.id).width)
@@ -76,7 +76,7 @@ class _OneAxis(ModifiableAction):
         return super().takes(modifier) and isinstance(modifier, free)
 
     def setup(self, **kwargs: Any) -> None:
-        """Check what can be known by now."""
+        """Checks what is known at this time."""
         super().setup(**kwargs)
         if self.may_jump:
             raise UnsupportedError(
@@ -87,7 +87,7 @@ class _OneAxis(ModifiableAction):
 
 
 class _ChangeGap(_OneAxis):
-    """Reaches a distance or time to another actor, at the end of its duration if it has one."""
+    """Reaches a distance or time to another actor, at the end of its duration if one is given."""
 
     accepts_with: ClassVar[Mapping[str, Mapping[str, tuple[type, ...]]]] = {
         "direction": {
@@ -115,7 +115,7 @@ class _ChangeGap(_OneAxis):
         self.direction = direction
 
     def on_start(self) -> None:
-        """Commands the gap; a negative one is on the other side."""
+        """Commands the gap; a negative gap is on the other side."""
         target = value_of(self.target)
         size = abs(target)
         if LATERAL in self.own:
@@ -132,7 +132,7 @@ class _ChangeGap(_OneAxis):
         self.command(LONGITUDINAL, arrival(self, wanted) or wanted)
 
     def situation(self) -> str:
-        """Return how large the distance is now."""
+        """Return the present distance in words."""
         unit = "s" if self.timed else "m"
         direction: RoadDistanceDirection = "lateral" if LATERAL in self.own else "longitudinal"
         kind = "time" if self.timed else "space"
@@ -155,18 +155,18 @@ class _ChangeGap(_OneAxis):
 
 @action("vehicle", "change_space_gap", slots=(LONGITUDINAL,), needs=("lanes",))
 class ChangeSpaceGap(_ChangeGap):
-    """Reach a space (m) between facing ends or sides, in a direction from the reference."""
+    """Reach a space gap (m) between facing ends or sides, in a direction from the reference."""
 
 
 @action("vehicle", "change_time_gap", slots=(LONGITUDINAL,), needs=("lanes",))
 class ChangeTimeGap(_ChangeGap):
-    """Reach a time (s) between facing ends at the speed of the one behind, or between sides."""
+    """Reach a time gap (s) between facing ends at the speed of the follower, or between sides."""
 
     timed = True
 
 
 class _ChangeHeadway(_ChangeGap):
-    """Reaches a distance or time between fronts, along the road."""
+    """Reaches a headway, as a distance or time."""
 
     measure = "headway"
 
@@ -186,18 +186,18 @@ class _ChangeHeadway(_ChangeGap):
 
 @action("vehicle", "change_space_headway", slots=(LONGITUDINAL,), needs=("lanes",))
 class ChangeSpaceHeadway(_ChangeHeadway):
-    """Reach a distance (m) between fronts, `ahead` of or `behind` the reference."""
+    """Reach a space headway (m) between fronts, `ahead` of or `behind` the reference."""
 
 
 @action("vehicle", "change_time_headway", slots=(LONGITUDINAL,), needs=("lanes",))
 class ChangeTimeHeadway(_ChangeHeadway):
-    """Reach a time (s) between fronts, at the speed of the one behind."""
+    """Reach a time headway (s) between fronts, at the speed of the follower."""
 
     timed = True
 
 
 class _KeepGap(_OneAxis):
-    """Holds the distance or time to another actor that there is at the start."""
+    """Holds the distance or time to another actor at the start."""
 
     accepts_with: ClassVar[Mapping[str, Mapping[str, tuple[type, ...]]]] = {
         "direction": {"": SIDE_FREE, "longitudinal": SIDE_FREE, "lateral": SPEED_FREE}
@@ -248,18 +248,18 @@ class _KeepGap(_OneAxis):
 
 @action("vehicle", "keep_space_gap", slots=(LONGITUDINAL,), ends="open", needs=("lanes",))
 class KeepSpaceGap(_KeepGap):
-    """Hold the present space between facing ends, or sides."""
+    """Hold the present space gap between facing ends or sides."""
 
 
 @action("vehicle", "keep_time_gap", slots=(LONGITUDINAL,), ends="open", needs=("lanes",))
 class KeepTimeGap(_KeepGap):
-    """Hold the present time between facing ends, or sides."""
+    """Hold the present time gap between facing ends or sides."""
 
     timed = True
 
 
 class _KeepHeadway(_KeepGap):
-    """Holds the distance or time between fronts, which is one along the road."""
+    """Holds a headway, as a distance or time."""
 
     measure = "headway"
 
@@ -275,11 +275,11 @@ class _KeepHeadway(_KeepGap):
 
 @action("vehicle", "keep_space_headway", slots=(LONGITUDINAL,), ends="open", needs=("lanes",))
 class KeepSpaceHeadway(_KeepHeadway):
-    """Hold the present distance between fronts."""
+    """Hold the present space headway between fronts."""
 
 
 @action("vehicle", "keep_time_headway", slots=(LONGITUDINAL,), ends="open", needs=("lanes",))
 class KeepTimeHeadway(_KeepHeadway):
-    """Hold the present time between fronts."""
+    """Hold the present time headway between fronts."""
 
     timed = True

@@ -45,7 +45,7 @@ SIDES: tuple[LaneChangeSide, ...] = get_args(LaneChangeSide)
 
 
 class _OnLane(ModifiableAction):
-    """Goes to a place across the road."""
+    """Moves to a lateral position."""
 
     accepts: ClassVar[tuple[type, ...]] = SPEED_FREE
 
@@ -66,10 +66,10 @@ class _OnLane(ModifiableAction):
         return peak_of(self._rate_peak, "m/s")
 
     def shift(self, lanes: int, offset: float, duration: Duration | None) -> None:
-        """Commands the way to a lane (a number of lanes to the left) and an offset (m) in it.
+        """Commands the motion to a lane (a number of lanes to the left) and an offset (m) in it.
 
         Raises:
-            Refused: It cannot be.
+            Refused: It is not possible.
         """
         if self.may_jump:
             jump_aside(self, lanes, offset)
@@ -86,7 +86,7 @@ class _OnLane(ModifiableAction):
     def _time(
         self, there: LanePosition, offset: float, duration: Duration, peak: float | None
     ) -> float | None:
-        """How long it is to take, where the duration leaves a choice."""
+        """The time (s) for it, if the duration leaves a choice."""
         here = self.here
         start = offset_from(self.world.map, there, here.x, here.y)
         course = (self.rate_profile, peak, None)
@@ -106,7 +106,7 @@ class _OnLane(ModifiableAction):
 
 @action("vehicle", "change_lane", slots=(LATERAL,), needs=("lanes",))
 class ChangeLane(_OnLane):
-    """End in another lane, aligned with it.
+    """Change to another lane, and end aligned with it.
 
     Without a rate or a duration it takes `LANE_CHANGE_TIME` (3 s) for 3.5 m. The lane may be one
     of oncoming traffic: there the actor continues in its own direction.
@@ -116,12 +116,12 @@ class ChangeLane(_OnLane):
         *modifiers: Modifiers of the speed.
         num_of_lanes: Number of lanes from the reference.
         side: Side of the reference; `inside` is towards opposing traffic, `same` its own lane.
-            Without a side one is drawn from the seed among those with a lane of its direction.
+            Default: drawn from the seed among the sides with a lane of its direction.
         reference: Default: the actor itself.
-        offset: Metres left of the centre of the target lane at the end.
-        rate_profile: Course of the lateral speed.
+        offset: Metres to the left of the target lane centre at the end.
+        rate_profile: Profile of the lateral speed.
         rate_peak: Its peak (m/s).
-        target: Instead of a number and a side: a lane of the map beside the present one.
+        target: Instead of a number and a side: a lane of the map beside the present lane.
         **options: Duration and label.
     """
 
@@ -186,11 +186,11 @@ class ChangeLane(_OnLane):
 
     @property
     def looks_further(self) -> bool:
-        """After a jump, and for a reference that changes lanes."""
+        """After an instant change, and for a reference that changes lanes."""
         return self.may_jump or self.reference is not None
 
     def on_update(self) -> Status:
-        """Ends in the lane, after a jump at the next step; keeps up with the reference."""
+        """Ends in the lane, after an instant change at the next step; follows the reference."""
         if self.may_jump and not self.has_goal:
             return Status.SUCCESS if self.elapsed_steps else Status.RUNNING
         if self._beside != (now_in := self._lane_of_reference()):
@@ -236,11 +236,11 @@ class FollowLane(_OnLane):
     Args:
         actor: The actor.
         *modifiers: Modifiers of the speed.
-        offset: Metres left of its centre.
-        offset_range: Instead of it: its range at all times.
-        rate_profile: Course of the lateral speed on the way there.
+        offset: Metres to the left of its centre.
+        offset_range: Instead of the offset: its range at all times.
+        rate_profile: Profile of the lateral speed until it is reached.
         rate_peak: Its peak (m/s).
-        target: The lane of the map in which it is; None: whichever that is.
+        target: The lane of the map; None: the present lane.
         **options: Duration and label.
     """
 

@@ -1,9 +1,9 @@
 """The base of actions whose motion modifiers complete (DSL 8.9.1).
 
 `ego.follow_path(way) with: speed(30kph)`: the action controls the pose, the modifier the speed.
-`at: all` holds (or is approached and then held) from the start of the action on; `at: end` is
-reached exactly at the end of its duration or of the phase it ends with, else it ends the action;
-`at: start` has to hold when the action starts, or is jumped to where physics need not hold.
+`at: all` holds (or is approached and then held) from the start of the action; `at: end` is reached
+exactly at the end of its duration or of the phase it ends with, else it ends the action; `at:
+start` has to hold when the action starts, or is set instantly if physics need not hold.
 """
 
 from __future__ import annotations
@@ -49,13 +49,13 @@ CARE = AvoidCollisions()
 
 
 class ModifiableAction(ModifiedMotion):
-    """Moves by itself in its own slots, and as the modifiers say in those they mention.
+    """Controls its own slots, and further slots as the modifiers state.
 
     It claims the speed if a modifier mentions it, and the lane likewise, so that
     `drive() with: speed(...)` and `change_lane(...)` run side by side.
 
     Attributes:
-        stands: Whether it goes nowhere, so that all its modifiers are about where it is.
+        stands: Whether it does not move, so that all its modifiers state its position.
         own: Slots that the action controls itself.
     """
 
@@ -71,10 +71,10 @@ class ModifiableAction(ModifiedMotion):
         self._counted = (0, 0.0)
         self._watched: PlaceWatch | None = None
         self._toward: object = None  # the lane of a reference, or its heading
-        self._waits = False  # for news of its actor, or for its time to be over
+        self._waits = False  # for a change of its actor, or for the end of its duration
 
     def become(self, method: Method) -> None:
-        """Take the method; a goal bounds the action."""
+        """Takes the method; a goal bounds the action."""
         super().become(method)
         if self.has_goal and self.duration is None:
             goals = [m for m in self.modifiers if self._bounds(m)]
@@ -83,7 +83,7 @@ class ModifiableAction(ModifiedMotion):
 
     @cached_property
     def own(self) -> tuple[str, ...]:
-        """Slots that the action controls itself; read when it is complete."""
+        """Slots that the action controls itself; read when the action is complete."""
         return self.slots
 
     @cached_property
@@ -103,7 +103,7 @@ class ModifiableAction(ModifiedMotion):
         )
 
     def _is_route(self, modifier: Modifier) -> bool:
-        """Whether a modifier is about a route of the map to follow, and not about a line."""
+        """Whether a modifier states a route of the map, and not a path."""
         if not isinstance(modifier, Along) or "vehicle" not in self.actor.kinds:
             return False
         route = modifier.route
@@ -112,7 +112,7 @@ class ModifiableAction(ModifiedMotion):
 
     @cached_property
     def follows_path(self) -> bool:
-        """True if it ends behind the end of a path."""
+        """True if it ends after the end of a path."""
         return any(isinstance(modifier, PATH_SHAPERS) for modifier in self.modifiers)
 
     def takes(self, modifier: Modifier) -> bool:
@@ -120,7 +120,7 @@ class ModifiableAction(ModifiedMotion):
         return modifier.is_start or isinstance(modifier, self.accepts)
 
     def speaks_of(self, slot: str) -> bool:
-        """Whether a modifier says something about a slot."""
+        """Whether a modifier constrains a slot."""
         return any(slot in self._slots_of(modifier) for modifier in self.modifiers)
 
     def _slots_of(self, modifier: Modifier) -> tuple[str, ...]:
@@ -143,10 +143,10 @@ class ModifiableAction(ModifiedMotion):
                 return ()
         return modifier.facts.slots
 
-    # --- how it runs --------------------------------------------------------------------------
+    # --- execution ----------------------------------------------------------------------------
 
     def setup(self, **kwargs: Any) -> None:
-        """Claim the slots that the modifiers control as well, and check what is known by now."""
+        """Claims the slots of the modifiers, and checks what is known at this time."""
         if self.has_goal and not self.follows_path:
             self._phase = phase_of(self, strict=not kwargs["context"].first_come)
         if self._phase is not None:
@@ -194,13 +194,13 @@ class ModifiableAction(ModifiedMotion):
         self._waits = self._has_nothing_to_see_to()
 
     def command(self, slot: str, command: Command) -> None:
-        """Command the actor, with care if a modifier asks for it."""
+        """Command the actor, with collision avoidance if a modifier requires it."""
         careful = slot == LONGITUDINAL and self._careful()
         super().command(slot, Careful(command) if careful else command)
 
     @property
     def _cares_for_others(self) -> bool:
-        """Whether it has no command for its speed, but care."""
+        """Whether it has no command for the speed, but avoids collisions."""
         return LONGITUDINAL in self.slots and LONGITUDINAL not in self.own and self._careful()
 
     def _careful(self) -> bool:
@@ -211,7 +211,7 @@ class ModifiableAction(ModifiedMotion):
         return standard and not self.may_jump and isinstance(CARE, self.accepts)
 
     def _has_nothing_to_see_to(self) -> bool:
-        """Whether it commands nothing any more, and ends by progress or time alone."""
+        """Whether it has no further commands, and ends only by progress or time."""
         watched = (self._to_cover, self._watched, self._toward, self._phase, self.orient)
         return (
             all(each is None for each in watched)
@@ -222,18 +222,18 @@ class ModifiableAction(ModifiedMotion):
 
     @property
     def looks_further(self) -> bool:
-        """Whether it looks at more than its goal and its references in each pass."""
+        """Whether it checks more than its goal and its references in each pass."""
         return type(self).on_update is not ModifiableAction.on_update
 
     def _rest(self) -> None:
-        """Rest, unless the time is over that it may take."""
+        """Rest, unless its time limit is over."""
         resting = self.context.resting
         if self._limits is None or self._limits.rest():
             resting.with_actor(self, self.actor.id)
             resting.nodes.add(self)
 
     def on_update(self) -> Status:
-        """Ends with its goal; keeps up with references."""
+        """Ends with its goal; follows references."""
         if self._jumped and not self.context.effects.is_pending(self):
             self._jumped = False
             self.__dict__.pop("origin", None)
@@ -264,7 +264,7 @@ class ModifiableAction(ModifiedMotion):
         return self._covered - 1.5 * step > self._to_cover + 1e-6
 
     def update(self) -> Status:
-        """Update; at the end of a duration the goal has to be there."""
+        """Update; at the end of a duration the goal has to be reached."""
         status = super().update()
         over = status is Status.SUCCESS
         if self._phase is not None and status is Status.RUNNING:
@@ -273,7 +273,7 @@ class ModifiableAction(ModifiedMotion):
             missed = None if self._watched is None else self._watched.missed
             return self.fail(missed or self._not_reached())
         if self._waits and status is Status.RUNNING and self.elapsed_steps:
-            self._rest()  # at its start its commands are not at work yet
+            self._rest()  # at its start its commands have no effect yet
         return Status.SUCCESS if over else status
 
     def _not_reached(self, *, earlier: bool = False) -> str:
@@ -286,7 +286,7 @@ class ModifiableAction(ModifiedMotion):
     # --- goals --------------------------------------------------------------------------------
 
     def goal_reached(self, done: dict[str, bool]) -> bool:
-        """Whether all that is to be reached is."""
+        """Whether all parts of the goal are reached."""
         open_ended = self.registered.ends == "open"
         if open_ended and not self.has_goal:
             return False
@@ -306,7 +306,7 @@ class ModifiableAction(ModifiedMotion):
             lasting = getattr(modifier, "at", "all") == "end" or is_way
             looked_at = self._watched is not None or self._to_cover is not None
             if looked_at and isinstance(modifier, Position):
-                continue  # by itself
+                continue  # on its own
             counted = isinstance(modifier, Distance) and modifier.shape is None
             lasting = lasting or isinstance(modifier, Distance)
             if lasting and not counted and slot in self._slots_of(modifier):

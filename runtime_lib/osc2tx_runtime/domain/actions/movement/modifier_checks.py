@@ -19,7 +19,7 @@ RULES = {name: kind.facts.rules for name, kind in MODIFIERS.items()}
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Call:
-    """A modifier, as the rules see it."""
+    """A modifier in the form that the rules read."""
 
     modifier: Modifier
     given: GivenValues
@@ -50,11 +50,11 @@ def at_of(modifier: Modifier) -> str:
 
 
 def check_modifiers(action: ModifiedMotion) -> None:
-    """Refuse modifiers that contradict each other, or have no effect here.
+    """Reject modifiers that contradict each other, or have no effect here.
 
     Raises:
         UnsupportedError: They cannot be executed together, or at that time.
-        ScenarioError: A modifier is given twice, or without a required one.
+        ScenarioError: A modifier is given twice, or without one that it requires.
     """
     calls = [_call(modifier) for modifier in action.modifiers]
     timing = Timing(action.duration is not None, action.end_is_known)
@@ -81,10 +81,10 @@ def _error(action: str, clash: _Clash) -> ScenarioError:
 
 
 def check_options(action: ModifiedMotion) -> None:
-    """Refuse what only vehicles on lanes can do; called when the actor is known to be one or not.
+    """Reject options of vehicles on lanes for other actors; called when the actor is known.
 
     Raises:
-        UnsupportedError: The actor follows no lanes.
+        UnsupportedError: The actor does not follow lanes.
     """
     if not action.movable.lane_bound:
         for text in _bound_to_lanes(action):

@@ -1,7 +1,7 @@
 """Actions along paths and trajectories (DSL 8.8.2.8, 8.8.2.9, 8.8.2.16, 8.8.2.17).
 
-A vehicle leaves its lane for the path and returns to the nearest lane behind its end. Along a path
-the speed is free: it stays, or another action controls it; from standstill it becomes `CRUISE`.
+A vehicle leaves its lane for the path and returns to the nearest lane after its end. Along a path
+the speed is free: it remains, or another action controls it; from standstill it becomes `CRUISE`.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
 
 class CourseAction(ModifiableAction):
-    """An action on a course that may turn out to be impossible when it starts."""
+    """An action along a path that may prove impossible when it starts."""
 
     def on_start(self) -> None:
         """Commands the course."""
@@ -51,11 +51,11 @@ class CourseAction(ModifiableAction):
             self.command(slot, command)
 
     def commands(self) -> dict[str, Command]:
-        """What to command in which slot.
+        """The command for each slot.
 
         Raises:
-            PathError: There is no such way.
-            PlacementError: There is no such place.
+            PathError: The path does not exist.
+            PlacementError: The position does not exist.
         """
         raise NotImplementedError
 
@@ -65,7 +65,7 @@ RelativeT = TypeVar("RelativeT", bound=RelativePath | RelativeTrajectory)
 
 
 class _OnCourse(CourseAction, Generic[CourseT, RelativeT]):
-    """What paths and trajectories have in common: two ways to say where they are."""
+    """Common base of paths and trajectories: absolute, or relative to a reference."""
 
     rules = (at_most_one("absolute", "relative"), at_least_one("absolute", "relative"))
     replays: ClassVar[bool]
@@ -76,7 +76,7 @@ class _OnCourse(CourseAction, Generic[CourseT, RelativeT]):
         return self.option() == "prefer_non_physical"
 
     def option(self) -> str:
-        """What `physical_movement` says; without it, a replay need not be physical."""
+        """The option of `physical_movement`; a replay without it need not be physical."""
         physical = one_of_kind(self.modifiers, PhysicalMovement)
         if physical is None and self.replays:
             return "prefer_non_physical"
@@ -103,11 +103,11 @@ class _OnCourse(CourseAction, Generic[CourseT, RelativeT]):
 
     @property
     def offsets(self) -> tuple[float, float]:
-        """Metres that are left out at the start and at the end, now."""
+        """Metres to omit at the start and at the end, now."""
         return value_of(self._offsets[0]), value_of(self._offsets[1])
 
     def course(self) -> CourseT:
-        """The course in the world, now."""
+        """The path or trajectory in the world, now."""
         if self.absolute is not None:
             return now(self.absolute)
         assert self.relative is not None
@@ -116,7 +116,7 @@ class _OnCourse(CourseAction, Generic[CourseT, RelativeT]):
         return self.resolved(relative, points)
 
     def resolved(self, relative: RelativeT, points: tuple[Pose, ...]) -> CourseT:
-        """The course whose points have been brought into the world."""
+        """The path or trajectory with its points in world coordinates."""
         raise NotImplementedError
 
 
@@ -130,7 +130,7 @@ class _OnPath(_OnCourse[Path, RelativePath]):
         return (Along(self.absolute, start_offset=self._offsets[0]),)
 
     def commands(self) -> dict[str, Command]:
-        """The path, from here."""
+        """The path, from the present position."""
         return {
             LATERAL: path_command(
                 self.world.map, self.here, self.course(), self.offsets, exact=self.may_jump
@@ -152,7 +152,7 @@ class _OnTrajectory(_OnCourse[Trajectory, RelativeTrajectory]):
         return (AlongTrajectory(self.absolute, start_offset=self._offsets[0]),)
 
     def commands(self) -> dict[str, Command]:
-        """The trajectory, from now."""
+        """The trajectory, from the present time."""
         return trajectory_commands(
             self.world.map, self.here, self.course(), self.offsets, exact=self.may_jump
         )
@@ -173,8 +173,8 @@ class FollowPath(_OnPath):
         relative: Or a path relative to the pose of a reference at the start.
         reference: Default: the actor itself.
         transform: Frame of the relative points.
-        start_offset: Metres of the path that are left out at its start.
-        end_offset: Metres that are left out at its end.
+        start_offset: Metres of the path to omit at its start.
+        end_offset: Metres to omit at its end.
         **options: Duration and label.
     """
 
@@ -183,24 +183,24 @@ class FollowPath(_OnPath):
 
 @action("movable_object", "replay_path", slots=(LATERAL,), places=True)
 class ReplayPath(_OnPath):
-    """Be on a path exactly, whatever the limits; arguments as of `follow_path`."""
+    """Follow a path exactly, whatever the limits; arguments as of `follow_path`."""
 
     replays = True
 
 
 @action("movable_object", "follow_trajectory", slots=(LONGITUDINAL, LATERAL), places=True)
 class FollowTrajectory(_OnTrajectory):
-    """Follow a trajectory as the limits of the actor allow; late arrival is no failure.
+    """Follow a trajectory as the limits of the actor allow; late arrival is not a failure.
 
     Args:
         actor: The actor.
         *modifiers: Only `physical_movement`.
         absolute: The trajectory; its times count from the start of the action.
-        relative: Or one relative to a reference, where that is at the start.
+        relative: Or a trajectory relative to the pose of a reference at the start.
         reference: Default: the actor itself.
         transform: Frame of the relative points.
-        start_offset: Metres left out at the start: the action begins at their end, at once.
-        end_offset: Metres that are left out at its end.
+        start_offset: Metres to omit at the start: the action begins at their end, instantly.
+        end_offset: Metres to omit at its end.
         **options: Duration and label.
     """
 
@@ -209,6 +209,6 @@ class FollowTrajectory(_OnTrajectory):
 
 @action("movable_object", "replay_trajectory", slots=(LONGITUDINAL, LATERAL), places=True)
 class ReplayTrajectory(_OnTrajectory):
-    """Be on a trajectory at its times exactly; arguments as of `follow_trajectory`."""
+    """Follow a trajectory exactly in position and time; arguments as of `follow_trajectory`."""
 
     replays = True

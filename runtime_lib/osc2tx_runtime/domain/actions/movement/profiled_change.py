@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 
 
 def check_profile(name: str, profile: str) -> None:
-    """Refuses a profile that does not exist."""
+    """Rejects a profile that does not exist."""
     if profile not in PROFILES:
         raise ScenarioError(f"{name}: rate_profile `{profile}` is none of {', '.join(PROFILES)}")
 
 
 def peak_of(value: Value | None, unit: str) -> float | None:
-    """A peak of a rate now, in a unit for messages; None if none is given.
+    """The peak of a rate now, with its unit for messages; None if none is given.
 
     Raises:
         Refused: It is not positive.
@@ -43,7 +43,7 @@ class RatedChange(ModifiableAction):
         actor: The actor.
         *modifiers: Modifiers of the lane.
         target: The target value, in SI units.
-        rate_profile: Course of the first derivative.
+        rate_profile: Profile of the first derivative.
         rate_peak: Its peak; default: the duration, else the limits of the actor.
         **options: Duration and label.
     """
@@ -77,11 +77,13 @@ class RatedChange(ModifiableAction):
         return peak_of(self._rate_peak, self.unit)
 
     def takes_too_long(self, peak: str, own: float) -> str | None:
-        """Why peak and duration contradict each other; None if they fit, or there is no duration.
+        """Why peak and duration contradict each other.
+
+        None if they are compatible, or without a duration.
 
         Args:
             peak: The peak with its unit.
-            own: Seconds that the change takes with it.
+            own: Seconds that the change takes with this peak.
         """
         duration = self.fixed_duration()
         if duration is None or abs(own - duration) <= self.context.dt:

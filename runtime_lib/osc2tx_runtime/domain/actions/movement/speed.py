@@ -37,7 +37,7 @@ class ChangeSpeed(RatedChange):
         actor: The actor.
         *modifiers: Modifiers of the lane.
         target: Speed (m/s).
-        rate_profile: Course of the acceleration.
+        rate_profile: Profile of the acceleration.
         rate_peak: Its peak (m/s^2); default: the duration, else the limits of the actor.
         **options: Duration and label.
     """
@@ -46,7 +46,7 @@ class ChangeSpeed(RatedChange):
     _is_there = False
 
     def on_start(self) -> None:
-        """Commands the change, or nothing if the speed is there already."""
+        """Commands the change, or nothing if the speed is already reached."""
         limits = self.limits if self.strict else self.tyres
         change = within_limits(self._change(value_of(self.target)), self.here.v, limits)
         reason = excessive_rate(change, self.here.v, limits)
@@ -58,7 +58,7 @@ class ChangeSpeed(RatedChange):
             self.command(LONGITUDINAL, change)
 
     def fills_its_time(self) -> bool:
-        """Whether there is nothing to change: the speed just stays for the duration."""
+        """Whether the speed is already reached, and remains for the duration."""
         return self._is_there
 
     def on_update(self) -> Status:
@@ -100,7 +100,7 @@ class KeepSpeed(ModifiableAction):
 
 @action("movable_object", "assign_speed", ends="at_once", slots=(LONGITUDINAL,))
 class AssignSpeed(Assignment):
-    """Have a speed (m/s) at once, whatever the limits."""
+    """Set a speed (m/s) instantly, whatever the limits."""
 
     def __init__(
         self,
@@ -120,9 +120,10 @@ class AssignSpeed(Assignment):
 
 @action("movable_object", "remain_stationary", slots=(LONGITUDINAL, LATERAL), ends="open")
 class RemainStationary(ModifiableAction):
-    """Stand still; a moving actor first brakes as hard as it can, unless physics must hold.
+    """Remain at standstill.
 
-    Where a modifier states the position at standstill, the actor has to be there at the start.
+    A moving actor first brakes with its greatest deceleration, unless physics must hold. If a
+    modifier states the position, the actor has to be there at the start.
     """
 
     accepts: ClassVar[tuple[type, ...]] = (*PLACES, PhysicalMovement)

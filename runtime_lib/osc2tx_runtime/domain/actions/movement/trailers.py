@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @action("vehicle", "connect_trailer", ends="at_once", needs=("towing",))
 class ConnectTrailer(Assignment):
-    """Couple a trailer whose coupler is within `COUPLING_REACH` of the own rear end."""
+    """Couple a trailer whose coupler is within `COUPLING_REACH` of the rear end of the vehicle."""
 
     def __init__(
         self,
@@ -30,7 +30,7 @@ class ConnectTrailer(Assignment):
         self.vehicle, self.trailer = actor, trailer
 
     def on_start(self) -> None:
-        """Couples it, if it is near enough and free."""
+        """Couples it, if it is within reach and not towed."""
         world, tow, trailer = self.world, self.actor.id, self.trailer.id
         gap = coupling_gap(self.here, world.state(trailer))
         if world.trailer_of(tow) is not None:
@@ -50,7 +50,7 @@ class ConnectTrailer(Assignment):
 
 @action("vehicle", "disconnect_trailer", ends="at_once", needs=("towing",))
 class DisconnectTrailer(Assignment):
-    """Uncouple the trailer, which brakes and stands."""
+    """Uncouple the trailer, which brakes to standstill."""
 
     def on_start(self) -> None:
         """Uncouples it."""

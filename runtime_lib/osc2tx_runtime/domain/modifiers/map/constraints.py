@@ -76,14 +76,14 @@ _ELSEWHERE = 1.0  # m apart
 
 @dataclass(frozen=True, slots=True)
 class PathEndsElsewhere(MapModifier):
-    """A path ends at another place than another one."""
+    """The end of a path differs from that of another."""
 
     name = "path_different_dest"
     path: RoadPath
     other: RoadPath
 
     def rows(self, graph: RoadGraph, known: Known) -> Iterator[Row]:
-        """Pairs of paths of which that is true."""
+        """Pairs of paths that differ."""
         for path in self.candidates(graph, known, "path"):
             here = self.place(graph, path)
             for other in self.candidates(graph, known, "other"):
@@ -91,19 +91,19 @@ class PathEndsElsewhere(MapModifier):
                     yield {"path": path, "other": other}
 
     def place(self, graph: RoadGraph, path: MapSegment) -> tuple[float, float]:
-        """The place that counts (m)."""
+        """The compared point (m)."""
         at = graph.map.pose(graph.end(path))
         return at.x, at.y
 
 
 @dataclass(frozen=True, slots=True)
 class PathStartsElsewhere(PathEndsElsewhere):
-    """A path begins at another place than another one."""
+    """The start of a path differs from that of another."""
 
     name = "path_different_origin"
 
     def place(self, graph: RoadGraph, path: MapSegment) -> tuple[float, float]:
-        """The place that counts (m)."""
+        """The compared point (m)."""
         at = graph.map.pose(graph.begin(path))
         return at.x, at.y
 

@@ -27,16 +27,16 @@ _SAME = 0.05  # m along a lane
 class CrossingConnects(MapModifier):
     """A crossing leads straight from the middle of one lane to that of another.
 
-    With `start_s_coord` it lies there, whether the map has a crosswalk there or not;
-    without it on one of the crosswalks of the map. Of lanes without other constraints,
-    those for pedestrians come first.
+    With `start_s_coord` it is at that position, with or without a crosswalk of the map; otherwise
+    on one of the crosswalks of the map. Of lanes without other constraints, those for pedestrians
+    come first.
 
     Attributes:
         crossing: The crossing.
         start_lane: Lane on whose centre line it begins.
         end_lane: Lane on whose centre line it ends.
-        start_s_coord: Metres along the first lane.
-        start_angle: Between the first lane and the crossing (rad), as seen from that lane.
+        start_s_coord: Metres along the start lane.
+        start_angle: Angle between the start lane and the crossing (rad), seen from that lane.
     """
 
     leads: ClassVar[bool] = True
@@ -47,7 +47,7 @@ class CrossingConnects(MapModifier):
     start_angle: float = 0.5 * math.pi
 
     def __post_init__(self) -> None:
-        """Refuses crossings along their lane."""
+        """Rejects crossings parallel to their lane."""
         if not 0.0 < self.start_angle < math.pi:
             raise ScenarioError(f"{self.name}: start_angle lies between 0 and 180 degrees")
 
@@ -80,7 +80,7 @@ class CrossingConnects(MapModifier):
 
 
 def implied(crossing: Crossing) -> CrossingConnects | None:
-    """The constraints of a crossing's own members on the lanes that it joins."""
+    """The constraints of the members of a crossing on the lanes that it joins."""
     start, end = crossing.wanted_lanes
     if start is None and end is None and crossing.wanted_s[0] is None:
         return None

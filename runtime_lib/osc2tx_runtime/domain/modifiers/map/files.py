@@ -16,12 +16,12 @@ __all__ = ["SetMapFile", "SetTrafficLightsControlFile"]
 @modifier("set_map_file", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class SetMapFile(MapModifier):
-    """The file of the map; says the same as the field `map_file`."""
+    """The file of the map; has the same meaning as the field `map_file`."""
 
     file: str
 
     def rows(self, graph: RoadGraph, known: Known) -> Iterator[Row]:
-        """One, about nothing: the file has been read when it is asked."""
+        """One empty row: the file has already been read."""
         yield {}
 
 
@@ -33,5 +33,5 @@ class SetTrafficLightsControlFile(MapModifier):
     file: str
 
     def rows(self, graph: RoadGraph, known: Known) -> Iterator[Row]:
-        """One, about nothing."""
+        """One empty row."""
         yield {}

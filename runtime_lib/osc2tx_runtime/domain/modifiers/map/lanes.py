@@ -1,4 +1,4 @@
-"""Map modifiers about lanes: how many there are, which is beside which (DSL 8.12.2.2)."""
+"""Map modifiers about lanes: their number and order (DSL 8.12.2.2)."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class NumberOfLanes(MapModifier):
     Attributes:
         route: The route; with several sections the number holds in each of them.
         num_of_lanes: Number of lanes.
-        lane_type: The type of the lanes that are counted; `driving` if no use is given either.
+        lane_type: The type of the counted lanes; `driving` if neither type nor use is given.
         lane_use: Their use.
         directionality: Their directions.
     """
@@ -69,7 +69,7 @@ class NumberOfLanes(MapModifier):
 @modifier("lane_side", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class LaneSide(MapModifier):
-    """A lane lies `count` lanes beside another one, in the same direction.
+    """A lane is `count` lanes beside another, in the same direction.
 
     Attributes:
         lane1: The lane.
@@ -100,7 +100,7 @@ class LaneSide(MapModifier):
 def _beside(
     lanes: tuple[MapSegment, ...], side: SideLeftRight, count: int
 ) -> Iterator[tuple[MapSegment, MapSegment]]:
-    """Pairs of lanes, given from the right, of which one lies `count` lanes beside the other."""
+    """Pairs of lanes, from the right, that are `count` lanes apart."""
     step = count if side == "left" else -count
     for index, second in enumerate(lanes):
         if 0 <= index + step < len(lanes):
@@ -110,7 +110,7 @@ def _beside(
 @modifier("compound_lane_side", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class CompoundLaneSide(MapModifier):
-    """A compound lane lies `count` lanes beside another one, over its whole length.
+    """A compound lane is `count` lanes beside another, over its whole length.
 
     Attributes:
         lane1: The compound lane.
@@ -149,13 +149,13 @@ class CompoundLaneSide(MapModifier):
 @modifier("start_lane", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class StartLane(MapModifier):
-    """A lane that begins here: no lane of the section before leads to it."""
+    """A lane that begins in its section: no lane of the section before leads to it."""
 
     lane: RoadPart
     forwards: ClassVar[bool] = False
 
     def rows(self, graph: RoadGraph, known: Known) -> Iterator[Row]:
-        """Lanes of which that is true."""
+        """Lanes without predecessor."""
         for lane in self.candidates(graph, known, "lane"):
             beside = graph.after(lane) if self.forwards else graph.before(lane)
             if not beside:
@@ -165,6 +165,6 @@ class StartLane(MapModifier):
 @modifier("end_lane", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class EndLane(StartLane):
-    """A lane that ends here: it leads to no lane of the section after."""
+    """A lane that ends in its section: it leads to no lane of the section after."""
 
     forwards: ClassVar[bool] = True

@@ -33,7 +33,7 @@ _TURNS: Mapping[JunctionDirection, float] = {
 @modifier("routes_are_in_sequence", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class RoutesAreInSequence(MapModifier):
-    """One route follows another: a lane at the end of it leads to one at the begin of the other.
+    """One route follows another: a lane of the first leads to a lane of the second.
 
     Attributes:
         preceding: The first.
@@ -70,7 +70,7 @@ def _exits(graph: RoadGraph, segment: MapSegment) -> tuple[MapSegment, ...]:
 
 
 def _entries(graph: RoadGraph, segment: MapSegment) -> tuple[MapSegment, ...]:
-    """Lanes at the begin of a segment; of a road at both ends, for it may be entered there."""
+    """Lanes at the start of a segment; of a road at both ends, since it can be entered at both."""
     if segment.parts:
         return _entries(graph, segment.parts[0])
     if segment.kind != "road":
@@ -98,15 +98,15 @@ def _onward(graph: RoadGraph, segment: MapSegment) -> Iterator[MapSegment]:
 @modifier("roads_follow_in_junction", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class RoadsFollowInJunction(MapModifier):
-    """A way through a junction from one road to another.
+    """A connection through a junction from one road to another.
 
     Attributes:
         junction: The junction.
         in_road: Road that enters it.
         out_road: Road that leaves it.
-        direction: Where it turns to, within 10 degrees.
-        clockwise_count: How many roads on, clockwise, the out-road is from the in-road.
-        number_of_roads: How many roads meet in the junction.
+        direction: Direction of the turn, within 10 degrees.
+        clockwise_count: Number of roads from the in-road to the out-road, clockwise.
+        number_of_roads: Number of roads that meet in the junction.
         in_lane: Lane that enters it.
         out_lane: Lane that leaves it.
         junction_route: The lane in between.
@@ -125,7 +125,7 @@ class RoadsFollowInJunction(MapModifier):
     resulting_route: RoadPart | None = None
 
     def rows(self, graph: RoadGraph, known: Known) -> Iterator[Row]:
-        """Ways through junctions, as far as they are asked for."""
+        """Connections through junctions that fulfil the requirements."""
         asked = self.parts()
         for passage in graph.passages:
             if not self._turns(passage.turn):
@@ -163,13 +163,13 @@ class RoadsFollowInJunction(MapModifier):
 @modifier("routes_overlap", needs=("map",))
 @dataclass(frozen=True, slots=True)
 class RoutesOverlap(MapModifier):
-    """Two routes run side by side, or one on the other, over a part of the same road.
+    """Two routes run side by side, or overlap, on a part of the same road.
 
     Attributes:
         route1: The first; the kinds of overlap are seen from it, in its direction.
         route2: The second.
-        overlap_kind: Both share their start (`start`), their end (`end`) or both of them
-            (`equal`); the first lies within the second (`inside`); in another way (`other`).
+        overlap_kind: Both share their start (`start`), their end (`end`) or both of them (`equal`);
+            the first lies within the second (`inside`); otherwise `other`.
     """
 
     route1: RoadPart
@@ -187,7 +187,7 @@ class RoutesOverlap(MapModifier):
 def _kinds_of_overlap(
     graph: RoadGraph, first: MapSegment, second: MapSegment
 ) -> set[RouteOverlapKind]:
-    """The `route_overlap_kind` of two routes (DSL 8.12.23); nothing if they share nothing."""
+    """The `route_overlap_kind` of two routes (DSL 8.12.23); empty if they do not overlap."""
     one, other = _ranges(graph, first), _ranges(graph, second)
     both = [(one[road], other[road]) for road in one.keys() & other.keys()]
     if not any(min(a[1], b[1]) > max(a[0], b[0]) for a, b in both):
@@ -241,7 +241,7 @@ class RoutesAreOpposite(MapModifier):
         route1: A lane section, lane or compound lane.
         route2: The other one.
         containing_road: The road.
-        lateral_overlap: Whether they share lanes: `always` needs lanes for both directions.
+        lateral_overlap: Whether they share lanes: `always` requires lanes for both directions.
     """
 
     route1: RoadPart
@@ -250,7 +250,7 @@ class RoutesAreOpposite(MapModifier):
     lateral_overlap: LateralOverlapKind = "never"
 
     def __post_init__(self) -> None:
-        """Refuses roads, which have no direction, and lanes for both directions."""
+        """Rejects roads, which have no direction, and lanes for both directions."""
         for part in (self.route1, self.route2):
             if part.kind not in ("lane_section", "lane", "compound_lane"):
                 raise UnsupportedError(f"{self.name}: a {part.kind} has no direction of its own")

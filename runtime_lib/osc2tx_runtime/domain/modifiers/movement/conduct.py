@@ -1,4 +1,4 @@
-"""Modifiers of routes to follow and of conduct (DSL 8.9.11, 8.9.12, 8.9.17, 8.9.18)."""
+"""Modifiers of routes and conduct (DSL 8.9.11, 8.9.12, 8.9.17, 8.9.18)."""
 
 from __future__ import annotations
 
@@ -61,15 +61,15 @@ class PhysicalMovement(Modifier):
 )
 @dataclass(frozen=True, slots=True)
 class Along(MovementModifier):
-    """A path to move along, or a route of the map; then in its lanes, from wherever one is.
+    """A path, or a route of the map followed in its lanes from the present position.
 
-    Which of the lanes, `lane` and `lateral` may say beside a route; a path leaves no room for them.
+    Beside a route, `lane` and `lateral` may choose the lane; they contradict a path.
 
     Attributes:
         route: The path or route.
-        start_offset: Metres of it that are left out at its start.
-        end_offset: Metres that are left out at its end.
-        shape: Course of the metres along it, from its start.
+        start_offset: Metres to omit at its start.
+        end_offset: Metres to omit at its end.
+        shape: Profile of the distance along it, from its start.
     """
 
     shaped_by = AnyPositionShape
@@ -113,7 +113,7 @@ class AlongTrajectory(MovementModifier):
 )
 @dataclass(frozen=True, slots=True)
 class OnPath(Modifier):
-    """Starts on a piece of road, wherever there is room if nothing else says where.
+    """Starts on a piece of road, at the first free position unless another modifier states it.
 
     Attributes:
         path: The piece of road.
@@ -127,8 +127,8 @@ class OnPath(Modifier):
 class AvoidCollisions(Modifier):
     """Whether to slow down for obstacles ahead in the lane.
 
-    The standard lets all actors avoid collisions; here they do so only where a scenario asks for
-    it, because scenarios of near misses and crashes are what most people write.
+    In the standard all actors avoid collisions. Here they do so only if a scenario requires it,
+    because most scenarios describe near misses and crashes.
     """
 
     avoid: Late[bool] = True

@@ -46,10 +46,11 @@ class Lane(MovementModifier):
     Attributes:
         lane: Number counted from one edge of the road, or lanes beside a reference.
         same_as: Actor whose lane it is.
-        side_of: Actor beside whose lane it is.
-        side: On which side of it.
+        side_of: Actor from whose lane the lanes are counted.
+        side: Side of that lane.
         from_: Edge from which lanes are counted, in direction of travel; the outermost is 1.
-        shape: Course on the way there: of the place left of the centre of the lane.
+        shape: Profile of the lateral position (m to the left of the lane centre) until it is
+            reached.
     """
 
     shaped_by = AnyLateralShape
@@ -94,16 +95,16 @@ class Lane(MovementModifier):
 )
 @dataclass(frozen=True, slots=True)
 class Lateral(MovementModifier):
-    """Place across the lane, or beside another actor.
+    """Lateral position in the lane, or relative to another actor.
 
     Attributes:
-        distance: Metres to the left, unless `side` says right.
-        distance_range: Instead of it: its range at all times.
+        distance: Metres to the left, unless `side` is right.
+        distance_range: Instead of the value: its range at all times.
         side_of: Actor from which the distance counts; None: the centre of the lane.
         side: Side to which the distance points.
         measure_by: Own edge `to` edge of the reference (of the lane without `side_of`); `closest`:
             between the facing sides.
-        shape: Course of the distance, and its value if none is given here.
+        shape: Profile of the distance, and its value if none is given here.
     """
 
     shaped_by = AnyLateralShape
@@ -125,7 +126,7 @@ class Lateral(MovementModifier):
 
     @property
     def is_fixed(self) -> bool:
-        """Whether it leaves no choice between distances."""
+        """Whether it states a single distance."""
         return self.distance_range is None
 
     def offsets(
@@ -136,24 +137,27 @@ class Lateral(MovementModifier):
         Args:
             own_width: Width of the actor (m).
             other_width: Width of the reference or of the lane (m).
-            oncoming: The reference comes the other way: its sides are those that it sees.
+            oncoming: Whether the reference is oncoming: its sides are seen from the reference.
 
         Returns:
-            The least and the greatest value; both the same without a range.
+            The least and the greatest value; equal without a range.
         """
         low, high = wanted(self.distance, self.distance_range, self.shape)
         ends = [self.place(value, own_width, other_width, oncoming) for value in (low, high)]
         return min(ends), max(ends)
 
     def offset(self, own_width: float, other_width: float, now: float) -> float:
-        """The allowed place (m) that is nearest to the present one; arguments as above."""
+        """The allowed offset (m) nearest to the present one; arguments as above."""
         low, high = self.offsets(own_width, other_width)
         return min(max(now, low), high)
 
     def place(
         self, value: float, own_width: float, other_width: float, oncoming: bool = False
     ) -> float:
-        """How far (m) left of the reference the own centre is at a distance; see `offsets`."""
+        """Offset (m) of the own centre to the left of the reference at a distance.
+
+        See `offsets`.
+        """
         side, measure_by = now(self.side), now(self.measure_by)
         left = -value if side == "right" else value
         if measure_by == "closest":
@@ -175,11 +179,11 @@ class Lateral(MovementModifier):
 )
 @dataclass(frozen=True, slots=True)
 class ChangeLane(MovementModifier):
-    """Lanes to the side of the lane at the start of the action.
+    """Number of lanes beside the lane at the start of the action.
 
     Attributes:
-        lane: How many.
-        side: To which side; None: drawn from the seed.
+        lane: Number of lanes.
+        side: Side; None: drawn from the seed.
         shape: As of `lane`.
     """
 
@@ -190,7 +194,7 @@ class ChangeLane(MovementModifier):
 
     @property
     def number(self) -> int:
-        """How many lanes, now."""
+        """Number of lanes, now."""
         return int(now(self.lane))
 
 

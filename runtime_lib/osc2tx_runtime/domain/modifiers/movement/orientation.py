@@ -31,12 +31,12 @@ class Yaw(MovementModifier):
 
     Attributes:
         angle: Counter-clockwise.
-        angle_range: Instead of it: its range at all times.
+        angle_range: Instead of the value: its range at all times.
         relative_to: Reference; None: the road.
         measure_by: Zero of the angle: the road, north, or an axis of the own box
             against one of the reference.
-        shape: Course of the angle, and its value if none is given here: a shape of the scenario,
-            for there are no common ones of angles.
+        shape: Profile of the angle, and its value if none is given here: a shape of the scenario,
+            since angles have no common shapes.
     """
 
     shaped_by = AnyShape
@@ -52,7 +52,7 @@ class Yaw(MovementModifier):
     shape: AnyShape | OwnShape[AnyShape] | None = None
 
     def angles(self) -> tuple[float, float]:
-        """Least and greatest angle (rad) now; both the same without a range."""
+        """Least and greatest angle (rad) now; equal without a range."""
         return wanted(self.angle, self.angle_range, self.shape)
 
 
@@ -61,8 +61,8 @@ class Yaw(MovementModifier):
 class Orient(MovementModifier):
     """Attitude (rad) against the road, the world or another actor: the angles that are given.
 
-    Each angle counts from the same angle of the reference. Vehicles stay on their wheels: their
-    pitch and roll follow the road, unless physics need not hold.
+    Each angle counts from the same angle of the reference. Pitch and roll of vehicles follow the
+    road, unless physics need not hold.
 
     Attributes:
         yaw: Counter-clockwise.
@@ -71,7 +71,7 @@ class Orient(MovementModifier):
         relative_to: Reference; None: the road.
         measure_by: Zero of the angles; default: the reference, else the road (the
             standard names both road and world; its examples have the road).
-        shape: Course of the yaw, as of `yaw`.
+        shape: Profile of the yaw, as of `yaw`.
     """
 
     shaped_by = AnyShape
@@ -89,7 +89,7 @@ class Orient(MovementModifier):
     shape: AnyShape | OwnShape[AnyShape] | None = None
 
     def angles(self) -> tuple[float, float] | None:
-        """The yaw (rad), twice: it has no range; None without one."""
+        """The yaw (rad) as least and greatest value; None without a yaw."""
         return None if self.yaw is None else wanted(self.yaw, None, self.shape)
 
     def tilt(self) -> tuple[float | None, float | None]:

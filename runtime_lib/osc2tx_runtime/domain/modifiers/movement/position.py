@@ -44,11 +44,11 @@ __all__ = ["Distance", "KeepPosition", "Location", "Position"]
 )
 @dataclass(frozen=True, slots=True)
 class Position(MovementModifier):
-    """Place along the road, or in the world.
+    """Position along the road, or in the world.
 
     Attributes:
         distance: Metres ahead of or behind a reference, else from the start of the road.
-        time: Seconds times the speed of the one behind, instead of a distance.
+        time: Instead of a distance: seconds times the speed of the follower.
         distance_range: Instead of a distance: its range at all times.
         time_range: Instead of a time: its range at all times.
         ahead_of: Reference.
@@ -60,11 +60,11 @@ class Position(MovementModifier):
         y: World y (m).
         z: World z (m).
         h: Heading (rad).
-        project_on_route: `at_point` only says how far along the road and on which lane; False:
-            the actor is at the point itself.
+        project_on_route: `at_point` only states the road coordinate and the lane; False: the actor
+            is at the point itself.
         frame: `carla`: left-handed, y and heading with the opposite sign, box centre.
-        shape: Course of the distance (of the place along the road without a reference), and its
-            value if none is given here.
+        shape: Profile of the distance (without a reference: of the position along the road), and
+            its value if none is given here.
     """
 
     shaped_by = AnyPositionShape
@@ -102,7 +102,7 @@ class Position(MovementModifier):
 
     @property
     def stands(self) -> bool:
-        """True for one fixed position on the road all the time."""
+        """True for a fixed position on the road at all times."""
         return self.at == "all" and self.reference is None and self.shape is None
 
     @property
@@ -112,16 +112,16 @@ class Position(MovementModifier):
 
     @property
     def ahead(self) -> bool:
-        """True for a place ahead of its reference."""
+        """True for a position ahead of its reference."""
         return self.ahead_of is not None or self.ahead_of_point is not None
 
     @property
     def timed(self) -> bool:
-        """True if a time says how far it is."""
+        """True if the distance is stated as a time."""
         return self.time is not None or self.time_range is not None
 
     def size(self) -> tuple[float, float]:
-        """Least and greatest distance (m) or time (s) now; both the same without a range."""
+        """Least and greatest distance (m) or time (s) now; equal without a range."""
         if self.timed:
             return band_of(self.time, self.time_range)
         return wanted(self.distance, self.distance_range, self.shape)
@@ -140,7 +140,7 @@ class Position(MovementModifier):
 @modifier("location", placement=True, places=True)
 @dataclass(frozen=True, slots=True)
 class Location(Modifier):
-    """A fixed pose of the reference point, for objects that never move."""
+    """A fixed pose of the reference point, for stationary objects."""
 
     pose: Pose
 
@@ -148,7 +148,7 @@ class Location(Modifier):
 @modifier("keep_position", slots=(LONGITUDINAL, LATERAL), topics=(COURSE,), paces=True)
 @dataclass(frozen=True, slots=True)
 class KeepPosition(Modifier):
-    """The place in the world at the start of the action."""
+    """The position in the world at the start of the action."""
 
 
 @modifier(
@@ -167,11 +167,11 @@ class KeepPosition(Modifier):
 )
 @dataclass(frozen=True, slots=True)
 class Distance(MovementModifier):
-    """Way (m) covered during the action: it ends then, or takes exactly its duration for it.
+    """Distance (m) covered during the action, which ends then or covers it exactly in its duration.
 
     Attributes:
         distance: Metres.
-        shape: Course of the metres.
+        shape: Profile of the distance.
     """
 
     shaped_by = AnyPositionShape

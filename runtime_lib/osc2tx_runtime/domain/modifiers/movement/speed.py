@@ -52,7 +52,7 @@ class Speed(MovementModifier):
 
     Attributes:
         speed: Speed, or difference to the reference (m/s); subtracted for `slower_than`.
-        speed_range: Instead of it: its range at all times.
+        speed_range: Instead of the value: its range at all times.
         faster_than: Reference.
         slower_than: Reference.
         same_as: Reference.
@@ -60,7 +60,7 @@ class Speed(MovementModifier):
         factor: Multiplies the speed of the reference.
         rate_profile: Course of the acceleration.
         rate_peak: Peak of the acceleration (m/s^2).
-        shape: Course of the speed or difference, and its value if none is given here.
+        shape: Profile of the speed or difference, and its value if none is given here.
     """
 
     shaped_by = AnySpeedShape
@@ -111,11 +111,11 @@ class Speed(MovementModifier):
 
     @property
     def shaped(self) -> bool:
-        """Whether it says how the speed is to be reached."""
+        """Whether it states how the speed is reached."""
         return isinstance(self.shape, OwnShape) or self.course != ("none", None)
 
     def difference(self) -> tuple[float, float]:
-        """Least and greatest value (m/s) now: of the speed, or of the difference to another's."""
+        """Least and greatest speed, or difference to the reference, now (m/s)."""
         low, high = wanted(self.speed, self.speed_range, self.shape)
         return (-high, -low) if self.slower_than is not None else (low, high)
 
@@ -134,7 +134,7 @@ class ChangeSpeed(MovementModifier):
     Attributes:
         speed: Difference (m/s).
         speed_range: Instead of it: the range of the difference.
-        shape: Course of the difference, and its value if none is given here.
+        shape: Profile of the difference, and its value if none is given here.
     """
 
     shaped_by = AnySpeedShape
@@ -172,13 +172,13 @@ class KeepSpeed(Modifier):
 class Acceleration(MovementModifier):
     """Rate of change of the speed.
 
-    `at`: `all` from the start on; `start` then, and falling to zero afterwards; `end` reached at
-    the end of the action, or ends it.
+    `at`: `all` from the start; `start` at the start, and decreasing to zero afterwards; `end`
+    reached at the end of the action, or ends it.
 
     Attributes:
         acceleration: m/s^2; how fast a speed is reached if one is given as well.
-        acceleration_range: Instead of it: its range at all times.
-        shape: Course of its change, and a value if none is given here.
+        acceleration_range: Instead of the value: its range at all times.
+        shape: Profile of its change, and a value if none is given here.
     """
 
     shaped_by = AnyAccelerationShape
@@ -191,10 +191,10 @@ class Acceleration(MovementModifier):
     shape: AnyAccelerationShape | OwnShape[AnyAccelerationShape] | None = None
 
     def bounds(self) -> tuple[float, float]:
-        """Least and greatest acceleration (m/s^2) now; both the same without a range."""
+        """Least and greatest acceleration (m/s^2) now; equal without a range."""
         return wanted(self.acceleration, self.acceleration_range, self.shape)
 
     def value(self, now: float) -> float:
-        """The allowed acceleration (m/s^2) that is nearest to the present one."""
+        """The allowed acceleration (m/s^2) nearest to the present one."""
         low, high = self.bounds()
         return min(max(now, low), high)

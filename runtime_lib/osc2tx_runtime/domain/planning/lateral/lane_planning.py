@@ -24,14 +24,14 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
     from osc2tx_runtime.world.geometry.profiles import Profile
 
-_OFF = 0.1  # m between where a shape starts and where the actor is
+_OFF = 0.1  # m between the start of a shape and the actor
 
 
 def beside_command(action: ModifiedMotion, lateral: Lateral) -> Command:
-    """How to get to a place beside another actor.
+    """The command for a lateral position beside another actor.
 
     Raises:
-        Refused: It cannot be.
+        Refused: It is not possible.
     """
     assert lateral.side_of is not None
     other = action.world.state(lateral.side_of.id)
@@ -64,10 +64,12 @@ def beside_command(action: ModifiedMotion, lateral: Lateral) -> Command:
 
 
 def lane_command(action: ModifiedMotion, lateral: Lateral | None) -> Command | None:
-    """How to get to a lane and a place in it; None if nothing mentions them, or it is there.
+    """The command for a lane and an offset in it.
+
+    None if no modifier states them, or if they are reached.
 
     Raises:
-        Refused: It cannot be.
+        Refused: It is not possible.
     """
     kinds = (Lane, ChangeLane, Lateral)
     found = [m for m in action.lasting if isinstance(m, kinds)]
@@ -107,7 +109,7 @@ def _check_one_way(
     change: tuple[DynamicProfile, float | None, float | None],
     course: Profile | None,
 ) -> None:
-    """Refuses a change of the place across the road that would overshoot."""
+    """Rejects a lateral motion that would overshoot."""
     if course is None:
         course = shift_profile(
             _start(action, lanes), offset, action.here.lateral_speed, change, action.limits
@@ -118,7 +120,7 @@ def _check_one_way(
 def _own_across(
     action: ModifiedMotion, shaped: Lane | ChangeLane | Lateral, lanes: int
 ) -> Profile | None:
-    """The place left of the centre of the lane to be in, over time, as an own shape has it."""
+    """The offset to the left of the target lane centre over time, from a shape of the scenario."""
     there = target_of_shift(action, lanes)
     course = _own(action, shaped, width_at(action.world.map, there))
     if course is None:
@@ -138,7 +140,7 @@ def _own(
     width: float,
     oncoming: bool = False,
 ) -> Computed | None:
-    """The place (m to the left) over time that an own shape gives, by the width beside it."""
+    """The offset (m to the left) over time, from a shape of the scenario and the adjacent width."""
     own = own_course(shaped.shape)
     if own is None or not isinstance(shaped, Lateral):
         return own
@@ -151,20 +153,20 @@ def _is_centred(action: ModifiedMotion) -> bool:
 
 
 def _start(action: ModifiedMotion, lanes: int) -> float:
-    """How far (m) left it is of the centre of the lane to be in."""
+    """Its distance (m) to the left of the target lane centre."""
     there, here = target_of_shift(action, lanes), action.here
     return offset_from(action.world.map, there, here.x, here.y)
 
 
 def _offset(action: ModifiedMotion, lateral: Lateral, lanes: int) -> float:
-    """Metres left of the centre of the lane to be in."""
+    """Metres to the left of the target lane centre."""
     there = target_of_shift(action, lanes)
     here = (action.here.offset or 0.0) - there.offset if lanes == 0 else 0.0
     return lateral.offset(action.here.width, width_at(action.world.map, there), here)
 
 
 def _lanes(action: ModifiedMotion) -> int | None:
-    """Lanes to the left of the present one; None if no modifier names a lane."""
+    """Number of lanes to the left of the present one; None if no modifier states a lane."""
     change = one_of_kind(action.lasting, ChangeLane)
     if change is not None:
         side = change.side or action.drawn_side(change.number)

@@ -35,10 +35,10 @@ if TYPE_CHECKING:
 
 
 def side_command(action: ModifiedMotion) -> Command | None:
-    """Where to go sideways; None if no modifier mentions it.
+    """The lateral command; None if no modifier requires one.
 
     Raises:
-        Refused: It cannot be.
+        Refused: It is not possible.
     """
     modifiers, exact = action.lasting, action.may_jump
     along, timed = one_of_kind(modifiers, Along), one_of_kind(modifiers, AlongTrajectory)
@@ -65,7 +65,10 @@ def side_command(action: ModifiedMotion) -> Command | None:
 
 
 def _across(action: ModifiedMotion) -> Command | None:
-    """To a lane, to a place in it, or beside another actor; None if no modifier says so."""
+    """The command for a lane, an offset in it, or a position beside another actor.
+
+    None without one.
+    """
     lateral = one_of_kind(action.lasting, Lateral)
     if lateral is not None and lateral.side_of is not None:
         return beside_command(action, lateral)
@@ -73,10 +76,10 @@ def _across(action: ModifiedMotion) -> Command | None:
 
 
 def follow_reference(action: ModifiedMotion) -> object:
-    """What of a reference decides where to go sideways and may change; None if nothing does.
+    """The property of a reference that determines the lateral target and may change.
 
-    A lane beside another actor is another one when that actor changes lanes, up to the end of the
-    action (§8.9.1.3), and a heading relative to it changes when it turns.
+    None without one. A lane beside another actor follows its lane changes up to the end of the
+    action (§8.9.1.3), and a relative heading follows its turns.
     """
     for modifier in action.lasting:
         if getattr(modifier, "projected", False):
@@ -97,7 +100,7 @@ def lane_of(action: MotionAction, reference: PhysicalObject) -> int | None:
 
 
 def _along_route(action: ModifiedMotion, along: Along, route: Route) -> FollowRoute:
-    """In the lanes to the end of a route of the map."""
+    """The command along the lanes to the end of a route of the map."""
     graph = graph_of(action.world.map)
     end = graph.end(graph.seen_from(route.found, action.here.lane_position))
     goal = on_route(graph, route.found, end, -value_of(along.end_offset)).position

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
     from osc2tx_runtime.world.geometry.profiles import Profile
 
-_MOST = 12.0  # m/s^2 across: what tyres can transmit
+_MOST = 12.0  # m/s^2: lateral limit of tyres
 
 
 def lateral_speed_bounds(action: ModifiedMotion, speed: Speed) -> tuple[float, float]:
@@ -29,10 +29,10 @@ def lateral_speed_bounds(action: ModifiedMotion, speed: Speed) -> tuple[float, f
 
 
 def lateral_speed_command(action: ModifiedMotion, speeds: Sequence[Speed]) -> Command | None:
-    """What to do with the lateral speed; None if modifiers only look at the start.
+    """The command for the lateral speed; None if modifiers only constrain the start.
 
     Raises:
-        Refused: It cannot be.
+        Refused: It is not possible.
     """
     here = action.here.lateral_speed
     for speed in sorted(speeds, key=lambda each: each.at != "start"):
@@ -45,7 +45,7 @@ def lateral_speed_command(action: ModifiedMotion, speeds: Sequence[Speed]) -> Co
 
 
 def _sideways(action: ModifiedMotion, speed: Speed, here: float, target: float) -> Sideways:
-    """Reaches a lateral speed from another one."""
+    """The motion from one lateral speed to another."""
     moving = speed.reference is not None and not speed.projected
     base = _other(action, speed)
     course = _course(action, speed, here - base, target - base)
@@ -62,7 +62,7 @@ def _other(action: ModifiedMotion, speed: Speed) -> float:
 
 
 def _course(action: ModifiedMotion, speed: Speed, start: float, end: float) -> Profile | None:
-    """How the speed is reached; None: at once."""
+    """How the speed is reached; None: instantly."""
     own = own_course(speed.shape)
     if own is not None:
         sign = -1.0 if speed.slower_than is not None else 1.0

@@ -1,4 +1,4 @@
-"""Target lanes and offsets of lateral changes; checks that they can be driven."""
+"""Target lanes and offsets of lateral motions; checks that they are feasible."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 def leads_beside(graph: RoadGraph, place: LanePosition, lanes: int) -> bool:
-    """Whether a lane has enough lanes to its left, here or anywhere on its continuation."""
+    """Whether a lane, or its continuation, has enough lanes to its left."""
     lane = graph.segment_of(graph.map.lane_key(place))
     reached, seen = [lane], {lane}
     for each in reached:
@@ -46,7 +46,7 @@ def leads_beside(graph: RoadGraph, place: LanePosition, lanes: int) -> bool:
 
 
 def may_leave_lane_before(action: MotionAction) -> bool:
-    """Whether its actor may go to another lane before an action starts."""
+    """Whether its actor may change the lane before an action starts."""
     *_, root = _upwards(action)
     for other in root.iterate():
         if other is action or not isinstance(other, Action) or other.actor is not action.actor:
@@ -58,7 +58,7 @@ def may_leave_lane_before(action: MotionAction) -> bool:
 
 
 def _comes_after(other: Behaviour, action: Behaviour) -> bool:
-    """Whether something starts only when an action is over."""
+    """Whether a node starts only after the end of an action."""
     branch = {id(above): below for below, above in _steps(action)}
     for below, above in _steps(other):
         if id(above) in branch:
@@ -69,7 +69,7 @@ def _comes_after(other: Behaviour, action: Behaviour) -> bool:
 
 
 def _steps(node: Behaviour) -> Iterator[tuple[Behaviour, Behaviour]]:
-    """Yield nodes on the way up, each with the one above it."""
+    """Yield the ancestors of a node, each with its parent."""
     way = list(_upwards(node))
     yield from pairwise(way)
 
@@ -98,7 +98,7 @@ def target_of_shift(action: ModifiedMotion, lanes: int) -> LanePosition:
 
 
 def jump_aside(action: ModifiedMotion, lanes: int, offset: float) -> None:
-    """Sets the lane and the offset (m) of the actor at one instant; positive to the left.
+    """Sets the lane and the offset (m) of the actor instantly; positive to the left.
 
     Raises:
         Refused: There is no such lane.
@@ -110,10 +110,10 @@ def jump_aside(action: ModifiedMotion, lanes: int, offset: float) -> None:
 
 
 def check_shift(action: ModifiedMotion, lanes: int, offset: float, duration: float) -> None:
-    """Refuses a change of the place across the road that is beyond the limits of the actor.
+    """Rejects a lateral motion that exceeds the limits of the actor.
 
     Raises:
-        Refused: It is, or there is no such lane.
+        Refused: It exceeds them, or there is no such lane.
     """
     reason = excessive_shift(
         action.world.map,
@@ -128,7 +128,7 @@ def check_shift(action: ModifiedMotion, lanes: int, offset: float, duration: flo
 
 
 def lanes_wanted(action: MotionAction, lane: Lane) -> int:
-    """Lanes to the left of the present one at which a modifier wants the actor.
+    """Number of lanes to the left of the present one that a modifier requires.
 
     Raises:
         Refused: There is no such lane.
@@ -148,7 +148,7 @@ def lanes_wanted(action: MotionAction, lane: Lane) -> int:
 def lanes_beside(action: MotionAction, reference: str, lanes: int) -> int:
     """Number of lanes from the present one to the lane beside a reference, positive to the left.
 
-    The left side of a reference in oncoming traffic is as its driver sees it.
+    The left side of an oncoming reference is seen from its driver.
 
     Raises:
         Refused: There is no such lane.
@@ -159,7 +159,7 @@ def lanes_beside(action: MotionAction, reference: str, lanes: int) -> int:
 
 
 def lanes_to(action: MotionAction, lane: RoadPart) -> int:
-    """Lanes to the left of the present one at which a lane of the map is.
+    """Number of lanes to the left of the present one to a lane of the map.
 
     Raises:
         Refused: It is not beside the actor.

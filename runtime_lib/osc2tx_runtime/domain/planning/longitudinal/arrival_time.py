@@ -14,13 +14,13 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
     from osc2tx_runtime.world.commands import KeepGap
 
-_CHOICES = 200  # times out of a range that are looked at
+_CHOICES = 200  # samples of a range of times
 
 
 def arrival(action: ModifiedMotion, gap: KeepGap) -> Arrive | None:
     """The command to have a gap, at the speed of the reference, when the action ends.
 
-    Out of a range of durations the shortest one is taken that is comfortable, else the longest.
+    From a range of durations the shortest comfortable one is chosen, else the longest.
 
     Returns:
         The command; None if the action ends when the gap is reached, at any time.
@@ -40,7 +40,7 @@ def arrival(action: ModifiedMotion, gap: KeepGap) -> Arrive | None:
     most = COMFORT * min(limits.acceleration, limits.deceleration)
     for i in range(_CHOICES + 1):
         time = max(low + (high - low) * i / _CHOICES, dt)
-        # Evenly falling accelerations, see `guidance`, from the first one to the last.
+        # Linearly decreasing accelerations, see `guidance`, from the first to the last.
         first = (6.0 * missing - 4.0 * closing * time) / (time * time)
         last = (2.0 * closing * time - 6.0 * missing) / (time * time)
         if max(abs(first), abs(last)) <= most:
@@ -49,7 +49,7 @@ def arrival(action: ModifiedMotion, gap: KeepGap) -> Arrive | None:
 
 
 def _missing(action: ModifiedMotion, gap: KeepGap) -> tuple[float, float]:
-    """Metres that are to be gained, and the speed at which they are gained now."""
+    """Metres to gain, and the present rate (m/s)."""
     me, other = action.here, action.world.state(gap.reference)
     along = along_lanes(action.world.map, other, me)
     if along is None:

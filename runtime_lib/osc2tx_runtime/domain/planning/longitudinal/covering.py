@@ -1,8 +1,8 @@
-"""The time in which an action gets to where it ends, for what else has to hold then (DSL 8.9.13).
+"""The time in which an action reaches its goal, for other conditions at its end (DSL 8.9.13).
 
-`distance(50m)` without a duration ends its action after 50 m, `position(50m, at: end)` at a place.
-What else holds `at: end` has to be there by then, so the time until then is planned: from the
-motion that the other modifiers ask for.
+`distance(50m)` without a duration ends its action after 50 m, `position(50m, at: end)` at a
+position. Other conditions `at: end` have to hold then, so this time is computed from the motion
+that the other modifiers require.
 """
 
 from __future__ import annotations
@@ -32,19 +32,19 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.modifiers import Speed
     from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
 
-_STEP = 0.01  # s between points of a speed that is summed up
-_MOST = 600.0  # s until a distance is taken for one that is never covered
-_SAME = 0.1  # m between the end of a distance and a place
+_STEP = 0.01  # s between samples of an integrated speed
+_MOST = 600.0  # s after which a distance counts as never covered
+_SAME = 0.1  # m between the end of a distance and a position
 
 
 def time_to_goal(action: ModifiedMotion) -> float | None:
-    """Seconds from now in which an action gets to where it ends.
+    """Seconds until an action reaches its goal.
 
     Returns:
-        None if something else says when it ends, or it never gets there.
+        None if another condition ends it, or if it never reaches its goal.
 
     Raises:
-        Refused: Its distance does not end at the place where the actor is to be.
+        Refused: Its distance does not end at the required position.
     """
     if action.duration is not None or action.end_is_known or position_shape(action) is not None:
         return None
@@ -69,15 +69,15 @@ def time_to_goal(action: ModifiedMotion) -> float | None:
     if rate is None:
         return _ratio(way, v)
     target = rate.value(action.here.a)
-    here = action.here.a if rate.at == "end" else target  # at the end it has changed evenly
+    here = action.here.a if rate.at == "end" else target  # at the end it has changed linearly
     return _root(lambda t: v * t + (2.0 * here + target) * t * t / 6.0 - way)
 
 
 def _time_at_place(action: ModifiedMotion, position: Position, way: float) -> float | None:
-    """When another actor is where this one has to be; None if it is not relative to a moving one.
+    """Time at which another actor is at the required position; None without a moving reference.
 
     Raises:
-        Refused: The place is elsewhere.
+        Refused: The position is a different one.
     """
     if position.reference is None:
         low, high = way_to(action, position)
@@ -99,7 +99,7 @@ def _time_at_place(action: ModifiedMotion, position: Position, way: float) -> fl
 
 
 def _speed_of(action: ModifiedMotion, wanted: FollowSpeed) -> float:
-    """The speed (m/s) that another actor decides, as it moves now."""
+    """The speed (m/s) relative to another actor in its present motion."""
     base = action.world.state(wanted.reference).v * wanted.factor + wanted.difference
     return min(max(action.here.v, base), base + wanted.spread)
 
@@ -107,7 +107,7 @@ def _speed_of(action: ModifiedMotion, wanted: FollowSpeed) -> float:
 def _speed_course(
     action: ModifiedMotion, speed: Speed, rate: Acceleration | None
 ) -> Callable[[float], float]:
-    """The speed (m/s) over time; a reference counts as it moves now."""
+    """The speed (m/s) over time; references continue their present motion."""
     low, high = speed.difference()
     if speed.reference is not None:
         other = speed.times * action.world.state(speed.reference.id).v
@@ -121,7 +121,7 @@ def _speed_course(
 
 
 def _covered(speed: Callable[[float], float], way: float) -> float | None:
-    """Seconds until a speed over time has covered a way (m); None if it never does."""
+    """Seconds until a speed over time has covered a distance (m); None if it never does."""
     covered, before = 0.0, abs(speed(0.0))
     for i in range(1, int(_MOST / _STEP)):
         after = abs(speed(i * _STEP))
@@ -133,7 +133,7 @@ def _covered(speed: Callable[[float], float], way: float) -> float | None:
 
 
 def _root(beyond: Callable[[float], float]) -> float | None:
-    """The first time (s) at which a growing function is zero; None if it never is."""
+    """The first root (s) of an increasing function; None without one."""
     step, low = 0.1, 0.0
     while beyond(low + step) < 0.0:
         low += step

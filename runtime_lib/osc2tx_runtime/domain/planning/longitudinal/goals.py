@@ -1,4 +1,4 @@
-"""Goals of an action: the place or distance at its end, and the distance to it."""
+"""Goals of an action: the position or distance at its end, and the distance to it."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 
 
 def distance_to_cover(action: ModifiedMotion) -> float | None:
-    """Metres after which the movement has reached its goal; None if it has no such goal.
+    """Metres to the goal of the movement; None without such a goal.
 
     Raises:
-        Refused: The place is not ahead.
+        Refused: The position is not ahead.
     """
     way = None if position_shape(action) else way_to_goal(action)
     counted = one_of_kind(action.modifiers, Distance) is not None
@@ -43,7 +43,7 @@ def distance_to_cover(action: ModifiedMotion) -> float | None:
 
 
 def watched_place(action: ModifiedMotion) -> Position | None:
-    """The place at the end, if another modifier decides the speed all the time, or the way."""
+    """The position at the end, if another modifier determines the speed or the distance."""
     position = lasting_position(action)
     if position is None or position.shape is not None:
         return None
@@ -54,7 +54,7 @@ def watched_place(action: ModifiedMotion) -> Position | None:
 
 
 def position_shape(action: ModifiedMotion) -> Along | Distance | Position | None:
-    """The modifier that has a shape of a position; None if there is none."""
+    """The modifier with a shape of the position; None without one."""
     for modifier in action.lasting:
         if isinstance(modifier, Along | Distance | Position) and modifier.shape is not None:
             return modifier
@@ -62,12 +62,12 @@ def position_shape(action: ModifiedMotion) -> Along | Distance | Position | None
 
 
 def lasting_position(action: ModifiedMotion) -> Position | None:
-    """The place that is not only for the start."""
+    """The position that is not only for the start."""
     return one_of_kind(action.lasting, Position)
 
 
 def way_to_goal(action: ModifiedMotion) -> tuple[float, float] | None:
-    """Least and greatest way (m) to its goal; None if it has no such goal."""
+    """Least and greatest distance (m) to its goal; None without such a goal."""
     distance = one_of_kind(action.modifiers, Distance)
     if distance is not None:
         way = distance.way()
@@ -79,7 +79,7 @@ def way_to_goal(action: ModifiedMotion) -> tuple[float, float] | None:
 
 
 def way_to(action: ModifiedMotion, position: Position) -> tuple[float, float]:
-    """Least and greatest way (m) along the lane to a place on the road."""
+    """Least and greatest distance (m) along the lane to a position on the road."""
     here = action.place_of(action.actor.id)
     low, high = position.size()
     point: Point | None = position.reference_point
@@ -107,7 +107,7 @@ def _way_to_point(
 
 
 def speed_at_end(action: ModifiedMotion) -> float | FollowSpeed | None:
-    """The speed (m/s, or that of an actor) to have at the end; None if any will do."""
+    """The required speed at the end (m/s, or that of an actor); None if it is free."""
     lasting = [m for m in speeds_of(action) if m.at == "end"]
     change = one_of_kind(action.lasting, ChangeSpeed)
     if not lasting and change is not None and change.at == "end" and change.shape is None:

@@ -54,14 +54,14 @@ if TYPE_CHECKING:
     from osc2tx_runtime.domain.planning.motion_action import ModifiedMotion
     from osc2tx_runtime.world.geometry.profiles import Profile
 
-STANDS = 0.05  # m/s: a slower actor stands
+STANDS = 0.05  # m/s: a slower actor is at standstill
 
 
 def speed_command(action: ModifiedMotion) -> Command | None:
-    """What to do with the speed; None if no modifier mentions it.
+    """The command for the speed; None if no modifier requires one.
 
     Raises:
-        Refused: It cannot be.
+        Refused: It is not possible.
     """
     modifiers = action.lasting
     position = lasting_position(action)
@@ -100,14 +100,16 @@ def speed_command(action: ModifiedMotion) -> Command | None:
 
 
 def stop_command(action: ModifiedMotion, *, at_once: bool = False) -> Command:
-    """How to stay where it is; one that rolls may brake first, unless physics forbids to stay.
+    """The command to remain at the position.
+
+    A moving actor may brake first, unless physics must hold.
 
     Args:
         action: The action.
-        at_once: The position is fixed on the road, which braking would leave.
+        at_once: Whether the position on the road is fixed, so that braking would leave it.
 
     Raises:
-        Refused: It rolls, and must not.
+        Refused: It moves, and must not.
     """
     if action.may_jump:
         _assign(action, 0.0)
@@ -121,17 +123,17 @@ def stop_command(action: ModifiedMotion, *, at_once: bool = False) -> Command:
 
 
 def jump_to(speed: float) -> SpeedChange:
-    """The command to have a speed (m/s) at once, and to hold it."""
+    """The command to set a speed (m/s) instantly and hold it."""
     return SpeedChange(speed, "constant", None, 0.0)
 
 
 def _says_how(action: ModifiedMotion) -> bool:
-    """Whether a speed comes with its course, or holds from the start on."""
+    """Whether a speed has a profile, or holds from the start."""
     return any(each.shaped or each.at == "all" for each in speeds_of(action))
 
 
 def _in_time(action: ModifiedMotion, low: float, high: float) -> Command:
-    """What covers a way in the duration, or stops after it."""
+    """The command to cover a distance in the duration, or to stop after it."""
     time, speed = action.time_left(), action.here.v
     if time is None or time <= 0.0:
         raise Refused("a distance in a duration needs one duration, not a range")
@@ -178,7 +180,7 @@ def _speed(action: ModifiedMotion) -> Command | None:
 
 
 def _following(action: ModifiedMotion, speed: Speed, reference: str, other: float) -> FollowSpeed:
-    """The speed of an actor plus a difference, which may have a course of its own."""
+    """The speed of an actor plus a difference, which may have a profile."""
     low, high = speed.difference()
     if not speed.shaped:
         left = action.time_left()
@@ -204,7 +206,7 @@ def _following(action: ModifiedMotion, speed: Speed, reference: str, other: floa
 
 
 def _computed(action: ModifiedMotion, modifier: Speed | ChangeSpeed, course: Mapped) -> SpeedChange:
-    """The command for a speed that a shape of the scenario gives."""
+    """The command for a speed that a shape of the scenario computes."""
     check_one_way(modifier, course)
     if not action.may_jump:
         check_rates(action, course)
@@ -213,7 +215,7 @@ def _computed(action: ModifiedMotion, modifier: Speed | ChangeSpeed, course: Map
 
 
 def _start_speed(action: ModifiedMotion) -> float | None:
-    """The speed to jump to at the start; None if there is none."""
+    """The speed to set instantly at the start; None without one."""
     found = [m for m in speeds_of(action) if m.at == "start"]
     if not found or not action.may_jump:
         return None
@@ -244,7 +246,7 @@ def _to_speed(
 ) -> SpeedChange:
     if action.may_jump and start is None:
         if isinstance(speed, Speed) and speed.at == "all" and not speed.shaped:
-            _assign(action, target)  # it holds from the first instant on
+            _assign(action, target)  # it holds from the first instant
         return jump_to(target)
     if rate is not None:
         return SpeedChange(target, "constant", _pace(action, target, speed, rate), start=start)
@@ -260,7 +262,7 @@ def _goal_of(
     present: float,
     bounds: tuple[float, float],
 ) -> float:
-    """The speed (m/s) in a range to which an acceleration leads from the present one."""
+    """The speed (m/s) in a range that an acceleration reaches from the present one."""
     low, high = bounds
     pace = rate.value(action.here.a)
     time = action.time_left() if speed.at == "end" else math.inf
@@ -272,7 +274,7 @@ def _goal_of(
 def _pace(
     action: ModifiedMotion, target: float, speed: Speed | ChangeSpeed, rate: Acceleration
 ) -> float:
-    """The acceleration (m/s^2, unsigned) with which to reach a speed, as far as it is left open."""
+    """The acceleration (m/s^2, unsigned) with which to reach a speed, unless stated."""
     slowest, fastest = sorted(map(abs, rate.bounds()))
     if min(rate.bounds()) < 0.0 < max(rate.bounds()):
         slowest = 0.0
@@ -284,7 +286,7 @@ def _pace(
 
 def _checked(action: ModifiedMotion, command: SpeedChange) -> SpeedChange:
     if command.duration == 0.0:
-        return command  # it may jump
+        return command  # it may change instantly
     start = action.here.v if command.start is None else command.start
     limits = action.limits if action.strict else action.tyres
     command = within_limits(command, start, limits)
@@ -325,12 +327,12 @@ def _check_acceleration(action: ModifiedMotion, value: float) -> None:
 
 
 def _gap(action: ModifiedMotion, position: Position) -> Command:
-    """The command for a place ahead of or behind another actor."""
+    """The command for a position ahead of or behind another actor."""
     reference = position.reference
     assert reference is not None
     low, high = position.size()
     ahead = position.ahead
-    if high <= 0.0 and low < 0.0:  # a negative distance is one on the other side
+    if high <= 0.0 and low < 0.0:  # a negative distance is on the other side
         low, high, ahead = -high, -low, not ahead
     if position.timed and low < 0.0:
         raise Refused("a range of times ahead and behind at once is none it can keep")

@@ -1,4 +1,4 @@
-"""Commands for shapes of positions: the place of an actor over time (DSL 8.9.1.2)."""
+"""Commands for shapes of positions: the position of an actor over time (DSL 8.9.1.2)."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ if TYPE_CHECKING:
     Placing = Along | Distance | Position
 
 _THERE = 0.1  # m
-_ONE_WAY = 3.0  # of the way at the present speed: more of it and the cubic overshoots
+_ONE_WAY = 3.0  # times the distance at the present speed: beyond it the cubic overshoots
 
 
 class _Way(NamedTuple):
-    """How the quantity of a shape and the way of the actor hang together.
+    """Relation between the quantity of a shape and the distance of the actor.
 
     Attributes:
         here: Value of the quantity now (m).
-        target: Its target (m), where the shape states none.
+        target: Its target (m), if the shape states none.
         sign: Sign of its change while the actor moves forwards.
         speed: Rate of the quantity now (m/s).
     """
@@ -47,10 +47,10 @@ class _Way(NamedTuple):
 
 
 def position_command(action: ModifiedMotion, modifier: Placing) -> Command:
-    """What makes an actor go as a shape says.
+    """The command that follows a shape.
 
     Raises:
-        Refused: It cannot.
+        Refused: It is not possible.
     """
     shape = modifier.shape
     assert shape is not None
@@ -71,15 +71,15 @@ def position_command(action: ModifiedMotion, modifier: Placing) -> Command:
 
 
 def check_way_to_gap(action: ModifiedMotion, position: Position, time: float | None) -> None:
-    """Refuses a way to a distance on which it would grow before it shrinks, or overshoot.
+    """Rejects an approach in which the distance is not monotonous.
 
     Args:
-        action: What is carried out.
+        action: The action.
         position: The target position.
-        time: Seconds until then, with the least effort; None: as soon as is comfortable.
+        time: Seconds until then, with the least effort; None: comfortable motion.
     """
     if position.timed:
-        return  # it depends on the speed, which changes on the way
+        return  # it depends on the speed, which changes meanwhile
     way = _gap(action, position)
     missing = way.target - way.here
     away = missing * way.speed < 0.0
@@ -111,7 +111,7 @@ def _way(action: ModifiedMotion, modifier: Placing) -> _Way:
 
 
 def _along_lane(action: ModifiedMotion, course: Profile) -> Computed:
-    """The way (m) along the lane over the time, of a course of positions along the road."""
+    """The distance (m) along the lane over time, from positions along the road over time."""
     here = action.place_of(action.actor.id)
     way = partial(way_to_position, action.world.map, action.origin, here)
     return Computed(lambda t: way(course.value(t)), course.duration)
@@ -144,7 +144,7 @@ def _gap(action: ModifiedMotion, modifier: Placing) -> _Way:
 
 
 def _course(action: ModifiedMotion, modifier: Placing, shape: Shape, way: _Way) -> Profile:
-    """The quantity over the time."""
+    """The quantity over time."""
     own = own_course(shape)
     if own is not None:
         return own

@@ -18,7 +18,7 @@ def library(probe: Probe) -> Finding:
 
 @line(2, "port of the calls", blocks=True)
 def calls(probe: Probe) -> Finding:
-    """A process listens; its answers are checked in the next line."""
+    """A process listens; the next line checks its responses."""
     where = ":".join(map(str, probe.address))
     try:
         probe.contact = probe.connect(probe.client)
@@ -31,7 +31,7 @@ def calls(probe: Probe) -> Finding:
 
 @line(3, "server", blocks=True)
 def server(probe: Probe) -> Finding:
-    """It answers as CARLA does."""
+    """It responds as CARLA does."""
     if "server" not in probe.contact:
         return differs(
             probe.contact["error"],

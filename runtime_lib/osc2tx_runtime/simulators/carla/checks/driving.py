@@ -1,6 +1,6 @@
 """Line 17: how well a driven car follows its lane and its speed, and the gains of its pedals.
 
-A run of our own, with the controllers of runs, on a straight and on a curved stretch of 100 m.
+The check drives with the controllers of runs, on a straight and on a curved stretch of 100 m.
 """
 
 from __future__ import annotations
@@ -25,19 +25,19 @@ from .motion import CAR, spawned, start_of, state_in
 from .probe import Finding, Probe, differs, line, ok
 
 PACE, FAR = 10.0, 100.0  # m/s, m
-SETTLED = 2.0  # s from which on the deviation counts
+SETTLED = 2.0  # s after which the deviation counts
 SPEED_OFF, PLACE_OFF = 0.5, 0.3  # m/s, m from the reference
 FLOORED = (1.0, 3.0)
 """Seconds of full throttle between which the acceleration is measured: gears take a moment."""
 
 BRAKED = 0.5  # s
 ALIKE = 0.25  # share by which proposed gains may differ from those of runs
-TURNS = math.radians(5.0)  # heading over a stretch from which on it is a curve
+TURNS = math.radians(5.0)  # change of heading over a stretch that makes it a curve
 
 
 @line(17, "gains", drives=True)
 def gains(probe: Probe) -> Finding:
-    """A driven car keeps to its lane and its speed; its pedals do what the controllers expect."""
+    """A driven car follows its lane and its speed; its pedals match the controllers."""
     assert probe.road_map is not None
     road_map = with_spawn_points(probe.road_map, probe.level)
     straight, curve = stretches(road_map)
@@ -88,7 +88,7 @@ def _turn(road_map: RoadMap, place: LanePosition) -> float | None:
 
 
 def _deviations(probe: Probe, road_map: RoadMap, place: LanePosition) -> tuple[float, float]:
-    """Return the largest deviations of speed (m/s) and position (m) on the way from a place."""
+    """Return the largest deviations of speed (m/s) and position (m) of a drive from a position."""
     driver = ClientProcess(probe.timeout)
     contact = probe.connect(driver)
     dt = probe.request.world.dt

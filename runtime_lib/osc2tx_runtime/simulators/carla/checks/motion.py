@@ -1,6 +1,6 @@
-"""Lines 7, 8, 14 to 16, 18, 19 and 23: what has to be tried, with actors of our own.
+"""Lines 7, 8, 14 to 16, 18, 19 and 23: trials with spawned actors.
 
-They are spawned by a second connection at spawn points of the level, and are gone at the end.
+A second connection spawns them at spawn points of the level, and removes them at the end.
 """
 
 from __future__ import annotations
@@ -33,12 +33,12 @@ HIGH = 1.0  # m above a spawn point
 TILT = 20.0  # degrees
 STILL = 0.5  # degrees that a tilt has to change by
 STANDS = 0.1  # m
-WALKED = 0.8  # share of a way that a walker has to cover: it starts after a moment
+WALKED = 0.8  # share of a distance that a walker has to cover: its start is delayed
 
 
 @line(7, "steps", drives=True)
 def steps(probe: Probe) -> Finding:
-    """Steps are ours, one by one, of the length that was asked for."""
+    """Steps are made by this client, one by one, with the requested length."""
     driver, dt = probe.driving(), probe.request.world.dt
     looked = [driver.ask("step", []) for _ in range(6)][1:]
     lengths = sorted({each["dt"] for each in looked})
@@ -59,7 +59,7 @@ def steps(probe: Probe) -> Finding:
 
 @line(8, "cost of a step", drives=True)
 def cost(probe: Probe) -> Finding:
-    """How fast the server is; no run depends on it."""
+    """Speed of the server; runs do not depend on it."""
     driver, dt = probe.driving(), probe.request.world.dt
     took = []
     for _ in range(TIMED):
@@ -81,7 +81,9 @@ def sizes(probe: Probe) -> Finding:
         with spawned(driver, name, start_of(probe)) as actor:
             early = driver.ask("describe", actor)["box"]
             driver.ask("step", [])
-            told = probe.client.ask("describe", actor)  # it asks the server, `driver` knows it
+            told = probe.client.ask(
+                "describe", actor
+            )  # `client` requests it from the server, `driver` has it
         length = 2.0 * told["box"][1]
         wheels = [place for *place, _ in told.get("wheels", ())]
         if length < LEAST_SIZE:
@@ -99,7 +101,7 @@ def sizes(probe: Probe) -> Finding:
 
 @line(15, "exact poses", drives=True)
 def exact(probe: Probe) -> Finding:
-    """An actor without physics is where it is put; others see it without a velocity."""
+    """An actor without physics is at its commanded position; other clients see no velocity."""
     driver = probe.driving()
     x, y, z, *turn = start_of(probe)
     with spawned(driver, CAR, (x, y, z + HIGH, *turn)) as actor:
@@ -126,7 +128,7 @@ def exact(probe: Probe) -> Finding:
 
 @line(16, "speed at the start", drives=True)
 def kick(probe: Probe) -> Finding:
-    """A body that is given a speed keeps it for a moment."""
+    """A body keeps an assigned speed for a moment."""
     driver, dt = probe.driving(), probe.request.world.dt
     x, y, z, pitch, yaw, roll = start_of(probe)
     vector = (KICK * math.cos(math.radians(yaw)), KICK * math.sin(math.radians(yaw)), 0.0)
@@ -145,7 +147,7 @@ def kick(probe: Probe) -> Finding:
 
 @line(18, "signs of rates", drives=True)
 def rates(probe: Probe) -> Finding:
-    """A tilted body falls on its wheels: its rate is that of its poses."""
+    """A tilted body falls on its wheels: its reported rate is that of its poses."""
     driver, dt = probe.driving(), probe.request.world.dt
     x, y, z, pitch, yaw, _ = start_of(probe)
     with spawned(driver, CAR, (x, y, z + HIGH, pitch, yaw, TILT)) as actor:
@@ -198,7 +200,7 @@ def walkers(probe: Probe) -> Finding:
 
 @line(23, "clean end", drives=True)
 def clean_end(probe: Probe) -> Finding:
-    """What was changed is as before."""
+    """All changes are undone."""
     before = probe.before
     probe.close()
     after = probe.client.ask("situation")
@@ -223,7 +225,7 @@ def start_of(probe: Probe) -> Sequence[float]:
 
 @contextmanager
 def spawned(driver: ClientProcess, blueprint: str, pose: Sequence[float]) -> Iterator[int]:
-    """Have an actor for a while."""
+    """Spawn an actor within a context."""
     actor: int = driver.ask("spawn", blueprint, {}, list(pose))["id"]
     try:
         yield actor

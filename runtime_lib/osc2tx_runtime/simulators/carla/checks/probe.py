@@ -23,7 +23,7 @@ class Finding(NamedTuple):
 
 
 def ok(found: str) -> Finding:
-    """It is as runs rely on."""
+    """It fulfils the requirements of runs."""
     return Finding("ok", found)
 
 
@@ -33,7 +33,7 @@ def differs(found: str, meaning: str) -> Finding:
 
 
 def unknown(found: str, meaning: str = "") -> Finding:
-    """It cannot be found out."""
+    """It cannot be determined."""
     return Finding("unknown", found, meaning)
 
 
@@ -43,13 +43,13 @@ class Probe:
 
     Attributes:
         request: The task of the check.
-        client: An observer that changes nothing but what `fixes` requests.
+        client: An observer that only changes what `fixes` requests.
         contact: The result of the first contact.
         level: The level of the server.
         road_map: The map of that level.
-        is_other_map: It is not the scenario's.
-        driver: A second connection, which makes steps; there from the first line that drives on.
-        before: The situation before that.
+        is_other_map: Whether it differs from the scenario's map.
+        driver: A second connection, which makes steps; opened by the first line that drives.
+        before: The situation before `driver`.
     """
 
     request: CheckRequest
@@ -103,9 +103,9 @@ class Line:
         number: Its number.
         name: The compared property.
         look: Compares it.
-        of_map: It is about the map of the scenario, if there is one.
-        drives: It takes the server over.
-        blocks: A run cannot begin where it differs.
+        of_map: Whether it concerns the map of the scenario, if there is one.
+        drives: Whether it takes over the server.
+        blocks: Whether runs cannot begin if it differs.
     """
 
     number: int

@@ -70,7 +70,7 @@ def ground(probe: Probe) -> Finding:
 
 
 def _along_lanes(road_map: RoadMap) -> Iterator[LanePosition]:
-    """Yield places on driving lanes, at equal distances over all roads."""
+    """Yield positions on driving lanes, at equal distances over all roads."""
     stretches = [
         (road, lane, section.begin, section.end)
         for road in sorted(road_map.roads)
@@ -102,7 +102,7 @@ def size(probe: Probe) -> Finding:
 
 
 def _asleep(probe: Probe) -> Finding:
-    """Whether an actor far from the camera is put to sleep, whatever the level is called."""
+    """Whether actors far from the camera become dormant, whatever the name of the level."""
     driver = probe.driving()
     places = probe.level["spawn_points"]
     with spawned(driver, CAR, max(places, key=lambda place: math.dist(place[:2], places[0][:2]))):
@@ -135,7 +135,7 @@ def left_overs(probe: Probe) -> Finding:
 
 
 def _counted(actors: Sequence[Sequence[Any]]) -> str:
-    """Return how many actors there are, by the begin of their blueprints."""
+    """Return the number of actors, by the first part of their blueprints."""
     kinds = Counter(kind.partition(".")[0] for _, kind, _ in actors)
     listed = ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
     return f"{len(actors)} actors{f' ({listed})' if listed else ''}"
@@ -143,7 +143,7 @@ def _counted(actors: Sequence[Sequence[Any]]) -> str:
 
 @line(13, "blueprints", blocks=True)
 def blueprints(probe: Probe) -> Finding:
-    """The models of the scenario are there."""
+    """The server has the models of the scenario."""
     library = probe.client.ask("blueprints")
     found, missing = [], []
     for spec in probe.request.actors:
@@ -158,7 +158,7 @@ def blueprints(probe: Probe) -> Finding:
 
 @line(20, "traffic lights", of_map=True)
 def lights(probe: Probe) -> Finding:
-    """Each light of the map is one of the server's, and none is frozen."""
+    """The server has all lights of the map, and none is frozen."""
     assert probe.road_map is not None
     there = set(probe.client.ask("traffic_lights"))
     wanted = {signal.id for signal in probe.road_map.signals() if signal.dynamic}
@@ -176,7 +176,7 @@ def lights(probe: Probe) -> Finding:
 
 @line(21, "Traffic Manager")
 def manager(probe: Probe) -> Finding:
-    """Its port is free: no other Traffic Manager's, and no other program's here."""
+    """Its port is free: neither used by another Traffic Manager nor by another program."""
     port = probe.request.world.options.get("carla_tm_port")
     if port is None:
         return ok("takes the first free port from 8000 on")
@@ -187,7 +187,7 @@ def manager(probe: Probe) -> Finding:
 
 @line(22, "ROS 2")
 def ros(probe: Probe) -> Finding:
-    """The topics of the sensors are there, as far as this machine can see them."""
+    """The topics of the sensors exist, as far as visible on this machine."""
     stacks = SensorStacks(probe.request.world.options.get("sensors", {}))
     roles = {each.id: each.role or each.id for each in probe.request.actors}
     expected = [text.split()[0] for text in stacks.table(roles) if text.startswith("/carla/")]

@@ -1,4 +1,4 @@
-"""The lines one after the other."""
+"""Execution of the lines in order."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ assert contact and driving and motion and surroundings  # they have declared the
 
 
 def check(request: CheckRequest) -> Iterator[CheckResult]:
-    """Look at a server; what one line has found, others know.
+    """Check a server; later lines use the findings of earlier ones.
 
     Raises:
         SimulatorError: CARLA's client library has no version for this system.

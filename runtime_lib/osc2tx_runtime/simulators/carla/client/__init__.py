@@ -1,10 +1,10 @@
 """The process that holds CARLA's client library.
 
-Requests come as lines of JSON, `[number, name, arguments]`, and are answered by `[number, kind,
-value]`: a kind is a value, an error or a bug. Names are those of the methods of `session`
-(connection, time), `levels`, `actors`, `surroundings`, `traffic_manager` and `inspection`. The end
-of the input ends the session: all that it changed is as before. `journal` has the list, also for a
-next session where this one is killed.
+Requests come as lines of JSON, `[number, name, arguments]`, with responses `[number, kind, value]`:
+a kind is a value, an error or a bug. Names are those of the methods of `session` (connection,
+time), `levels`, `actors`, `surroundings`, `traffic_manager` and `inspection`. The end of the input
+ends the session and undoes its changes. `journal` lists them, also for the next session if this one
+is killed.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ import re
 __all__ = ["LETTING_GO", "MISSING", "release_of"]
 
 MISSING = 3
-"""Exit code where the client library is not installed."""
+"""Exit code if the client library is not installed."""
 
 LETTING_GO = 60
-"""How long (s) the process tries to let go of a server at most, besides loading a level."""
+"""Time limit (s) of the process for restoring a server, besides loading a level."""
 
 
 def release_of(version: str) -> str:

@@ -1,4 +1,4 @@
-"""Requests about actors: own ones are removed in the end, foreign ones are as before."""
+"""Requests about actors: at the end own ones are removed, foreign ones restored."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from .session import Session
 PEDALS = ("throttle", "steer", "brake", "hand_brake", "reverse", "manual_gear_shift", "gear")
 """Fields of the control of a vehicle, in the order of its constructor."""
 
-POLL = 0.1  # s between two looks for a foreign actor
+POLL = 0.1  # s between two searches for a foreign actor
 OWN, FOREIGN = "own actors", "foreign actors"
 """Kinds of changes."""
 
 SOLID = ("vehicle.", "walker.", "static.prop.")
-"""Begins of the blueprints of what one can run into."""
+"""First parts of the blueprints of solid objects."""
 
 ROLLING = 0.1  # m/s of a controlled vehicle
 
@@ -29,7 +29,7 @@ class Actors:
     """Spawns, finds and describes; its methods are requests.
 
     Args:
-        session: A connected one.
+        session: A connected session.
     """
 
     def __init__(self, session: Session) -> None:
@@ -37,7 +37,7 @@ class Actors:
 
     @property
     def own(self) -> list[int]:
-        """Numbers of the actors that the session has made."""
+        """Numbers of the actors that the session has spawned."""
         found: list[int] = self._session.journal.changes.get(OWN, [])
         return found
 
@@ -54,7 +54,7 @@ class Actors:
     def spawn(
         self, blueprint: str, attributes: Mapping[str, str], pose: Sequence[float], parent: int = 0
     ) -> Mapping[str, Any]:
-        """Make an actor of the session, and return its description."""
+        """Spawn an actor of the session, and return its description."""
         description = self._session.world.get_blueprint_library().find(blueprint)
         for name, value in attributes.items():
             description.set_attribute(name, value)
@@ -71,7 +71,10 @@ class Actors:
             self._session.watched.remove(actor)
 
     def find(self, role: str, patience: float) -> Sequence[Mapping[str, Any]]:
-        """Return vehicles and walkers of others by their role name; none if none comes in time."""
+        """Return vehicles and walkers of other clients by their role name.
+
+        Empty if none appears in time.
+        """
         end = time.monotonic() + patience
         while True:
             found = [
@@ -86,7 +89,7 @@ class Actors:
             time.sleep(POLL)
 
     def borrow(self, actor_id: int) -> None:
-        """Take over a foreign actor: physics, control and lights are as before in the end."""
+        """Take over a foreign actor: physics, control and lights are restored at the end."""
         actor = self._session.world.get_actor(actor_id)
         before = actor.get_control()
         if isinstance(actor, carla.Vehicle):
@@ -103,7 +106,7 @@ class Actors:
             self._session.watched.append(actor.id)
             box = actor.bounding_box
             found["box"] = [box.location.x, box.extent.x, box.extent.y, box.extent.z]
-        if isinstance(actor, carla.Vehicle):  # asked before physics is switched off
+        if isinstance(actor, carla.Vehicle):  # read before physics is switched off
             wheels = actor.get_physics_control().wheels
             found["wheels"] = [
                 [wheel.position.x, wheel.position.y, wheel.max_steer_angle] for wheel in wheels
@@ -136,7 +139,7 @@ class Actors:
         return found
 
     def watch_collisions(self, actor: int) -> None:
-        """Note the contacts of an actor from now on."""
+        """Start noting the contacts of an actor."""
         description = self._session.world.get_blueprint_library().find("sensor.other.collision")
         holder = self._session.world.get_actor(actor)
         sensor = self._session.world.spawn_actor(description, carla.Transform(), attach_to=holder)
@@ -145,7 +148,7 @@ class Actors:
         self._session.handles.append(sensor.stop)
 
     def enable_for_ros(self, sensor: int) -> None:
-        """Have the server publish the data of a sensor, by its native ROS 2."""
+        """Make the server publish the data of a sensor, by its native ROS 2."""
         self._session.world.get_actor(sensor).enable_for_ros()
 
 
@@ -154,13 +157,13 @@ def _destroy(session: Session, actors: Sequence[int]) -> None:
     destroy = [carla.command.DestroyActor(each) for each in reversed(actors)]
     session.client.apply_batch_sync(destroy, False)
     if session.ticks:
-        # The batch would tick with the interpreter locked.
+        # The batch would tick while the interpreter is locked.
         session.world.tick(session.timeout)
 
 
 @undoes(FOREIGN)
 def _give_back(session: Session, actors: Sequence[Any]) -> None:
-    """Give actors back to their clients; those that have gone meanwhile have nothing to get."""
+    """Return actors to their clients; removed ones are skipped."""
     for number, control, lights in actors:
         actor = session.world.get_actor(number)
         if isinstance(actor, carla.Vehicle):

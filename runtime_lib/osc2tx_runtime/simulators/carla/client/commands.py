@@ -11,7 +11,7 @@ command = carla.command
 
 
 def transform(pose: Sequence[float]) -> Any:
-    """Return x, y, z, pitch, yaw, roll as the library has it."""
+    """Return x, y, z, pitch, yaw, roll as a transform of the library."""
     x, y, z, pitch, yaw, roll = pose
     return carla.Transform(carla.Location(x, y, z), carla.Rotation(pitch, yaw, roll))
 

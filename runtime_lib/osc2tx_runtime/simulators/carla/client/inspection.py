@@ -1,4 +1,4 @@
-"""Requests of `osc2tx world check`: findings of a session, and values it would have to restore."""
+"""Requests of `osc2tx world check`: findings, and the values that a session has to restore."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import carla
 
 from .session import Session, written
 
-REACH = 20.0  # m down to which ground is looked for
+REACH = 20.0  # m: depth of the search for ground
 SPAWNED = ("vehicle.", "walker.", "sensor.", "static.", "controller.")
 WEATHER = (
     "cloudiness",
@@ -24,10 +24,10 @@ WEATHER = (
 
 
 class Inspection:
-    """Looks at the server of a session; its methods are requests.
+    """Inspects the server of a session; its methods are requests.
 
     Args:
-        session: A connected one, but for `library`.
+        session: A connected session, except for `library`.
     """
 
     def __init__(self, session: Session) -> None:
@@ -61,12 +61,12 @@ class Inspection:
         }
 
     def remove(self, actors: Sequence[int]) -> None:
-        """Destroy actors that a client has left behind."""
+        """Destroy actors that a former client has left."""
         destroy = [carla.command.DestroyActor(each) for each in actors]
         self._session.client.apply_batch_sync(destroy, False)
 
     def ground(self, points: Sequence[Sequence[float]]) -> Sequence[float | None]:
-        """Return the height (m) of the ground below each point; None where there is none."""
+        """Return the height (m) of the ground below each point; None without ground."""
         world = self._session.world
         found = [world.ground_projection(carla.Location(*point), REACH) for point in points]
         return [None if each is None else each.location.z for each in found]

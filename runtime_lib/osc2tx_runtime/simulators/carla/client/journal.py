@@ -1,7 +1,7 @@
-"""What a session changes on its server, with what was there before: in memory and in a file.
+"""Changes of a session on its server with the former values, in memory and in a file.
 
-The file outlives a process that is killed: the next session on the server undoes what it lists.
-Each line is `[kind, value]` in JSON. A file that a living process has locked is not read.
+The file outlives a process that is killed: the next session on the server undoes the listed
+changes. Each line is `[kind, value]` in JSON. A file that a living process has locked is not read.
 """
 
 from __future__ import annotations
@@ -17,17 +17,17 @@ from pathlib import Path
 from typing import Any
 
 SERVER, EPISODE = "server", "episode"
-"""Kinds of lines that say where the others belong: an address, and what CARLA draws by lot for each
-loading of a level (`UCarlaEpisode`)."""
+"""Kinds of lines that identify the server and the episode: an address, and the random number that
+CARLA draws for each loading of a level (`UCarlaEpisode`)."""
 
 Undo = Callable[[Any, Sequence[Any]], object]
 
 UNDO: dict[str, Undo] = {}
-"""What undoes the changes of a kind, by its name: a function of a session and the noted values."""
+"""Functions that undo the changes of a kind, by its name, from a session and the noted values."""
 
 
 def undoes(kind: str) -> Callable[[Undo], Undo]:
-    """Declare what undoes the changes of a kind."""
+    """Register the function that undoes the changes of a kind."""
 
     def declared(undo: Undo) -> Undo:
         UNDO[kind] = undo
@@ -42,7 +42,7 @@ class Journal:
     Attributes:
         changes: Noted values by kind, in the order in which the kinds came up.
         server: Address of the server.
-        episode: Of the server, in which the changes were made.
+        episode: Episode of the server of the changes.
     """
 
     def __init__(self) -> None:
@@ -52,7 +52,7 @@ class Journal:
         self._file = -1
 
     def open(self, folder: str, server: str) -> None:
-        """Keep a file in a folder, if that is possible; it appears once it is locked."""
+        """Keep a file in a folder, if possible; it appears once it is locked."""
         self.server = server
         if not folder or self._file >= 0:
             return
@@ -65,11 +65,11 @@ class Journal:
             self._write(SERVER, server)
             new.rename(path)
             self._path = path
-        except OSError:  # changes are undone all the same, unless this process is killed
+        except OSError:  # changes are still undone, unless this process is killed
             self.close()
 
     def enter(self, episode: int) -> None:
-        """Note the episode that the changes from now on belong to."""
+        """Note the episode of the further changes."""
         self.episode = episode
         self._write(EPISODE, episode)
 
@@ -83,16 +83,19 @@ class Journal:
             os.write(self._file, json.dumps([kind, value]).encode() + b"\n")
 
     def undo(self, session: Any) -> Iterator[Callable[[], object]]:
-        """Yield what undoes the changes, the last ones first; a kind is gone once that was done."""
+        """Yield the functions that undo the changes, the last first.
+
+        A kind is removed once undone.
+        """
         for kind in reversed(list(self.changes)):
             yield partial(UNDO[kind], session, self.changes[kind])
             del self.changes[kind]
 
     def read(self, text: str) -> None:
-        """Take over the lines of a file; a last one that was cut off is left out.
+        """Read the lines of a file; a truncated last line is omitted.
 
         Raises:
-            ValueError: They are not those of a journal.
+            ValueError: It is not a journal.
         """
         for line in text.splitlines(keepends=True):
             if not line.endswith("\n"):
@@ -108,7 +111,7 @@ class Journal:
                 raise ValueError(f"unknown kind {kind}")
 
     def close(self) -> None:
-        """Remove the file if nothing is left to be undone."""
+        """Remove the file if all changes are undone."""
         if self._path is not None and not self.changes:
             self._path.unlink(missing_ok=True)
         if self._file >= 0:
@@ -117,9 +120,9 @@ class Journal:
 
 
 def left_behind(folder: str, server: str, episode: int) -> list[Journal]:
-    """Return the journals of killed sessions, as far as their changes are still there.
+    """Return the journals of killed sessions whose changes still exist.
 
-    Those of earlier episodes of the server are removed: their changes went with the level.
+    Those of earlier episodes of the server are removed: their changes ended with the level.
     """
     found = []
     for path in sorted(Path(folder).glob("*.jsonl")) if folder else ():
@@ -136,7 +139,7 @@ def left_behind(folder: str, server: str, episode: int) -> list[Journal]:
 
 
 def _taken(path: Path) -> Journal | None:
-    """Return a journal that no process keeps any more, and lock it; None for others."""
+    """Return a journal that no process keeps, and lock it; None for others."""
     journal = Journal()
     try:
         journal._file = os.open(path, os.O_RDWR | os.O_NOFOLLOW)

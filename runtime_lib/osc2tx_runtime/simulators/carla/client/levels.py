@@ -1,4 +1,4 @@
-"""Requests about the level: the one before is loaded again in the end."""
+"""Requests about the level: the former one is loaded again at the end."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class Levels:
     """Describes and loads levels; its methods are requests.
 
     Args:
-        session: A connected one.
+        session: A connected session.
     """
 
     def __init__(self, session: Session) -> None:
@@ -25,7 +25,7 @@ class Levels:
     def level(self, patience: float = 0.0) -> Mapping[str, Any]:
         """Return name, OpenDRIVE text and spawn points of the level.
 
-        The text of a large one takes a time (s), too.
+        The time limit (s) also covers the text of a large level.
         """
         with _patient(self._session, patience):
             found = self._session.world.get_map()
@@ -40,29 +40,29 @@ class Levels:
         return [each.rpartition("/")[2] for each in self._session.client.get_available_maps()]
 
     def load(self, name: str, patience: float, keep: bool = False) -> None:
-        """Load a map of the server, which may take a time (s).
+        """Load a map of the server within a time (s).
 
-        The level before is loaded again in the end, unless the new one is to be kept.
+        The former level is loaded again at the end, unless the new one has to be kept.
         """
         self._leave(patience, keep)
         _load(self._session, name, patience)
 
     def generate(self, text: str, patience: float, keep: bool = False) -> None:
-        """Make a level from OpenDRIVE text, without walls beside the road; see `load`.
+        """Create a level from OpenDRIVE text, without walls beside the road; see `load`.
 
-        A mesh for pedestrians is left out: it takes long, and walkers are led without it.
+        A mesh for pedestrians is omitted: it takes long, and walkers do not need it.
         """
         self._leave(patience, keep)
         _generate(self._session, text, patience)
 
     def reload(self, patience: float) -> None:
-        """Load the level anew, which may take a time (s)."""
+        """Reload the level within a time (s)."""
         note_settings(self._session)
         self._note_view()
         _load_anew(self._session, *self._level_now(), patience)
 
     def _leave(self, patience: float, keep: bool) -> None:
-        """Note what goes with the level: a new one begins with settings and weather of its own."""
+        """Note the values that a new level resets: settings and weather."""
         note_settings(self._session)
         if keep or "level" in self._session.journal.changes:
             return
@@ -96,9 +96,9 @@ def _generate(session: Session, text: str, patience: float) -> None:
 
 
 def _load_anew(session: Session, name: str, text: str, patience: float) -> None:
-    """Load a level by its name, or make it from its text if the server lacks it.
+    """Load a level by its name, or create it from its text if the server lacks it.
 
-    A server that waits for steps would not come to do so.
+    A server that waits for steps would not load it.
     """
     session.free_time()
     if text:
@@ -114,7 +114,7 @@ def _enter(session: Session, world: Any) -> None:
 
 @contextmanager
 def _patient(session: Session, seconds: float) -> Iterator[None]:
-    """Give calls more time: the library retries for as long as one call may take."""
+    """Extend the time limit of calls: the library retries within it."""
     session.client.set_timeout(max(seconds, session.timeout))
     try:
         yield

@@ -1,4 +1,4 @@
-"""A session with a server: it undoes its changes in the end, and those of killed ones before."""
+"""A session with a server: it undoes its changes, and those of killed sessions."""
 
 from __future__ import annotations
 
@@ -15,31 +15,31 @@ from .commands import command_of
 from .journal import Journal, left_behind, undoes
 from .snapshots import Collisions, actor_state, light_states
 
-GLANCE = 0.5  # s to wait for a step of another client before it is looked for
+GLANCE = 0.5  # s to wait for a step of another client
 SUBSTEP, MOST_SUBSTEPS = 0.01, 16
-"""s, and how many of them the server makes in a step at most."""
+"""Length of a substep (s), and the greatest number of substeps in a step."""
 
-LISTENS = 2.0  # s that a port has to take a connection
-TICKS = 2.0  # s without a step after which no client counts as making them
+LISTENS = 2.0  # s within which a port has to accept a connection
+TICKS = 2.0  # s without a step after which no client makes them
 
 
 class Session:
-    """Connection and time; its methods are requests, with values that JSON knows.
+    """Connection and time; its methods are requests, with JSON values.
 
     Args:
-        folder: Where the journals are; none if empty.
+        folder: Folder of the journals; empty: none.
 
     Attributes:
         client: Of the library.
         world: Its world.
-        timeout: How long (s) a call may take.
-        patience: How long (s) loading the level before may take in the end.
-        ticks: Steps are made by this session.
+        timeout: Time limit (s) of a call.
+        patience: Time limit (s) of loading the former level at the end.
+        ticks: Whether this session makes the steps.
         address: Host and port of the server.
         journal: Its changes.
-        handles: What lets go of parts of the library, from the last one on.
-        watched: Actors whose states a look returns.
-        lights: Traffic lights, whose states it returns, too.
+        handles: Functions that release parts of the library, the last first.
+        watched: Actors whose states `look` returns.
+        lights: Traffic lights whose states `look` returns.
         collisions: Reports of sensors.
     """
 
@@ -64,11 +64,11 @@ class Session:
         """Return the findings of a first contact, up to the first missing part.
 
         Returns:
-            `listens`: a port answers. `server`, `client`: versions; they have to be of one release,
-            since others may not even have the same calls. `streams`: snapshots arrive; else
-            `stream_port` says whether the port of the streams, the next one by default, answers.
-            `left`: kinds of changes that killed sessions have left behind, and `repair` undoes.
-            `synchronous`: steps wait for a client, which makes them if `ticks`; `dt` (s): theirs.
+            `listens`: a port answers. `server`, `client`: versions; both must be of the same
+            release, since calls may differ. `streams`: snapshots arrive; else `stream_port` states
+            whether the port of the streams, by default the next one, responds. `left`: kinds of
+            changes of killed sessions, which `repair` undoes. `synchronous`: steps wait for a
+            client, which makes them if `ticks`; `dt` (s): theirs.
         """
         self.address, self.timeout = (host, port), timeout
         found: dict[str, Any] = {"listens": listens(host, port)}
@@ -94,7 +94,7 @@ class Session:
         return found
 
     def _left_behind(self) -> Sequence[str]:
-        """Begin a journal, and return what those of killed sessions list."""
+        """Begin a journal, and return the changes of killed sessions."""
         where = ":".join(map(str, self.address))
         self._left += left_behind(self._folder, where, self.world.id)
         self.journal.open(self._folder, where)
@@ -102,7 +102,7 @@ class Session:
         return sorted({kind for each in self._left for kind in each.changes})
 
     def repair(self) -> None:
-        """Undo what killed sessions have left behind."""
+        """Undo the changes of killed sessions."""
         while self._left:
             self._undone(self._left[-1].undo(self))
             self._left.pop().close()
@@ -116,7 +116,7 @@ class Session:
         return True
 
     def free_time(self) -> None:
-        """End a synchronous mode that a client has left behind."""
+        """End a synchronous mode that a former client has left."""
         settings = self.world.get_settings()
         settings.synchronous_mode, settings.fixed_delta_seconds = False, None
         self.world.apply_settings(settings)
@@ -124,7 +124,7 @@ class Session:
     # --- time ---------------------------------------------------------------------------------
 
     def own_time(self, dt: float) -> None:
-        """Take over the time: steps of a length (s), made by us."""
+        """Take over the time: this session makes the steps, of a length (s)."""
         note_settings(self)
         settings = self.world.get_settings()
         settings.synchronous_mode, settings.fixed_delta_seconds = True, dt
@@ -147,24 +147,24 @@ class Session:
         return {**looked, "skipped": max(looked["skipped"], late)}
 
     def _steps_since_look(self) -> int:
-        """How many steps the server has made since the last look."""
+        """Number of steps of the server since the last look."""
         frame = self.world.get_snapshot().frame
         if self._frame is None:
             self._frame = frame
         return int(frame - self._frame)
 
     def _wait_for_step(self) -> None:
-        """Wait until the other client has made a step, be it before this side began to wait."""
+        """Wait until the other client has made a step, possibly before the call."""
         end = time.monotonic() + self.timeout
         while not self._steps_since_look():
             try:
                 self.world.wait_for_tick(GLANCE)
-            except RuntimeError:  # none came in so short a time
+            except RuntimeError:  # none came within this time
                 if time.monotonic() > end:
                     raise
 
     def apply(self, commands: Sequence[Sequence[Any]]) -> None:
-        """Carry out commands; one that the server refuses is an error."""
+        """Execute commands; a rejected one is an error."""
         batch = [command_of(each) for each in commands]
         answers = self.client.apply_batch_sync(batch, False) if batch else []
         refused = [
@@ -195,7 +195,7 @@ class Session:
         }
 
     def _dormant(self) -> Sequence[int]:
-        """Return the watched actors that a large level has put to sleep, far from what it shows."""
+        """Return the watched actors that are dormant, far from the camera of a large level."""
         return [each.id for each in self.world.get_actors(self.watched) if each.is_dormant]
 
     # --- end ----------------------------------------------------------------------------------
@@ -210,13 +210,12 @@ class Session:
             yield self.handles.pop()
         if self.journal.changes:
             yield from self.journal.undo(self)
-            yield self.world.get_settings  # the library sends most calls without waiting for them
+            yield self.world.get_settings  # the library sends most calls asynchronously
 
     def _undone(self, steps: Iterator[Callable[[], object]]) -> bool:
-        """Take steps of undoing; return whether the server was there for all of them.
+        """Execute steps of undoing; return whether the server responded to all.
 
-        One that does not answer may recover: this continues until the process is ended, or the
-        server is gone.
+        A server without response may recover: this continues until the process or the server ends.
         """
         for step in steps:
             while not _is_over(step):
@@ -226,7 +225,7 @@ class Session:
 
 
 def _is_over(step: Callable[[], object]) -> bool:
-    """Take a step, and return whether it does not have to be tried again."""
+    """Execute a step, and return whether it is done."""
     try:
         step()
     except RuntimeError as error:
@@ -248,7 +247,7 @@ def _restore_settings(session: Session, values: Sequence[Any]) -> None:
 
 
 def listens(host: str, port: int) -> bool:
-    """Return whether a port takes connections."""
+    """Return whether a port accepts connections."""
     try:
         with socket.create_connection((host, port), timeout=LISTENS):
             return True

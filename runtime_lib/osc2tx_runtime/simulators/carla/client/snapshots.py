@@ -1,4 +1,4 @@
-"""What snapshots and sensors say, as numbers."""
+"""Content of snapshots and sensors, as numbers."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ def actor_state(found: Any) -> list[float]:
 
 
 def light_states(lights: Mapping[str, Any]) -> Mapping[str, str]:
-    """Return what each traffic light shows, by its OpenDRIVE id."""
+    """Return the states of the traffic lights, by OpenDRIVE id."""
     return {name: str(light.state) for name, light in lights.items() if name}
 
 
 class Collisions:
-    """Contacts that sensors report, from a thread of the library's own."""
+    """Contacts reported by sensors, in a thread of the library."""
 
     def __init__(self) -> None:
         self._events: list[tuple[int, float, int, int, str]] = []
@@ -37,7 +37,7 @@ class Collisions:
             self._events.append(found)
 
     def take(self) -> Sequence[Sequence[Any]]:
-        """Hand over time (s of the episode), actor, other actor and its blueprint, in order."""
+        """Return time (s of the episode), actor, other actor and its blueprint, in order."""
         with self._lock:
             events, self._events = self._events, []
         return [event[1:] for event in sorted(events)]

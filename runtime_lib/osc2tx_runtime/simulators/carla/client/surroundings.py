@@ -1,4 +1,4 @@
-"""Requests about weather, friction, traffic lights and the camera; all is as before in the end."""
+"""Requests about weather, friction, traffic lights and the camera; all are restored at the end."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class Surroundings:
     """Changes the surroundings of the actors; its methods are requests.
 
     Args:
-        session: A connected one.
+        session: A connected session.
         actors: Of the session.
     """
 
@@ -25,7 +25,7 @@ class Surroundings:
         self._session, self._actors = session, actors
 
     def set_weather(self, values: Mapping[str, float]) -> None:
-        """Change the weather; values left out stay."""
+        """Change the weather; other values are unchanged."""
         weather = self._session.world.get_weather()
         if "weather" not in self._session.journal.changes:
             self._session.journal.note("weather", fields_of(weather))
@@ -45,28 +45,28 @@ class Surroundings:
             self._actors.spawn("static.trigger.friction", attributes, [0.0] * 6)
 
     def traffic_lights(self) -> Sequence[str]:
-        """Return the OpenDRIVE ids of the lights; `look` has their states from now on."""
+        """Return the OpenDRIVE ids of the lights; `look` then returns their states."""
         lights = self._session.world.get_actors().filter("traffic.traffic_light*")
         self._session.lights = {each.get_opendrive_id(): each for each in lights}
         return [name for name in self._session.lights if name]
 
     def reset_lights(self) -> None:
-        """Have the cycles of all lights begin anew, so that a run does not depend on its time."""
+        """Restart the cycles of all lights, so that a run does not depend on its time."""
         self._session.world.reset_all_traffic_lights()
 
     def set_light(self, name: str, state: str) -> None:
-        """Have a traffic light show a state; batches have no command for that."""
+        """Set the state of a traffic light; batches have no command for it."""
         self._session.lights[name].set_state(carla.TrafficLightState.names[state])
 
     def freeze_lights(self) -> None:
-        """Stop the cycles of all lights; in the end each is as it was."""
+        """Stop the cycles of all lights; each is restored at the end."""
         lights = self._session.world.get_actors().filter("traffic.traffic_light*")
         before = [[light.id, str(light.state), light.is_frozen()] for light in lights]
         self._session.journal.note("traffic lights", before)
         self._session.world.freeze_all_traffic_lights(True)
 
     def spectator(self) -> int:
-        """Return the camera of the server's window, which is put back in the end."""
+        """Return the camera of the server's window, which is restored at the end."""
         camera = self._session.world.get_spectator()
         if "camera" not in self._session.journal.changes:
             self._session.journal.note("camera", written(camera.get_transform()))
@@ -87,7 +87,7 @@ def _restore_camera(session: Session, values: Sequence[Any]) -> None:
 
 @undoes("traffic lights")
 def _thaw(session: Session, values: Sequence[Any]) -> None:
-    """Set each light as it was; cycles go on unless they were stopped before."""
+    """Restore each light; cycles continue unless they were stopped before."""
     before = {actor: (state, frozen) for actor, state, frozen in values[0]}
     for light in session.world.get_actors(list(before)):
         light.set_state(carla.TrafficLightState.names[before[light.id][0]])

@@ -1,9 +1,9 @@
-"""The Traffic Manager: an own one, since nothing tells mode and seed of another client's.
+"""A separate Traffic Manager, since mode and seed of that of another client cannot be read.
 
 A server has a list of the Traffic Managers that its clients run, by port. `get_trafficmanager`
-joins the one that is listed (`TrafficManager::CreateTrafficManagerClient`); what a run would set
-there could not be put back. The library keeps the calls about that list to itself, so they are
-written here: MessagePack-RPC, `[0, number, name, [[asynchronous], port]]`.
+joins the one that is listed (`TrafficManager::CreateTrafficManagerClient`); the settings of a run
+there could not be restored. The library does not expose the calls for that list, so they are
+implemented here: MessagePack-RPC, `[0, number, name, [[asynchronous], port]]`.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from .journal import undoes
 from .session import Session, listens
 
 FIRST, LAST = 8000, 8099
-"""Ports of which the first free one is taken where none is named."""
+"""Range of ports, the first free one of which is used by default."""
 
 KIND = "Traffic Manager"
 
@@ -25,17 +25,17 @@ class TrafficManagers:
     """Starts the Traffic Manager of a session; its methods are requests.
 
     Args:
-        session: A connected one.
+        session: A connected session.
     """
 
     def __init__(self, session: Session) -> None:
         self._session = session
 
     def begin_autopilot(self, port: int | None, seed: int) -> int:
-        """Start the Traffic Manager, in step with the world; return its port.
+        """Start the Traffic Manager, synchronized with the world; return its port.
 
         Raises:
-            RuntimeError: Another client's is there, or another program.
+            RuntimeError: The port is used by another client, or by another program.
         """
         if port is None:
             free = (each for each in range(FIRST, LAST + 1) if not self.is_manager_port_taken(each))
@@ -53,23 +53,23 @@ class TrafficManagers:
         return int(manager.get_port())
 
     def is_manager_port_taken(self, port: int) -> bool:
-        """Return whether a port is another Traffic Manager's, or another program's here."""
+        """Return whether a port is used by another Traffic Manager, or by another program."""
         listed = _call(self._session, "is_traffic_manager_running", port)
         return listed or listens("127.0.0.1", port)
 
 
 @undoes(KIND)
 def _strike(session: Session, ports: Sequence[Any]) -> None:
-    """Strike Traffic Managers off the server's list: their processes have ended them."""
+    """Remove Traffic Managers from the server's list: their processes have ended."""
     for port in ports:
         _call(session, "destroy_traffic_manager", port)
 
 
 def _call(session: Session, name: str, port: int) -> bool:
-    """Make a call with a port, whose answer is yes or no, in its last byte.
+    """Make a call with a port; the last byte of the response is its Boolean result.
 
     Raises:
-        RuntimeError: There is no answer in time, in the words of the library.
+        RuntimeError: There is no response in time.
     """
     text = name.encode()
     request = b"\x94\x00\x00" + bytes([0xA0 + len(text)]) + text
