@@ -37,6 +37,8 @@ HEAVIEST_RAIN = 50.0
 FAR = 100000.0
 """Visual range (m) where fog is not mentioned."""
 
+PRECIPITATIONS: tuple[PrecipitationType, ...] = ("rain", "snow")
+
 OKTAS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 
 
@@ -120,16 +122,16 @@ def _clouds_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -> Globa
     if not 0.0 <= cloudiness < len(OKTAS):
         raise Inexpressible("the cloud cover is not between 0 and 9 oktas")
     ctx.weather["cloudiness"] = cloudiness
-    if ctx.version < "1.2" and 0 < cloudiness < 8:
+    if ctx.version >= "1.2":
+        cover = cast("FractionalCloudCover", f"{OKTAS[round(cloudiness)]}Oktas")
+        return (environment_action(ctx, node, xml.Weather(fractionalCloudCover=cover)),)
+    if 0 < cloudiness < 8:
         arguments.approximate(
             f"OpenSCENARIO XML {ctx.version} counts no oktas",
             f"{cloudiness:g} oktas are called cloudy, which is 1 to 7",
             Remedy(version="1.2"),
         )
-    if ctx.version < "1.2":
-        return (environment_action(ctx, node, xml.Weather(cloudState=_cloud_state(ctx))),)
-    cover = cast("FractionalCloudCover", f"{OKTAS[round(cloudiness)]}Oktas")
-    return (environment_action(ctx, node, xml.Weather(fractionalCloudCover=cover)),)
+    return (environment_action(ctx, node, xml.Weather(cloudState=_cloud_state(ctx))),)
 
 
 def _cloud_state(ctx: Context) -> CloudState:
@@ -145,7 +147,7 @@ def _precipitation_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -
     if node.action == "snow" and intensity > 0.0:
         ctx.require_support("Precipitation/snow")
     ctx.weather[f"{node.action}_intensity"] = intensity
-    if ctx.weather.get("rain_intensity", 0.0) > 0.0 and ctx.weather.get("snow_intensity", 0.0) > 0:
+    if all(ctx.weather.get(f"{name}_intensity", 0.0) > 0.0 for name in PRECIPITATIONS):
         raise Inexpressible("OpenSCENARIO XML has one precipitation, not rain and snow")
     if ctx.version == "1.0" and intensity > 0.0:
         arguments.approximate(
@@ -159,8 +161,7 @@ def _precipitation_action(ctx: Context, node: ir.Invoke, arguments: Arguments) -
 def _precipitation(ctx: Context) -> xml.Precipitation:
     kind: PrecipitationType = "dry"
     intensity = 0.0
-    names: tuple[PrecipitationType, ...] = ("rain", "snow")
-    for name in names:
+    for name in PRECIPITATIONS:
         amount = ctx.weather.get(f"{name}_intensity", 0.0)
         if amount > 0.0:
             kind, intensity = name, round(amount / MMPH, 9)

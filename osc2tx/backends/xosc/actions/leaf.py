@@ -87,6 +87,11 @@ class Performance:
     lasts: float | None = None
     reached: tuple[xml.ByEntityCondition, ...] = ()
 
+    @property
+    def actions(self) -> tuple[xml.ActionPart, ...]:
+        """Elements of all changes."""
+        return tuple(action for change in self.changes for action in change.actions)
+
 
 @dataclass(frozen=True, slots=True)
 class Uneven:
@@ -274,7 +279,7 @@ class Leaf:
         """
         speed = self.state.known_speed
         if speed is None:
-            raise Inexpressible(otherwise, self.node.span)
+            raise Inexpressible(otherwise)
         return speed
 
 

@@ -9,12 +9,11 @@ from __future__ import annotations
 from osc2tx.backends.xosc.actions.leaf import Change, Ending, Leaf, Performance
 from osc2tx.backends.xosc.actions.position.walkers import UNKNOWN, stand, walk
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
+from osc2tx.backends.xosc.actions.speed.courses import hold_speed
 from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to
-from osc2tx.backends.xosc.actions.speed.speed_elements import hold_speed
 from osc2tx.backends.xosc.actions.speed.speed_modifiers import time_to_cover
-from osc2tx.backends.xosc.actions.speed.speed_notes import note_open_speed
-from osc2tx.backends.xosc.facts.actors import FASTEST, Pace, course_of_speed
-from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx.backends.xosc.facts.actors import FASTEST, TOP_SPEED, Pace, course_of_speed
+from osc2tx.backends.xosc.report import Inexpressible, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, known
 
 WAYS = {"along", "along_trajectory"}
@@ -26,7 +25,7 @@ def _drive(leaf: Leaf) -> Performance:
     if leaf.state.pose is not None and leaf.member.walks:
         return _walk(leaf)
     changes = apply_modifiers(leaf)
-    note_open_speed(leaf)
+    _note_open_speed(leaf)
     goals = (m for m in leaf.node.modifiers if m.at == "end" or m.name.startswith("along"))
     ends: Ending = "goal" if leaf.duration is None and any(goals) else "open"
     return Performance(changes, ends, time_to_cover(leaf), leaf.reached)
@@ -97,3 +96,26 @@ def _remain_stationary(leaf: Leaf) -> Performance:
     if leaf.member.walks:
         return Performance((stand(leaf),), "open")
     return Performance((change_speed(leaf, 0.0, FASTEST), *apply_modifiers(leaf)), "open")
+
+
+_BESIDE_SPEED = ("keep_lane", "lane", "lateral", "change_lane")
+"""Modifiers that say nothing of the speed."""
+
+
+def _note_open_speed(leaf: Leaf) -> None:
+    """Report that a driver who is told no speed slows down for bends, which no XML says."""
+    roads, speed = leaf.ctx.roads, leaf.state.speed
+    if roads is None or leaf.member.walks:
+        return
+    if any(call.name not in _BESIDE_SPEED for call in leaf.node.modifiers):
+        return
+    fastest = TOP_SPEED if speed is None else max(map(abs, speed))
+    if fastest**2 * roads.sharpest_bend > leaf.limits.lateral:
+        bound = f"{fastest:.4g} m/s are too fast for the sharpest bend of the map"
+        if speed is None:
+            bound = "none where its speed, which only the run shows, suits the bends of the map"
+        leaf.approximate(
+            "no speed is stated: it slows down for bends in the world, but not in the XML",
+            bound,
+            Remedy(instead="`keep_speed()` holds the speed in both"),
+        )

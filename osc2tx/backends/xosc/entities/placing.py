@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
+from osc2tx.backends.xosc.actions.speed.courses import speed_action
 from osc2tx.backends.xosc.actions.trailers import towing
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.start_lanes import note_turn, turned

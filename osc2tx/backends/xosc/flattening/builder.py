@@ -195,8 +195,16 @@ class StoryboardBuilder:
     def after(self, trigger: ir.Trigger, start: Flow) -> Flow:
         """Return when a trigger occurs that is looked at from a flow on."""
         flow = start
-        if trigger.event is not None:
-            flow = flow & self._occurrence(trigger)
+        match trigger.event:
+            case None:
+                pass
+            case ir.InnerEvent(label=label, name=name) as event:
+                if "." in name:
+                    raise Inexpressible("an event deep inside of an invoked scenario", event.span)
+                with self.ctx.within(self.ctx.scope.by_label[label]):
+                    flow = flow & self.events.of_event(name, event, is_early=False)
+            case _:
+                flow = flow & self.events.occurrence(trigger)
         match trigger.condition:
             case None:
                 return flow
@@ -212,15 +220,6 @@ class StoryboardBuilder:
                 tests = condition_flow(self.ctx, condition)
                 self.ctx.report.exact("condition", condition.span)
                 return flow & tests
-
-    def _occurrence(self, trigger: ir.Trigger) -> Flow:
-        event = trigger.event
-        if not isinstance(event, ir.InnerEvent):
-            return self.events.occurrence(trigger)
-        if "." in event.name:
-            raise Inexpressible("an event deep inside of an invoked scenario", event.span)
-        with self.ctx.within(self.ctx.scope.by_label[event.label]):
-            return self.events.of_event(event.name, event, is_early=False)
 
     def limit(self, node: ir.Composition | ir.Invoke | ir.InvokeScenario, start: Flow) -> Flow:
         """Return when a member that starts with a flow is over at the latest; as `until`."""
@@ -283,8 +282,6 @@ class StoryboardBuilder:
 
     def claimed_by(self, labels: list[str]) -> frozenset[tuple[str, str]]:
         """Return the same for labelled members."""
-        if not labels:
-            return frozenset()
         nodes = ir.walk_behaviors(self.ctx.scope.scenario.body)
         found = (self.claimed(node) for node in nodes if node.label in labels)
         return frozenset[tuple[str, str]]().union(*found)
@@ -299,6 +296,8 @@ def construct_of(node: ir.Behavior) -> str:
             return "one_of"
         case ir.InvokeScenario():
             return "scenario invocation"
+        case ir.Finish(succeeds=succeeds):
+            return "emit end" if succeeds else "emit fail"
     return type(node).__name__.lower()
 
 

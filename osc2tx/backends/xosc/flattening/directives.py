@@ -62,7 +62,6 @@ def emit(builder: StoryboardBuilder, node: ir.Emit, start: Flow) -> Flow:
         builder.add(ctx.names.new(f"after_{name}"), (reset,), done, actor=builder.mark_actor)
     else:
         done = builder.is_set(events.variable(node.event.name))
-    ctx.report.exact("emit", node.span)
     return builder.mark_end(node, start if start.is_latched else done)
 
 
@@ -91,7 +90,6 @@ def finish(builder: StoryboardBuilder, node: ir.Finish, start: Flow) -> Flow:
         ctx.require_support("SetMonitorAction")
         start = builder.tell_failure("fail", start)
     builder.finished = builder.finished | start
-    ctx.report.exact("emit end" if node.succeeds else "emit fail", node.span)
     return start
 
 
@@ -105,7 +103,6 @@ def react(builder: StoryboardBuilder, node: ir.On, start: Flow) -> Flow:
     condition = node.trigger.condition
     if isinstance(condition, ir.Every) and node.trigger.event is None:
         react_periodically(builder, node, condition, builder.latched(start, "on"), tuple(actions))
-        ctx.report.exact("on", node.span)
         return NEVER
     if node.trigger.event is None and not isinstance(condition, ir.Edge):
         raise Inexpressible("only an event or an edge can be reacted to")
@@ -117,31 +114,31 @@ def react(builder: StoryboardBuilder, node: ir.On, start: Flow) -> Flow:
     name = ctx.names.new(f"on_{plain(node.trigger.span.text)}")
     builder.add(name, tuple(actions), occurs, repeats=repeats)
     if not once:  # the opposite edge makes room for the next occurrence
-        over = Flow(
-            tuple(
-                tuple(replace(test, edge=OPPOSITE[test.edge]) for test in group)
-                for group in occurs.groups
-            )
+        turned = (
+            tuple(replace(test, edge=OPPOSITE[test.edge]) for test in group)
+            for group in occurs.groups
         )
+        over = Flow(tuple(turned))
         reset = tuple(events.setting(event, "false") for event in emitted_by(node))
         builder.add(ctx.names.new(f"after_{name}"), reset, over, repeats=repeats)
-    ctx.report.exact("on", node.span)
     return NEVER
 
 
 def _each_time(occurs: Flow, start: Flow) -> Flow:
     """Return a flow with an edge in each group: a variable that is set comes and goes."""
     since = {test for group in start.groups for test in group}
-    return Flow(
+    groups = [
         tuple(
             (
-                group
-                if any(test.edge != "none" for test in group)
-                else tuple(t if t in since else replace(t, edge="rising") for t in group)
+                test
+                if test in since or any(t.edge != "none" for t in group)
+                else replace(test, edge="rising")
             )
-            for group in occurs.groups
+            for test in group
         )
-    )
+        for group in occurs.groups
+    ]
+    return Flow(tuple(groups))
 
 
 # --- actions that concern no entity ---------------------------------------------------------------

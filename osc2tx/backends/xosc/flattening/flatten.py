@@ -71,14 +71,17 @@ class Flattener:
     def _member(self, node: ir.Behavior, start: Flow) -> Flow:
         """Flatten a member that starts with a flow; return when it ends, `NEVER` if it does not."""
         outer, self._builder.place = self._builder.place, node.span
+        end = start
         try:
             start, skipped = unless_active(self._builder, node, start)
-            return self._flatten(node, self._builder.mark_start(node, start)) | skipped
+            end = self._flatten(node, self._builder.mark_start(node, start)) | skipped
         except Unwritable as error:
             self._ctx.report.refuse(construct_of(node), node.span, error)
-            return start
-        finally:
-            self._builder.place = outer
+        else:
+            if not isinstance(node, ir.Invoke):  # actions report themselves
+                self._ctx.report.exact(construct_of(node), node.span)
+        self._builder.place = outer
+        return end
 
     def _flatten(self, node: ir.Behavior, start: Flow) -> Flow:
         match node:
@@ -95,7 +98,6 @@ class Flattener:
             case ir.Wait():
                 begin = self._builder.latched(start, self._builder.name_of(node))
                 end = self._builder.after(node.trigger, begin)
-                self._ctx.report.exact("wait", node.span)
                 return self._builder.mark_end(node, end)
             case ir.Emit():
                 return emit(self._builder, node, start)
@@ -126,7 +128,6 @@ class Flattener:
             if not is_last:
                 following = self._builder.claimed(node.members[index + 1])
                 flow = end_open_actions(self._builder, flow, member, following)
-        self._ctx.report.exact("serial", node.span)
         return flow
 
     def _parallel(self, node: ir.Parallel, start: Flow) -> Flow:
@@ -143,7 +144,6 @@ class Flattener:
                 end = end_open_actions(self._builder, end, member, frozenset())
             ends.append((member, end))
         self._builder.mark_actor = mark_actor
-        self._ctx.report.exact("parallel", node.span)
         return self._joined(ends)
 
     def _joined(self, ends: Sequence[tuple[ir.Behavior, Flow]]) -> Flow:
@@ -173,7 +173,6 @@ class Flattener:
     def _one_of(self, node: ir.OneOf, start: Flow) -> Flow:
         policy = self._ctx.module.one_of
         if policy == "first":
-            self._ctx.report.exact("one_of", node.span)
             return self._member(node.members[0], start)
         if policy == "seeded":
             return self._choice(node, start)
@@ -201,7 +200,6 @@ class Flattener:
                 ends[mark] = self._builder.keep(mark, end) if races else end
         for act in acts:  # the first one stops the others
             act.stops.extend(mark for mark in ends if mark not in act.stops)
-        self._ctx.report.exact("one_of", node.span)
         return any_of(ends.values())
 
     def _choice(self, node: ir.OneOf, start: Flow) -> Flow:
@@ -243,9 +241,7 @@ class Flattener:
         """Write down an invoked scenario in place."""
         inner = self._ctx.scope.of(node)
         with self._ctx.within(inner):
-            end = self._member(inner.scenario.body, start)
-        self._ctx.report.exact("scenario invocation", node.span)
-        return end
+            return self._member(inner.scenario.body, start)
 
     # --- what can be cut short --------------------------------------------------------------------
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import inf
 
 from osc2tx import ir
-from osc2tx.backends.xosc.actions.lateral.lanes import LANE_WIDTH, lateral
+from osc2tx.backends.xosc.actions.lateral.lanes import LANE_WIDTH
+from osc2tx.backends.xosc.actions.lateral.shifts import lateral
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import ACTIONS, GLOBAL_ACTIONS, WITHOUT_FORM
-from osc2tx.backends.xosc.actions.speed.speed_elements import ends_evenly, hold_speed, in_steps
-from osc2tx.backends.xosc.actions.speed.speed_notes import note_cut
+from osc2tx.backends.xosc.actions.speed.courses import ends_evenly, hold_speed, in_steps, note_cut
 from osc2tx.backends.xosc.actions.user_actions import user_action
 from osc2tx.backends.xosc.conditions.flow import Flow, Test
 from osc2tx.backends.xosc.context import Context
@@ -62,15 +62,16 @@ def invoke(builder: StoryboardBuilder, node: ir.Invoke, start: Flow) -> Flow:
     leaf.demand_of(performance.changes)
     if performance.ends == "open":  # it takes time, in which a tool sees that the jump is over
         ctx.states[member.name] = replace(ctx.states[member.name], jumped=False)
-    actions = tuple(action for change in performance.changes for action in change.actions)
-    goal = start
+    actions, goal = performance.actions, start
     is_cut = bool(node.until or overriding or builder.is_race)
     lasting = _least_length(builder, node, performance)
     if actions:
         length = 0.0 if is_cut else _event_length(performance)
         is_whole = not overriding and all(_is_over(c, lasting) for c in performance.changes)
         steps = in_steps(leaf, performance) if is_whole else ()
-        goal = _steps(builder, leaf, steps, start)
+        for index, step in enumerate(steps):
+            called = ctx.names.new(name) if index else name
+            goal = builder.add(called, (step,), goal, actor=member.name, is_step=True)
         is_first = start == RUN_START and builder.is_outermost and not is_cut
         if is_first and _is_initial(leaf, performance):
             _set_out(ctx, member.name, actions)
@@ -100,7 +101,7 @@ def _is_initial(leaf: Leaf, performance: Performance) -> bool:
     name, placed, others = leaf.member.name, leaf.ctx.init_privates, leaf.others
     if performance.ends != "goal" or others or performance.reached or leaf.node.duration:
         return False
-    actions = [action for change in performance.changes for action in change.actions]
+    actions = performance.actions
     refers = any(node.get("entityRef") for action in actions for node in action.walk())
     is_plain = all(
         type(each.inner) in (xml.TeleportAction, xml.LongitudinalAction) for each in actions
@@ -122,17 +123,6 @@ def _set_out(ctx: Context, name: str, actions: tuple[xml.ActionPart, ...]) -> No
     set_out = [each for each in actions if isinstance(each, xml.PrivateAction)]
     ordered = sorted((*kept, *set_out), key=lambda each: not each.find(xml.TeleportAction))
     ctx.init_privates[name] = xml.Private(*ordered, entityRef=name)
-
-
-def _steps(
-    builder: StoryboardBuilder, leaf: Leaf, steps: tuple[xml.ActionPart, ...], start: Flow
-) -> Flow:
-    """Add an event for each step of a change, one after the other; return when the last is over."""
-    goal, names = start, builder.ctx.names
-    for index, step in enumerate(steps):
-        name = names.new(leaf.event) if index else leaf.event
-        goal = builder.add(name, (step,), goal, actor=leaf.member.name, is_step=True)
-    return goal
 
 
 def _ends(

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-from functools import partial
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.arguments import Arguments
+from osc2tx.backends.xosc.actions.lateral.shifts import along_t, lateral, offset_of, shift
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, to_goal
-from osc2tx.backends.xosc.actions.speed.speed_notes import note_slow
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
-from osc2tx.backends.xosc.facts.actors import Linear, Pace, Profile, apart, course_of_shift, fastest
+from osc2tx.backends.xosc.facts.actors import Pace
 from osc2tx.backends.xosc.facts.map_search import MapSegment
 from osc2tx.backends.xosc.facts.maps import (
     LanePosition,
@@ -21,8 +20,8 @@ from osc2tx.backends.xosc.facts.maps import (
     lane_either_way,
     number_of_oncoming,
 )
-from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres
-from osc2tx.backends.xosc.state import LATERAL, ActorState, known
+from osc2tx.backends.xosc.report import GENERIC, Inexpressible
+from osc2tx.backends.xosc.state import LATERAL, known
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import DynamicsDimension, DynamicsShape
 from osc2tx_shared.classes import replace
@@ -58,9 +57,9 @@ def lanes_to_segment(leaf: Leaf, target: MapSegment) -> int:
     """Return how many lanes to the left a lane of the map is."""
     roads, here = leaf.ctx.roads, leaf.state.lane
     if target.lane is None:
-        raise Inexpressible(f"a {target.kind} is no lane", leaf.node.span)
+        raise Inexpressible(f"a {target.kind} is no lane")
     if roads is None or here is None:
-        raise Inexpressible("which lane it is in is only known during the run", leaf.node.span)
+        raise Inexpressible("which lane it is in is only known during the run")
     lanes = roads.lanes_between(here, LanePosition(target.road, target.lane, here.s))
     if lanes is None:
         raise Inexpressible(f"{target} is not beside lane {here.lane} of road {here.road}")
@@ -89,37 +88,6 @@ def _drawn_side(leaf: Leaf, arguments: Arguments, count: int) -> str:
     sides = {"left": count, "right": -count}
     there = [side for side, lanes in sides.items() if roads.beside(lane, lanes) is not None]
     return drawn if drawn in there or not there else there[0]
-
-
-def shift(
-    leaf: Leaf, way: float, pace: Pace, *, jumps: bool = False
-) -> tuple[DynamicsShape, float, float]:
-    """Return shape, length (s) and fastest speed (m/s) of a movement across the road.
-
-    Reported is where the one of the XML, of as many metres, differs from that of the world.
-    """
-    planned = partial(course_of_shift, way, limits=leaf.limits)
-    pace, course = leaf.within_limit(pace, planned)
-    if jumps:
-        return "step", 0.0, 0.0
-    _note_drift(leaf, way, pace, course)
-    note_slow(leaf, way, course)
-    # Where the scenario leaves the shape open, any is right.
-    is_free = pace.profile == "none" and not leaf.ctx.profile.has_shapes
-    is_even = isinstance(course, Linear) or is_free
-    return "linear" if is_even else "sinusoidal", course.duration, fastest(course)
-
-
-def _note_drift(leaf: Leaf, way: float, pace: Pace, course: Profile) -> None:
-    """Report that a change takes over a speed across the road: the XML begins without any."""
-    drift = leaf.state.drift
-    if drift == 0.0 or pace.profile == "constant":
-        return
-    off = max(apart(course_of_shift(way, pace, leaf.limits, v), course) for v in (-drift, drift))
-    leaf.approximate(
-        "it takes over the lateral speed of the change before; one of the XML begins without any",
-        Metres(off, "beside, while it changes"),
-    )
 
 
 def lane_change(
@@ -155,7 +123,7 @@ def lane_change(
     after = replace(state, lane=target, offset=known(offset)).finished(LATERAL)
     if reference is not None and "RelativeTargetLane/entityRef" in leaf.ctx.profile.unsupported:
         if own_lanes is None:
-            leaf.ctx.require_support("RelativeTargetLane/entityRef", leaf.node.span)
+            leaf.ctx.require_support("RelativeTargetLane/entityRef")
         reference, lanes = None, count
     goal: xml.LaneChangeTargetPart
     goal = xml.RelativeTargetLane(entityRef=(reference or leaf.member).name, value=lanes)
@@ -175,25 +143,6 @@ def lane_change(
     return Change(LATERAL, (action,), time, during, after)
 
 
-def along_t(leaf: Leaf, offset: float, lane: LanePosition | None = None) -> float:
-    """Return an offset (m) to the left of travel as the XML counts it: along t of the road.
-
-    Without a lane it is in that of the actor, as far as it is known.
-    """
-    roads = leaf.ctx.roads
-    sign = None if roads is None else roads.leftwards(lane or leaf.state.lane)
-    if offset == 0.0 or sign == 1:
-        return offset
-    if sign is None:
-        leaf.approximate(
-            "the XML counts an offset along t of the road, and whether its lane leads along the"
-            " road or against it is only known during the run",
-            Metres(2.0 * abs(offset), "to the other side where its lane leads against s"),
-        )
-        return offset
-    return -offset
-
-
 def _number_among_oncoming(
     leaf: Leaf, here: LanePosition | None, target: LanePosition | None, offset: float
 ) -> int | None:
@@ -209,16 +158,15 @@ def _number_among_oncoming(
     oncoming = next((place for place in (target, here) if is_oncoming(roads.map, place)), None)
     if oncoming is None:
         return None
-    leaf.ctx.require_support("AbsoluteTargetLane", leaf.node.span)
+    leaf.ctx.require_support("AbsoluteTargetLane")
     number = number_of_oncoming(roads.map, oncoming)
     if number is None:
         raise Inexpressible(
             "the lane of oncoming traffic does not stay beside its own all the way, so its number"
-            " is only known during the run",
-            leaf.node.span,
+            " is only known during the run"
         )
     if offset:
-        raise Inexpressible(NO_ONE_SIDE, leaf.node.span)
+        raise Inexpressible(NO_ONE_SIDE)
     return number if oncoming is target else target.lane
 
 
@@ -259,8 +207,7 @@ def lanes_to(leaf: Leaf, reference: CastMember, lanes: int) -> int | None:
     ):
         raise Inexpressible(
             f"{reference.name} may be in another lane before it ends; the XML takes the lane at the"
-            " start",
-            leaf.node.span,
+            " start"
         )
     roads, mine, theirs = leaf.ctx.roads, leaf.state.lane, leaf.state_of(reference).lane
     if roads is None or mine is None or theirs is None:
@@ -292,17 +239,6 @@ def _from_and_to(leaf: Leaf, lanes: int) -> tuple[LanePosition | None, LanePosit
         side = "left" if lanes > 0 else "right"
         raise Inexpressible(
             f"there is no driving lane {abs(lanes)} to the {side} of lane {lane.lane} of road"
-            f" {lane.road}",
-            leaf.node.span,
+            f" {lane.road}"
         )
     return here, target
-
-
-def offset_of(state: ActorState) -> float:
-    """Return how far (m) left of the centre of its lane an actor is, as far as it is known."""
-    return state.offset.low if state.offset is not None and state.offset.is_known else 0.0
-
-
-def lateral(action: xml.LateralActionPart) -> xml.PrivateAction:
-    """Return the private action around a lateral one."""
-    return xml.PrivateAction(xml.LateralAction(action))

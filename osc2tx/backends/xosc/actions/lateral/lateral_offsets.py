@@ -10,15 +10,12 @@ import math
 from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.lateral.lanes import (
     NO_ONE_SIDE,
-    along_t,
     lane_change,
     lanes_aside,
     lanes_to,
     lanes_to_segment,
-    lateral,
-    offset_of,
-    shift,
 )
+from osc2tx.backends.xosc.actions.lateral.shifts import along_t, lateral, offset_of, shift
 from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, modifier
 from osc2tx.backends.xosc.actions.speed.gaps import Gap, reach
@@ -60,7 +57,7 @@ def offset_change(leaf: Leaf, offset: float, pace: Pace) -> Change:
     if roads is not None and lane is not None:
         reached = lane._replace(offset=lane.offset + offset_of(leaf.state))
         if is_oncoming(roads.map, lane) or is_oncoming(roads.map, reached):
-            raise Inexpressible(NO_ONE_SIDE, leaf.node.span)
+            raise Inexpressible(NO_ONE_SIDE)
     way = abs(offset - offset_of(leaf.state))
     shape, time, drift = shift(leaf, way, pace)
     if pace.profile == "constant":

@@ -37,7 +37,6 @@ from osc2tx_shared.classes import replace
 @action("follow_path", "replay_path", "follow_trajectory", "replay_trajectory")
 def _on_line(leaf: Leaf) -> Performance:
     arguments = leaf.arguments
-    offsets = arguments.offsets()
     reference = arguments.get("reference")
     transform = arguments.get("transform")
     if "relative" in arguments:
@@ -47,8 +46,7 @@ def _on_line(leaf: Leaf) -> Performance:
         line = line_of(leaf.ctx, arguments.get("absolute"))
     if leaf.duration is not None:
         raise Inexpressible("a duration beside that of the way")
-    changes = along_line(leaf, replace(line, offsets=offsets))
-    return to_goal(leaf, *changes)
+    return to_goal(leaf, *along_line(leaf, line, arguments))
 
 
 # What says in which lane of a route, or where in it.
@@ -57,28 +55,25 @@ ACROSS = frozenset({"change_lane", "keep_lane", "lane", "lateral"})
 
 @modifier("along_trajectory")
 def _along_trajectory(leaf: Leaf, call: Arguments) -> Changes:
-    offsets = call.offsets()
-    line = line_of(leaf.ctx, call.get("trajectory"))
-    return along_line(leaf, replace(line, offsets=offsets))
+    return along_line(leaf, line_of(leaf.ctx, call.get("trajectory")), call)
 
 
 @modifier("along")
 def _along(leaf: Leaf, call: Arguments) -> Changes:
-    offsets = call.offsets()
     route = call.get("route")
     segment = segment_of(leaf.ctx, route)
     if segment is not None and crossing_of(segment) is None:
         beside = [m for m in leaf.node.modifiers if m.name in ACROSS and m.at != "start"]
         if beside:
             raise Inexpressible(f"`{beside[0].name}` on a route of the map", beside[0].span)
-        return _along_segment(leaf, segment, offsets)
-    return along_line(leaf, replace(line_of_route(leaf.ctx, route), offsets=offsets))
+        return _along_segment(leaf, segment, call)
+    return along_line(leaf, line_of_route(leaf.ctx, route), call)
 
 
-def _along_segment(leaf: Leaf, segment: MapSegment, offsets: tuple[float, float]) -> Changes:
+def _along_segment(leaf: Leaf, segment: MapSegment, call: Arguments) -> Changes:
     """Return the changes that a route of the map makes: it goes on in the lanes, from wherever."""
-    if offsets[1]:
-        raise Inexpressible("a route of the map that is left before its end", leaf.node.span)
+    if call.offsets()[1]:
+        raise Inexpressible("a route of the map that is left before its end")
     roads, lane = required_roads(leaf.ctx), leaf.state.lane
     graph = graph_of(roads.map)
     ends = [graph.begin(segment), graph.end(segment)]
@@ -95,12 +90,16 @@ def _along_segment(leaf: Leaf, segment: MapSegment, offsets: tuple[float, float]
     return (Change(LATERAL, (action,), None, after, after),)
 
 
-def along_line(leaf: Leaf, line: Line) -> Changes:
-    """Return the changes that a path or a trajectory makes."""
-    is_exact = may_jump(leaf)
+def along_line(leaf: Leaf, line: Line, arguments: Arguments) -> Changes:
+    """Return the changes that a path or a trajectory makes, without parts that arguments leave out.
+
+    Raises:
+        Inexpressible: Where it leads is only known during the run.
+    """
+    line, is_exact = replace(line, offsets=arguments.offsets()), may_jump(leaf)
     if leaf.enters and line.frame is None:
         reason = "a run plans how the actor gets to the path by then"
-        raise Inexpressible(reason, leaf.node.span)
+        raise Inexpressible(reason)
     points = line.points
     if line.is_timed and points and points[0].time > 0.0:
         if line.frame is not None or any(line.offsets):
@@ -108,7 +107,7 @@ def along_line(leaf: Leaf, line: Line) -> Changes:
         here = leaf.state.pose
         if here is None:
             reason = "where it starts from is only known during the run"
-            raise Inexpressible(reason, leaf.node.span)
+            raise Inexpressible(reason)
         points = (Waypoint(0.0, here.x, here.y, here.z), *points)
     corners = sample_curve(replace(line, points=points))
     vertices = [_vertex(leaf, line, each) for each in corners]
@@ -142,9 +141,7 @@ def _time(leaf: Leaf, corners: Sequence[Waypoint]) -> float | None:
     if speed is None or leaf.node.modifiers:
         return None
     if speed <= 0.0:
-        raise Inexpressible(
-            "it is at standstill, and a path states no speed: give it one before", leaf.node.span
-        )
+        raise Inexpressible("it is at standstill, and a path states no speed: give it one before")
     way = sum(math.hypot(b.x - a.x, b.y - a.y) for a, b in pairwise(corners))
     return way / speed
 
@@ -198,7 +195,7 @@ def follow(
 ) -> xml.PrivateAction:
     """Return the action along a polyline; a tool that ignores times cannot do a timed one."""
     if is_timed:
-        leaf.ctx.require_support(f"FollowTrajectoryAction/{leaf.member.kind}", leaf.node.span)
+        leaf.ctx.require_support(f"FollowTrajectoryAction/{leaf.member.kind}")
     older = leaf.ctx.version == "1.0"
     trajectory = xml.Trajectory(
         xml.Shape(

@@ -16,7 +16,7 @@ from osc2tx.backends.xosc.actions.position.xml_positions import (
     world_position,
 )
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
-from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
+from osc2tx.backends.xosc.actions.speed.courses import speed_action
 from osc2tx.backends.xosc.entities.cast import VEHICLE, CastMember
 from osc2tx.backends.xosc.facts.actors import CRUISE
 from osc2tx.backends.xosc.facts.curves import Line, Waypoint
@@ -140,9 +140,7 @@ def _acquire(leaf: Leaf, target: XmlPosition) -> Performance:
     """Return the way along lanes; it is over where the place is reached, not where the route is."""
     state = leaf.state
     if state.speed is None or state.speed.low <= 0.0:
-        raise Inexpressible(
-            "it may be at standstill, and a position states no speed", leaf.node.span
-        )
+        raise Inexpressible("it may be at standstill, and a position states no speed")
     position = xml.Position(target.element)
     acquire = xml.RoutingAction(xml.AcquirePositionAction(position))
     after = replace(state, lane=target.lane, offset=known(0.0)).finished(LATERAL)
@@ -158,52 +156,33 @@ def _straight_to(leaf: Leaf, target: XmlPosition) -> Performance:
     if there is None:
         raise Inexpressible("where the point is needs the map, which is not at hand")
     start: xml.PositionPart
-    if here is None:
-        start = xml.RelativeObjectPosition(entityRef=leaf.member.name, dx=0.0, dy=0.0)
-        goal = world_position(there)
-        time = None
-    else:
+    start = xml.RelativeObjectPosition(entityRef=leaf.member.name, dx=0.0, dy=0.0)
+    way, speed = None, leaf.state.known_speed
+    sets_out = () if speed != 0.0 else (speed_action(CRUISE),)
+    speed = CRUISE if speed == 0.0 else speed
+    if here is not None:
         heading = math.atan2(there.y - here.y, there.x - here.x)
         start = world_position(here._replace(h=heading))
         there = Pose(there.x, there.y, there.z, heading)
-        goal = world_position(there)
-        time = math.hypot(there.x - here.x, there.y - here.y)
-    actions: tuple[xml.ActionPart, ...] = ()
-    v = leaf.state.known_speed
-    if v == 0.0:
-        v = CRUISE
-        actions = (speed_action(v),)
+        way = math.hypot(there.x - here.x, there.y - here.y)
     changes = apply_modifiers(leaf)
-    is_timed = time is not None and v is not None and not changes
-    length = time / v if time is not None and v is not None else None
-    _note_turn(leaf, here, there, v)
-    vertices = [(0.0, start), (length or 1.0, goal)]
-    move = follow(leaf, vertices, is_timed, False)
-    after = ActorState(
-        speed=leaf.state.speed if v is None else known(v),
-        offset=None,
-        pose=there,
-        rate=0.0,
-        unfinished=leaf.state.unfinished,
-    )
-    during = replace(after, pose=None)
-    return Performance(
-        (
-            Change(LATERAL, (move,), length, during, after),
-            *((Change(LONGITUDINAL, actions, 0.0, after, after),) if actions else ()),
-            *changes,
-        ),
-        "goal",
-    )
-
-
-def _note_turn(leaf: Leaf, here: Pose | None, there: Pose, speed: float | None) -> None:
-    """Report by how much the curve in which an actor turns to its place is beside the line."""
+    length = None if way is None or speed is None else way / speed
     if here is None:
         leaf.approximate(
             "how it looks when it sets out is only known during the run, so it turns at once",
             "at most the circle in which it turns, and later by the time that this takes",
         )
-        return
-    ends = [Waypoint(0.0, each.x, each.y, each.z) for each in (here, there)]
-    note_steering(leaf, Line(tuple(ends)), ends, speed)
+    else:
+        ends = tuple(Waypoint(0.0, each.x, each.y, each.z) for each in (here, there))
+        note_steering(leaf, Line(ends), ends, speed)
+    vertices = [(0.0, start), (length or 1.0, world_position(there))]
+    move = follow(leaf, vertices, length is not None and not changes, is_exact=False)
+    after = ActorState(
+        speed=leaf.state.speed if speed is None else known(speed),
+        offset=None,
+        pose=there,
+        unfinished=leaf.state.unfinished,
+    )
+    moves = Change(LATERAL, (move,), length, replace(after, pose=None), after)
+    begins = [Change(LONGITUDINAL, sets_out, 0.0, after, after)] if sets_out else []
+    return Performance((moves, *begins, *changes), "goal")

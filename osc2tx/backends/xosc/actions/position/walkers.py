@@ -11,8 +11,8 @@ from functools import lru_cache
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
 from osc2tx.backends.xosc.actions.position.paths import follow
+from osc2tx.backends.xosc.actions.speed.courses import speed_action
 from osc2tx.backends.xosc.actions.speed.speed_changes import jump_to
-from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
 from osc2tx.backends.xosc.entities.cast import PEDESTRIAN
 from osc2tx.backends.xosc.facts.actors import FASTEST, Profile, SCurve, course_of_speed
 from osc2tx.backends.xosc.facts.curves import Waypoint, thinned

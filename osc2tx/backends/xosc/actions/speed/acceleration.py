@@ -14,9 +14,12 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import Change, Changes, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, modifier, to_goal
-from osc2tx.backends.xosc.actions.speed.courses import Computed, follow_course
-from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action
-from osc2tx.backends.xosc.actions.speed.speed_notes import PROFILE_ACTION
+from osc2tx.backends.xosc.actions.speed.courses import (
+    PROFILE_ACTION,
+    Computed,
+    follow_course,
+    speed_action,
+)
 from osc2tx.backends.xosc.facts.actors import (
     TOP_SPEED,
     Linear,
@@ -189,11 +192,11 @@ def acceleration_by(leaf: Leaf, shape: ir.UserShape) -> Change:
 
 
 def _shaped(leaf: Leaf, course: Computed) -> Change:
-    leaf.ctx.require("a course of the speed", "1.2", leaf.node.span)
-    leaf.ctx.require_support(PROFILE_ACTION, leaf.node.span)
+    leaf.ctx.require("a course of the speed", "1.2")
+    leaf.ctx.require_support(PROFILE_ACTION)
     start, speed = course.value(0.0), leaf.state.speed
     if speed is None or not speed.low - NEAR <= start <= speed.high + NEAR:
-        raise Inexpressible("the shape does not begin with the speed at the start", leaf.node.span)
+        raise Inexpressible("the shape does not begin with the speed at the start")
     count = next((each for each in COUNTS if _beside(course, each) <= NEAR), COUNTS[-1])
     off = _beside(course, count)
     if off > NEAR:
@@ -203,7 +206,7 @@ def _shaped(leaf: Leaf, course: Computed) -> Change:
         )
     change = follow_course(leaf, course, count=count)
     if change.during.speed is None or change.during.speed.low < 0.0:
-        raise Inexpressible("the shape goes backwards", leaf.node.span)
+        raise Inexpressible("the shape goes backwards")
     return change
 
 

@@ -1,4 +1,4 @@
-"""Courses of the speed over time, and the one way to write them.
+"""Speeds as elements, and courses of the speed over time.
 
 A line becomes a `SpeedAction`, any other course a `SpeedProfileAction` (1.2) through points. Where
 version or tool has none, an even change stands for it, which is not the same on the way.
@@ -6,18 +6,26 @@ version or tool has none, an even change stands for it, which is not the same on
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from math import ceil
+from typing import Literal
 
 from osc2tx.backends.xosc.actions.arguments import Arguments
-from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Uneven
-from osc2tx.backends.xosc.actions.speed.speed_elements import longitudinal, speed_action
-from osc2tx.backends.xosc.actions.speed.speed_notes import NEAR, PROFILE_ACTION, SINCE_PROFILES
+from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance, Uneven
 from osc2tx.backends.xosc.facts.actors import Course, Linear, apart, way_between
-from osc2tx.backends.xosc.report import GENERIC, Metres
+from osc2tx.backends.xosc.report import GENERIC, Metres, Remedy
 from osc2tx.backends.xosc.state import LONGITUDINAL, Interval, known
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.expressions import Symbol
+from osc2tx.xosc.literals import DynamicsDimension, DynamicsShape
 from osc2tx_shared.classes import dataclass, replace
+
+PROFILE_ACTION = "SpeedProfileAction"
+
+SINCE_PROFILES = Remedy(version="1.2")
+
+NEAR = 0.05
+"""Metres along the road that count as the same place."""
 
 POINTS = 12
 """Points of a smooth course; the way it covers is within 2 cm for changes of 30 m/s."""
@@ -30,6 +38,93 @@ SAME = 1e-6
 
 STRAIGHT = 1e-5
 """m/s^2 by which accelerations before and after a point may differ on a straight line."""
+
+RISE = 1.0
+"""m/s from one step of a change to the next, for tools that take up speeds at once."""
+
+MOST = 20
+"""Steps of one change."""
+
+TICK = 0.05
+"""Seconds between two looks of such a tool: an action is over half of that late, on average."""
+
+
+def speed_action(
+    target: float | xml.RelativeTargetSpeed,
+    shape: DynamicsShape = "step",
+    dimension: DynamicsDimension = "time",
+    value: float = 0.0,
+) -> xml.PrivateAction:
+    """Return a `SpeedAction` to a speed; the change to it lasts so long, or has such a rate."""
+    goal: xml.SpeedActionTargetPart = (
+        target
+        if isinstance(target, xml.RelativeTargetSpeed)
+        else xml.AbsoluteTargetSpeed(value=target)
+    )
+    dynamics = xml.SpeedActionDynamics(
+        dynamicsShape=shape, dynamicsDimension=dimension, value=value
+    )
+    return longitudinal(xml.SpeedAction(dynamics, xml.SpeedActionTarget(goal)))
+
+
+def speed_of(
+    reference: str,
+    value: float = 0.0,
+    kind: Literal["delta", "factor"] = "delta",
+    *,
+    continuous: bool = True,
+) -> xml.RelativeTargetSpeed:
+    """Return the speed of another actor, plus a value (m/s) or times a factor.
+
+    If it is continuous, it is so at every moment from then on.
+    """
+    return xml.RelativeTargetSpeed(
+        entityRef=reference, value=value, speedTargetValueType=kind, continuous=continuous
+    )
+
+
+def hold_speed(entity: str) -> xml.PrivateAction:
+    """Return the action that ends a change of the speed where it is."""
+    return speed_action(speed_of(entity, continuous=False))
+
+
+def ends_evenly(change: Change) -> bool:
+    """Whether a change of the speed keeps its acceleration up to its end."""
+    dynamics = (each for action in change.actions for each in action.below(xml.SpeedActionDynamics))
+    return any(each.dynamicsShape == "linear" for each in dynamics)
+
+
+def longitudinal(action: xml.LongitudinalActionPart) -> xml.PrivateAction:
+    """Return the private action around a longitudinal one."""
+    return xml.PrivateAction(xml.LongitudinalAction(action))
+
+
+def in_steps(leaf: Leaf, performance: Performance) -> tuple[xml.ActionPart, ...]:
+    """Return actions that change a speed one after the other; none where one action does it.
+
+    That is for what nothing cuts short: the steps would go on.
+    """
+    course = leaf.course
+    if not leaf.ctx.profile.takes_speeds_at_once or course is None:
+        return ()
+    if [change.domain for change in performance.changes if change.actions] != [LONGITUDINAL]:
+        return ()
+    start, end = course.value(0.0), course.value(course.duration)
+    if isinstance(start, Symbol) or isinstance(end, Symbol):  # another value has other steps
+        return ()
+    count = min(ceil(abs(end - start) / RISE), MOST)
+    length = course.duration / max(count, 1)
+    if count < 2 or length <= 2.0 * TICK:
+        return ()
+    leaf.approximate(
+        f"{leaf.ctx.profile.name} takes up a speed at once, so it changes in {count} steps",
+        "off by the way that each of them takes, more where throttle and brakes are not enough",
+        GENERIC,
+    )
+    middles = [round(course.value((step + 0.5) * length), 6) for step in range(count)]
+    lasting = round(length - 0.5 * TICK, 6)
+    steps = (speed_action(speed, "linear", "time", lasting) for speed in middles)
+    return (*steps, speed_action(end))
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +156,8 @@ def follow_course(
     where need be; that it differs on the way is told of a modifier, or of the action.
     """
     if even is not None and not leaf.ctx.can(PROFILE_ACTION, "1.2"):
-        _note_even(leaf, course, even, where, told or leaf.arguments)
+        reason = "a speed that changes unevenly needs SpeedProfileAction; it changes evenly instead"
+        note_even(leaf, told or leaf.arguments, [(course, even)], reason, where, course.duration)
         course = even
     is_line = isinstance(course, Linear)
     pieces = 1 if is_line else SAMPLES
@@ -70,23 +166,49 @@ def follow_course(
     after = replace(leaf.state.finished(LONGITUDINAL), speed=known(end), rate=rate)
     during = replace(after, speed=Interval(min(speeds), max(speeds)))
     leaf.course = course
-    action = through_points(course, count)
     if is_line:
         action = speed_action(end, "linear", "time", course.duration)
+    else:
+        action = through_points(course, count)
     return Change(LONGITUDINAL, (action,), course.duration, during, after)
 
 
-def _note_even(leaf: Leaf, course: Course, even: Linear, where: str, told: Arguments) -> None:
-    """Report that an even change stands for a course."""
-    off = way_between(course, even)
-    if abs(course.value(course.duration) - even.end) < SAME:
-        leaf.uneven = Uneven(apart(course, even), course.duration)
+def note_even(
+    leaf: Leaf,
+    told: Arguments,
+    courses: Iterable[tuple[Course, Linear]],
+    reason: str,
+    where: str,
+    length: float | None = None,
+) -> None:
+    """Report that an even change stands for one that is not even.
+
+    Each course that the world may drive goes with that of the XML; they are compared for so many
+    seconds, by default up to their ends.
+    """
+    pairs = tuple(courses)
+    off = max(way_between(world, even, length) for world, even in pairs)
+    ends = [each.value(each.duration if length is None else length) for each in pairs[0]]
+    if abs(ends[0] - ends[1]) < SAME:
+        leaf.uneven = Uneven(max(apart(world, even) for world, even in pairs), length)
     if off > NEAR:
-        told.approximate(
-            "a speed that changes unevenly needs SpeedProfileAction; it changes evenly instead",
-            Metres(off, where),
-            SINCE_PROFILES if leaf.ctx.version < "1.2" else GENERIC,
-        )
+        remedy = SINCE_PROFILES if leaf.ctx.version < "1.2" else GENERIC
+        told.approximate(reason, Metres(off, where), remedy)
+
+
+def note_cut(leaf: Leaf, *, is_by_duration: bool) -> None:
+    """Report that an even change has another speed than that of the world where it is cut short.
+
+    The invocation may be over before its change, if only by its duration.
+    """
+    uneven = leaf.uneven
+    if uneven is None or (is_by_duration and uneven.length == leaf.duration):
+        return
+    leaf.approximate(
+        "what cuts the even change short leaves it at another speed",
+        f"at most {uneven.speed:.2g} m/s off from then on, until it has a new speed",
+        SINCE_PROFILES,
+    )
 
 
 def through_points(course: Course, count: int = POINTS) -> xml.PrivateAction:

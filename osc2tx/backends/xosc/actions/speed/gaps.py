@@ -13,10 +13,10 @@ from typing import Literal, TypeAlias
 
 from osc2tx import ir
 from osc2tx.backends.xosc.actions.arguments import Arguments
-from osc2tx.backends.xosc.actions.lateral.lanes import lateral
+from osc2tx.backends.xosc.actions.lateral.shifts import lateral
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf, Performance
 from osc2tx.backends.xosc.actions.registry import action, apply_modifiers, to_goal
-from osc2tx.backends.xosc.actions.speed.speed_elements import longitudinal, speed_action, speed_of
+from osc2tx.backends.xosc.actions.speed.courses import longitudinal, speed_action, speed_of
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres, Remedy
@@ -100,12 +100,19 @@ def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) ->
     if missing is None and not gap.is_time:
         present = _present_gap(leaf, gap)
         missing = None if present is None else abs(present - gap.size)
-    controls_gaps = "LongitudinalDistanceAction" not in leaf.ctx.profile.unsupported
-    if not controls_gaps and not gap.is_time and _is_there(missing, keeps=keeps):
-        return _keep_speed_of(leaf, gap.reference.name)
-    newer = leaf.ctx.version >= "1.1"
+    is_rigid = keeps and missing is not None and missing <= SURE
+    tool, newer = leaf.ctx.profile, leaf.ctx.version >= "1.1"
+    if is_rigid and not gap.is_time and "LongitudinalDistanceAction" in tool.unsupported:
+        name = gap.reference.name
+        leaf.approximate(
+            f"{tool.name} controls no gap; it gets the speed of {name} in each step",
+            "off by the way that it takes to change its speed",
+            GENERIC,
+        )
+        leaf.ctx.followed.setdefault(leaf.member.name, set()).add(name)
+        return leaf.at_open_speed(speed_action(speed_of(name)), inf)
     _require_side(leaf, gap)
-    is_rigid = _is_rigid(leaf, gap, keeps=keeps, missing=missing)
+    _note_control(leaf, gap, missing, is_rigid=is_rigid)
     leaf.follow(gap.reference, rigid=is_rigid)
     limits = leaf.limits
     constraints = xml.DynamicConstraints(
@@ -133,7 +140,7 @@ def reach(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None = None) ->
 
 def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> Change:
     if gap.is_time:
-        raise Inexpressible("there is no time across the road in OpenSCENARIO XML", leaf.node.span)
+        raise Inexpressible("there is no time across the road in OpenSCENARIO XML")
     _require_side(leaf, gap)
     newer = leaf.ctx.version >= "1.1"
     if not newer:
@@ -142,6 +149,8 @@ def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None)
             "off while it looks aside, by the sine of that angle times the way between both",
             Remedy(version="1.1"),
         )
+    is_rigid = keeps and missing is not None and missing <= SURE
+    _note_control(leaf, gap, missing, is_rigid=is_rigid)
     most = leaf.limits.lateral
     # Between reference points: the free space of the XML shrinks where boxes turn.
     sides = 0.5 * (leaf.member.shape.width + gap.reference.shape.width)
@@ -149,7 +158,7 @@ def _reach_sideways(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None)
         maxAcceleration=most, maxDeceleration=most, maxSpeed=LATERAL_SPEED
     )
     action = xml.LateralDistanceAction(
-        None if _is_rigid(leaf, gap, keeps=keeps, missing=missing) else constraints,
+        None if is_rigid else constraints,
         entityRef=gap.reference.name,
         distance=round(gap.size + sides, 6),
         freespace=False,
@@ -169,24 +178,9 @@ def _present_gap(leaf: Leaf, gap: Gap) -> float | None:
     return (apart if gap.side == "behind" else -apart) + gap.beyond_points(leaf.member)
 
 
-def _is_there(missing: float | None, *, keeps: bool) -> bool:
-    return keeps and missing is not None and missing <= SURE
-
-
-def _keep_speed_of(leaf: Leaf, reference: str) -> Change:
-    """Return what keeps a gap that is there in tools that control none: the speed of the other."""
-    leaf.approximate(
-        f"{leaf.ctx.profile.name} controls no gap; it gets the speed of {reference} in each step",
-        "off by the way that it takes to change its speed",
-        GENERIC,
-    )
-    leaf.ctx.followed.setdefault(leaf.member.name, set()).add(reference)
-    return leaf.at_open_speed(speed_action(speed_of(reference)), inf)
-
-
-def _is_rigid(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> bool:
-    """Whether a gap is kept that is there; else report that the way to it is up to the tool."""
-    if _is_there(missing, keeps=keeps):
+def _note_control(leaf: Leaf, gap: Gap, missing: float | None, *, is_rigid: bool) -> None:
+    """Report that a tool has a law of its own for a gap; what is missing (m) may be unknown."""
+    if is_rigid:
         mine, theirs = leaf.limits, gap.reference.limits
         if mine.acceleration < theirs.acceleration or mine.deceleration < theirs.deceleration:
             leaf.approximate(
@@ -194,14 +188,13 @@ def _is_rigid(leaf: Leaf, gap: Gap, *, keeps: bool, missing: float | None) -> bo
                 f" faster than {leaf.member.name} can",
                 "none while it does not",
             )
-        return True
+        return
     bound: Metres | str = "until it is there, at most by what was missing at its start"
     if missing is not None:
         bound = Metres(missing, "until it is there")
     # The standard has no law for the control of gaps.
     how = "how it closes the gap, and when it is there, is up to the tool"
     leaf.approximate(how, bound, ARRIVING)
-    return False
 
 
 def _measured(leaf: Leaf, gap: Gap) -> tuple[float, bool]:
@@ -235,7 +228,7 @@ def _require_side(leaf: Leaf, gap: Gap) -> None:
     reason = "OpenSCENARIO XML 1.0 does not say on which side a distance is kept"
     newer = Remedy(version="1.1")
     if side is not None:
-        raise Inexpressible(reason, leaf.node.span, newer)
+        raise Inexpressible(reason, remedy=newer)
     bound = f"differs only if it is not on the side `{gap.side}` when it begins"
     leaf.approximate(reason, bound, newer)
 

@@ -10,12 +10,12 @@ from __future__ import annotations
 from functools import partial
 
 from osc2tx.backends.xosc.actions.leaf import Change, Leaf
-from osc2tx.backends.xosc.actions.speed.courses import through_points
-from osc2tx.backends.xosc.actions.speed.speed_elements import longitudinal, speed_action
-from osc2tx.backends.xosc.actions.speed.speed_notes import (
+from osc2tx.backends.xosc.actions.speed.courses import (
     PROFILE_ACTION,
-    note_acceleration,
-    note_even_change,
+    longitudinal,
+    note_even,
+    speed_action,
+    through_points,
 )
 from osc2tx.backends.xosc.facts.actors import (
     COMFORT,
@@ -28,9 +28,10 @@ from osc2tx.backends.xosc.facts.actors import (
     Pace,
     Profile,
     course_of_speed,
+    way_by_acceleration,
 )
-from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
-from osc2tx.backends.xosc.state import LONGITUDINAL, Demand, Interval, known
+from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Metres, Remedy
+from osc2tx.backends.xosc.state import LONGITUDINAL, STEADY, Demand, Interval, known
 from osc2tx.xosc import elements as xml
 from osc2tx.xosc.literals import DynamicsShape
 from osc2tx_shared.classes import replace
@@ -77,8 +78,7 @@ def change_speed(leaf: Leaf, target: float, pace: Pace) -> Change:
             if abs(own - pace.duration) > STEP:
                 raise Inexpressible(
                     f"with rate_peak {pace.peak:g} m/s^2 it takes {own:.2f} s, not"
-                    f" {pace.duration:g} s: every run fails",
-                    leaf.node.span,
+                    f" {pace.duration:g} s: every run fails"
                 )
         pace, course = leaf.within_limit(pace, planned)
         leaf.course = course
@@ -110,7 +110,7 @@ def _from_known(leaf: Leaf, course: Profile, target: float, pace: Pace) -> xml.P
         return speed_action(target, "linear", "time", course.duration)
     if isinstance(course, Cosine):
         return speed_action(target, _curve(leaf, pace), "time", course.duration)
-    note_acceleration(leaf, target, pace)
+    _note_acceleration(leaf, target, pace)
     if leaf.ctx.can(PROFILE_ACTION, "1.2"):
         # A tool that carries on an acceleration takes a jump for one, or that of the step before.
         is_carried = leaf.state.jumped and leaf.ctx.profile.carries_acceleration
@@ -120,7 +120,7 @@ def _from_known(leaf: Leaf, course: Profile, target: float, pace: Pace) -> xml.P
         length = min(leaf.duration, length)
     even = Linear(course.value(0.0), course.value(length), length)
     if leaf.ctx.profile.has_shapes:  # others are reported for all changes
-        note_even_change(leaf, [(course, even)], length)
+        note_even(leaf, leaf.arguments, [(course, even)], _jerky(leaf), "ahead or behind", length)
     return speed_action(even.end, "linear", "time", length)
 
 
@@ -130,7 +130,7 @@ def _from_unknown(leaf: Leaf, target: float, pace: Pace) -> xml.PrivateAction:
         shape: DynamicsShape = "linear" if profile == "constant" else _curve(leaf, pace)
         return speed_action(target, shape, "time", pace.duration)
     if profile in ("none", "asap"):
-        note_acceleration(leaf, target, pace)
+        _note_acceleration(leaf, target, pace)
     if profile in ("none", "asap") and leaf.ctx.can(PROFILE_ACTION, "1.2"):
         return within_limits(target, leaf.limits, pace)
     limit = _limit_towards(leaf, target, profile)
@@ -144,7 +144,7 @@ def _from_unknown(leaf: Leaf, target: float, pace: Pace) -> xml.PrivateAction:
                 for v in leaf.state.speed or (0.0, TOP_SPEED)  # with which it may begin
             )
             evens = [(own, Linear(v, target, abs(target - v) / rate)) for own, v in courses]
-            note_even_change(leaf, evens, None)
+            note_even(leaf, leaf.arguments, evens, _jerky(leaf), "ahead or behind")
         return speed_action(target, curve, "rate", rate)  # which is the peak of the shape
     return speed_action(target, "linear", "time", _longest(leaf, target, profile, rate))
 
@@ -216,3 +216,33 @@ def within_limits(target: float, limits: Limits, pace: Pace) -> xml.PrivateActio
     )
     entry = xml.SpeedProfileEntry(speed=target)
     return longitudinal(xml.SpeedProfileAction(constraints, entry, followingMode="follow"))
+
+
+# --- reports ------------------------------------------------------------------------------------
+
+
+def _note_acceleration(leaf: Leaf, target: float, pace: Pace) -> None:
+    """Report that a change takes over an acceleration: that of the XML begins without any."""
+    rate, speed, limits = leaf.state.rate, leaf.state.speed, leaf.limits
+    rates = leaf.state.pending if rate is None else known(rate)
+    has_profiles = leaf.ctx.can(PROFILE_ACTION, "1.2")
+    if rates == STEADY:
+        return
+    if rate is None and has_profiles and leaf.ctx.profile.carries_acceleration:
+        return  # it takes over that of a change that is interrupted, not of one that is over
+    if speed is None:
+        time = max(map(abs, rates)) / limits.jerk
+        bound: Metres | str = f"it comes to its speed at most {2.0 * time:.2g} s sooner or later"
+    else:
+        ways = [way_by_acceleration(v, target, pace, rates, limits) for v in speed]
+        bound = Metres(max(ways), "ahead or behind")
+    leaf.approximate(
+        "it takes over the acceleration of the change before; one of the XML begins without any",
+        bound,
+        Remedy(version=None if has_profiles else "1.2", profile="esmini"),
+    )
+
+
+def _jerky(leaf: Leaf) -> str:
+    version = leaf.ctx.version
+    return f"OpenSCENARIO XML {version} has no limits of the jerk: the speed changes evenly"

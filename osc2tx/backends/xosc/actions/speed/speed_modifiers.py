@@ -8,9 +8,8 @@ from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.leaf import UNKNOWN_SPEED, Change, Changes, Leaf
 from osc2tx.backends.xosc.actions.registry import modifier
 from osc2tx.backends.xosc.actions.speed.acceleration import speed_by, user_shape
-from osc2tx.backends.xosc.actions.speed.courses import follow_course
+from osc2tx.backends.xosc.actions.speed.courses import follow_course, speed_action, speed_of
 from osc2tx.backends.xosc.actions.speed.speed_changes import change_speed, jump_to, may_jump
-from osc2tx.backends.xosc.actions.speed.speed_elements import speed_action, speed_of
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.facts.actors import COMFORT, FASTEST, Course, Linear, Pace
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, Remedy
