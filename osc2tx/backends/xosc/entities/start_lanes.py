@@ -83,9 +83,9 @@ def lateral_of(ctx: Context, start: Start, place: LanePosition | None) -> float:
 
 
 def lane_number(start: Start) -> LaneNumber | None:
-    """Return the lane that is said by its number."""
+    """Return the lane that is said by its number, and not beside another actor."""
     lane = start.modifiers.get("lane")
-    if lane is None:
+    if lane is None or lane.beside_lane()[0] is not None:
         return None
     return LaneNumber(round(lane.number("lane") or 1), lane.member("from", "right"))
 
