@@ -288,7 +288,7 @@ class Values(Objects):
             return _COMPARISONS[name](left_number, right_number)
         if name not in _ARITHMETIC:
             raise Inexpressible(f"operator `{name}` has no counterpart", expression.span)
-        if name in "/%" and right_number == 0.0:
+        if name in "/%" and float(right_number) == 0.0:  # a symbol equals no number
             raise Inexpressible(f"`{expression.span.text}` divides by zero", expression.span)
         return _ARITHMETIC[name](left_number, right_number)
 
