@@ -205,7 +205,9 @@ class Context:
             newer = Remedy(version=since, instead=instead)
             raise Inexpressible(f"{what} is not in OpenSCENARIO XML {self.version}", span, newer)
 
-    def required_roads(self, what: str, span: Span | None = None, otherwise: str = "") -> Roads:
+    def required_roads(
+        self, what: str = "roads are looked for on", span: Span | None = None, otherwise: str = ""
+    ) -> Roads:
         """Return the map.
 
         Raises:

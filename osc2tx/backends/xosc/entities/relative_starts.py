@@ -16,8 +16,8 @@ from osc2tx.backends.xosc.entities.start_lanes import (
 )
 from osc2tx.backends.xosc.entities.start_statements import Start, StartPlace, speed_at_start
 from osc2tx.backends.xosc.facts.actors import ALIGNED
-from osc2tx.backends.xosc.facts.maps import LanePosition, Roads, place_along_road
-from osc2tx.backends.xosc.facts.start_places import LaneNumber, place_at_distance
+from osc2tx.backends.xosc.facts.maps import Lane, LanePosition, Roads, place_along_road
+from osc2tx.backends.xosc.facts.start_places import place_at_distance
 from osc2tx.backends.xosc.report import Inexpressible, NoPlace
 from osc2tx.backends.xosc.state import ActorState, known
 from osc2tx_shared.classes import dataclass
@@ -82,7 +82,7 @@ def _relative(
     return position, ActorState(speed=known(0.0), offset=known(offset), lane=mine)
 
 
-def _place(ctx: Context, roads: Roads, said: Said, number: LaneNumber | None) -> LanePosition:
+def _place(ctx: Context, roads: Roads, said: Said, number: Lane | None) -> LanePosition:
     """Return where it is, as the embedded world finds it."""
     place = _centre(ctx, roads, said.in_lane_of or said.reference)
     if said.lanes:
@@ -99,7 +99,7 @@ def _place(ctx: Context, roads: Roads, said: Said, number: LaneNumber | None) ->
     if number is None:
         return place
     missing = f"there is no lane {number.number} beside {said.reference.name}"
-    return _found(roads.with_number(place, *number), missing)
+    return _found(roads.with_number(place, number), missing)
 
 
 def _found(place: LanePosition | None, otherwise: str) -> LanePosition:

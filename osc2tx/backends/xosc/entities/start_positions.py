@@ -8,7 +8,7 @@ from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.position.points_and_lines import points_along
 from osc2tx.backends.xosc.actions.registry import at_start
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment_of
+from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.entities.relative_starts import beside
 from osc2tx.backends.xosc.entities.start_lanes import at_pose, in_lane, lane_number, turned
 from osc2tx.backends.xosc.entities.start_statements import Start, StartPlace, is_at_point
@@ -92,7 +92,7 @@ def _heading_at(
 
 def _near_point(ctx: Context, start: Start, point: tuple[float, float, float]) -> StartPlace:
     """Return the place in the lane that is nearest to a point, or in one of the same road."""
-    near = required_roads(ctx).map.locate(*point)
+    near = ctx.required_roads().map.locate(*point)
     if near is None:
         raise Inexpressible(f"no lane is near ({point[0]:g}, {point[1]:g})", start.span)
     return in_lane(ctx, start, _numbered(ctx, start, LanePosition(near.road, near.lane, near.s)))
@@ -103,7 +103,7 @@ def _numbered(ctx: Context, start: Start, place: LanePosition) -> LanePosition:
     lane = lane_number(start)
     if lane is None:
         return place
-    numbered = required_roads(ctx).with_number(place, *lane)
+    numbered = ctx.required_roads().with_number(place, lane)
     if numbered is None:
         span = start.modifiers["lane"].source.span
         raise Inexpressible(f"there is no lane {lane.number} at that place", span)

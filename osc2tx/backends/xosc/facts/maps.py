@@ -8,12 +8,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cache, cached_property, lru_cache
 from pathlib import Path
-from typing import Literal, cast
+from typing import cast
 
 from osc2tx.backends.xosc.facts import refusing
 from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx_runtime.domain.map.search import find_map
+from osc2tx_runtime.domain.modifiers import Lane
 from osc2tx_runtime.domain.routes.lane_coordinates import place_along_road
 from osc2tx_runtime.domain.routes.road_paths import way_through
 from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
@@ -68,10 +69,9 @@ class Roads:
             ahead += [each for each in self.map.successors(key) if each not in ahead]
         return None
 
-    def with_number(self, place: LanePosition, number: int, edge: str) -> LanePosition | None:
+    def with_number(self, place: LanePosition, lane: Lane) -> LanePosition | None:
         """Return the lane with a number at a place; `None` if there is none."""
-        side: Literal["left", "right"] = "right" if edge == "right" else "left"
-        return lane_with_number(self.map, place, number, side)
+        return lane_with_number(self.map, place, lane.number, lane.edge)
 
     def lanes_between(self, place: LanePosition, other: LanePosition) -> int | None:
         """Return how many lanes to the left another lane of the same road is; `None`: it is not."""
@@ -190,6 +190,11 @@ class Roads:
         """
         found = way_through(self.map, places)
         return tuple(Waypoint(0.0, pose.x, pose.y, pose.z, pose.yaw) for pose in found)
+
+
+def lane_from_edge(number: int, edge: str) -> Lane:
+    """Return the lane that is counted from an edge of the road."""
+    return Lane(number, from_="right" if edge == "right" else "left")
 
 
 # --- lanes of oncoming traffic --------------------------------------------------------------------
