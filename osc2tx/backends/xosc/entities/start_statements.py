@@ -123,7 +123,7 @@ def starts_of(ctx: Context) -> list[Start]:
 
 
 def _with(ctx: Context, start: Start, placement: ir.Placement) -> Start:
-    """Return a start with what a placement says of it, where it is silent so far."""
+    """Return a start with what a placement states where it is silent so far."""
     added = {
         c.name: Arguments(ctx, c) for c in placement.modifiers if c.name not in start.modifiers
     }
