@@ -116,19 +116,19 @@ class Symbol(float):
 
     Attributes:
         sum: How it is computed.
-        has_expressions: Whether the version has expressions; else only names are symbols.
+        longest: Most characters of an expression; names are symbols in any case.
     """
 
-    __slots__ = ("has_expressions", "sum")
+    __slots__ = ("longest", "sum")
 
     sum: Sum
-    has_expressions: bool
+    longest: int
 
-    def __new__(cls, value: float, of: str | Sum, *, has_expressions: bool = True) -> Symbol:
+    def __new__(cls, value: float, of: str | Sum, *, longest: int = LONGEST) -> Symbol:
         """Store the nominal value, and the parameter (`$name`) or expression."""
         made = super().__new__(cls, value)
         made.sum = Sum({of: 1.0}, 0.0) if isinstance(of, str) else of
-        made.has_expressions = has_expressions
+        made.longest = longest
         return made
 
     @property
@@ -213,10 +213,8 @@ def _joined(left: float, sign: str, right: float) -> float:
     if not found.terms:
         return found.constant
     value = _COMPUTE[sign](float(left), float(right))
-    made = Symbol(value, found, has_expressions=known.has_expressions)
-    if _is_name(made.text):
-        return made
-    return made if known.has_expressions and len(made.text) <= LONGEST else value
+    made = Symbol(value, found, longest=known.longest)
+    return made if len(made.text) <= known.longest or _is_name(made.text) else value
 
 
 def _sum_of(value: float) -> Sum:

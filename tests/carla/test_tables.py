@@ -233,7 +233,14 @@ def test_an_unknown_blueprint_has_a_neighbor() -> None:
 
 
 @pytest.mark.parametrize(
-    ("written", "color"), [("0,128,0", "0,128,0"), ("#ff8000", "255,128,0"), ("red", "255,0,0")]
+    ("written", "color"),
+    [
+        ("0,128,0", "0,128,0"),
+        ("#ff8000", "255,128,0"),
+        ("red", "255,0,0"),
+        ("brown", "165,42,42"),  # of CSS
+        ("Grey", "128,128,128"),
+    ],
 )
 def test_colors(written: str, color: str) -> None:
     attributes, problem = attributes_of(

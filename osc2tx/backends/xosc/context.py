@@ -9,9 +9,8 @@ from typing import NamedTuple
 
 from osc2tx import ir
 from osc2tx.backends.xosc.entities.cast import CastMember
-from osc2tx.backends.xosc.facts.map_folders import MapFolders
 from osc2tx.backends.xosc.facts.map_search import MapSegment
-from osc2tx.backends.xosc.facts.maps import Pose, Roads
+from osc2tx.backends.xosc.facts.maps import MapFolders, Pose, Roads
 from osc2tx.backends.xosc.logical.parameter_choices import NOTHING_OPEN, Choosing
 from osc2tx.backends.xosc.names import Names
 from osc2tx.backends.xosc.report import GENERIC, Inexpressible, LossReport, Remedy
@@ -206,7 +205,9 @@ class Context:
             newer = Remedy(version=since, instead=instead)
             raise Inexpressible(f"{what} is not in OpenSCENARIO XML {self.version}", span, newer)
 
-    def required_roads(self, what: str, span: Span | None = None, otherwise: str = "") -> Roads:
+    def required_roads(
+        self, what: str = "roads are looked for on", span: Span | None = None, otherwise: str = ""
+    ) -> Roads:
         """Return the map.
 
         Raises:

@@ -14,7 +14,7 @@ from osc2tx.backends.xosc import actions
 from osc2tx.backends.xosc.conditions.comparisons import speeds_read
 from osc2tx.backends.xosc.context import Context, Outlook
 from osc2tx.backends.xosc.document import entry_scenarios, make_document
-from osc2tx.backends.xosc.facts.map_folders import MapFolders
+from osc2tx.backends.xosc.facts.maps import MapFolders
 from osc2tx.backends.xosc.facts.start_places import read_signal, read_spawn
 from osc2tx.backends.xosc.logical.distributions import document as values_document
 from osc2tx.backends.xosc.logical.documents import LogicalWriter

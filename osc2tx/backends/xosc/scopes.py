@@ -15,8 +15,9 @@ from osc2tx import ir
 from osc2tx.backends.xosc.entities.cast import CastMember, cast_member
 from osc2tx.backends.xosc.names import Deed, Names, deeds
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
-from osc2tx.backends.xosc.values.constants import Constant, Named, types_of
+from osc2tx.backends.xosc.values.constants import Constant, Named
 from osc2tx.backends.xosc.values.folding import Values
+from osc2tx.backends.xosc.values.objects import types_of
 from osc2tx_shared.classes import dataclass, replace
 
 
@@ -188,9 +189,7 @@ class _Opener:
             if isinstance(d, ir.Parameter)
         }
         chosen = {n: self._chosen[key] for n, key in keys.items() if key in self._chosen}
-        values = Values(scenario, {**chosen, **given}, self._types)
-        for name, error in (unknown or {}).items():
-            values.hide(name, error)
+        values = Values(scenario, self._types, {**chosen, **given}, unknown or {})
         done = deeds(scenario)
         scope = Scope(scenario, values, dict(handed_in), place.prefix, place.path, done)
         for declaration in scenario.declarations:
@@ -222,7 +221,7 @@ class _Opener:
             if shared is not None:
                 self._shared[shared] = member
         scope.cast[actor.name] = member
-        scope.values.know(actor.name, member.sizes)
+        scope.values.sizes[actor.name] = member.sizes
 
     def _invoke(
         self, node: ir.InvokeScenario, callee: ir.Scenario, scope: Scope, around: tuple[str, ...]

@@ -1,4 +1,4 @@
-"""Sizes and limits of actors: per category, and for known CARLA blueprints.
+"""Sizes and limits of actors, per category and for known CARLA blueprints; their colors.
 
 Sizes of blueprints are the bounding boxes of CARLA 0.9.15, rounded to centimetres. Rear overhangs
 and wheelbases are not published there; they are typical shares of the length (`_OVERHANG`,
@@ -8,6 +8,7 @@ and wheelbases are not published there; they are typical shares of the length (`
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import cast
 
 from osc2tx_runtime.enums import VehicleCategory
@@ -205,3 +206,27 @@ def shape_of(kind: str, category: str | None = None, model: str | None = None) -
 def limits_of(kind: str, category: str | None = None, model: str | None = None) -> Limits:
     """Limits of an actor, found as for `shape_of`."""
     return CATEGORIES[_category(kind, category, model)][1]
+
+
+RGB: Mapping[str, tuple[int, int, int]] = {
+    "white": (255, 255, 255),
+    "silver": (192, 192, 192),
+    "gray": (128, 128, 128),
+    "black": (0, 0, 0),
+    "red": (255, 0, 0),
+    "maroon": (128, 0, 0),
+    "yellow": (255, 255, 0),
+    "olive": (128, 128, 0),
+    "lime": (0, 255, 0),
+    "green": (0, 128, 0),
+    "aqua": (0, 255, 255),
+    "teal": (0, 128, 128),
+    "blue": (0, 0, 255),
+    "navy": (0, 0, 128),
+    "fuchsia": (255, 0, 255),
+    "purple": (128, 0, 128),
+    "violet": (238, 130, 238),
+    "orange": (255, 165, 0),
+    "brown": (165, 42, 42),
+}
+"""Red, green and blue by `color` (§8.7.15), as CSS has them; `other` may be any."""

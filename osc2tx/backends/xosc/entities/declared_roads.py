@@ -6,7 +6,6 @@ from osc2tx import ir
 from osc2tx.backends.xosc.actions.registry import WITHOUT_FORM, without_form
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.facts.map_search import PARTS, MapQuery, MapSegment, search_map
-from osc2tx.backends.xosc.facts.maps import Roads
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.values.constants import Constant, Named
 
@@ -56,15 +55,6 @@ def is_map(ctx: Context, name: str) -> bool:
     return any(actor.name == name for actor in ctx.actors_like("map"))
 
 
-def required_roads(ctx: Context) -> Roads:
-    """Return the map.
-
-    Raises:
-        Inexpressible: It is not at hand.
-    """
-    return ctx.required_roads("roads are looked for on")
-
-
 def _segments(ctx: Context) -> dict[str, MapSegment]:
     if ctx.segments is None:
         parts = {
@@ -79,7 +69,7 @@ def _segments(ctx: Context) -> dict[str, MapSegment]:
             for call in placement.modifiers
             if call.name != "set_map_file" and call.name not in WITHOUT_FORM["modifier"]
         ]
-        ctx.segments = search_map(required_roads(ctx), parts, relations)
+        ctx.segments = search_map(ctx.required_roads(), parts, relations)
     return ctx.segments
 
 

@@ -15,7 +15,7 @@ from osc2tx.backends.xosc.entities.categories import (
     role_literal,
     vehicle_literal,
 )
-from osc2tx.backends.xosc.facts.actors import TOP_SPEED
+from osc2tx.backends.xosc.facts.actors import RGB, TOP_SPEED
 from osc2tx.backends.xosc.report import GENERIC, Metres
 from osc2tx.backends.xosc.values.constants import Member, Named
 from osc2tx.xosc import elements as xml
@@ -86,29 +86,6 @@ def _axle(
         positionZ=axle.position_z,
     )
 
-
-# `color` (§8.7) -> red, green, blue; the XML has no colours, tools read them from a property.
-COLORS: Mapping[str, str] = {
-    "white": "255,255,255",
-    "silver": "192,192,192",
-    "gray": "128,128,128",
-    "black": "0,0,0",
-    "red": "255,0,0",
-    "maroon": "128,0,0",
-    "yellow": "255,255,0",
-    "olive": "128,128,0",
-    "lime": "0,255,0",
-    "green": "0,128,0",
-    "aqua": "0,255,255",
-    "teal": "0,128,128",
-    "blue": "0,0,255",
-    "navy": "0,0,128",
-    "fuchsia": "255,0,255",
-    "purple": "128,0,128",
-    "violet": "238,130,238",
-    "orange": "255,165,0",
-    "brown": "165,42,42",
-}
 
 MASS = {VEHICLE: 1500.0, PEDESTRIAN: 80.0, MISC: 100.0}
 """Kilograms; the DSL knows no mass."""
@@ -245,8 +222,8 @@ def _properties(ctx: Context, member: CastMember) -> xml.Properties:
     model = ctx.values.field(name, "geometry_reference")
     if isinstance(color, str):
         found["color"] = color
-    elif isinstance(color, Member) and color.name in COLORS:
-        found["color"] = COLORS[color.name]
+    elif isinstance(color, Member) and color.name in RGB:  # tools read them from a property
+        found["color"] = ",".join(map(str, RGB[color.name]))
     if isinstance(role, Member) and _role(ctx, member, member.kind) in (None, NO_ROLE):
         found["role"] = role.name
     if isinstance(model, str) and _looks(ctx, member, member.kind) is None:

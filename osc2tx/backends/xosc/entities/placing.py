@@ -5,10 +5,9 @@ They are found one after the other, as the embedded world puts actors somewhere.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from osc2tx.backends.xosc.actions.speed.courses import speed_action
-from osc2tx.backends.xosc.actions.trailers import towing
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.start_lanes import note_turn, turned
 from osc2tx.backends.xosc.entities.start_positions import position_of
@@ -37,11 +36,10 @@ class InitialPlacing(StartRoom[Start]):
 
     failure = NoPlace
 
-    def __init__(self, ctx: Context, tows: Mapping[str, str]) -> None:
-        """Take the context, and who tows each trailer."""
+    def __init__(self, ctx: Context) -> None:
+        """Take the context."""
         super().__init__(0 if ctx.roads is None else len(ctx.roads.map.spawn_points()))
         self._ctx = ctx
-        self._tows = tows
         self.positions: dict[str, xml.PositionPart] = {}
         self.refused: dict[str, Unwritable] = {}
 
@@ -50,7 +48,7 @@ class InitialPlacing(StartRoom[Start]):
         self.refused.pop(start.id, None)
         try:
             with self._ctx.within(start.scope):
-                return self._tow(start) if start.id in self._tows else self._put(start)
+                return self._towed(start) if start.tow else self._put(start)
         except NoPlace as error:
             error.span = error.span or start.span
             raise
@@ -63,9 +61,9 @@ class InitialPlacing(StartRoom[Start]):
         names = " and ".join(start.id for start in waiting)
         return NoPlace(f"the starts of {names} depend on each other", waiting[0].span)
 
-    def _tow(self, start: Start) -> Placed:
+    def _towed(self, start: Start) -> Placed:
         """Note that where a trailer is follows from the vehicle that tows it."""
-        tow, ctx = self._tows[start.id], self._ctx
+        tow, ctx = start.tow, self._ctx
         ctx.states[start.id] = replace(ctx.states[tow], lane=None)
         pose = ctx.start_poses.get(tow)
         if pose is not None:
@@ -116,7 +114,7 @@ def initial_actions(ctx: Context) -> dict[str, xml.Private]:
     for member in ctx.entities:
         ctx.states[member.name] = ActorState()
     starts = starts_of(ctx)
-    placing = InitialPlacing(ctx, towing(ctx))
+    placing = InitialPlacing(ctx)
     try:
         placing.fill(starts)
     except NoPlace as error:

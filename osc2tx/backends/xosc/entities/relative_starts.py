@@ -16,8 +16,8 @@ from osc2tx.backends.xosc.entities.start_lanes import (
 )
 from osc2tx.backends.xosc.entities.start_statements import Start, StartPlace, speed_at_start
 from osc2tx.backends.xosc.facts.actors import ALIGNED
-from osc2tx.backends.xosc.facts.maps import LanePosition, Roads
-from osc2tx.backends.xosc.facts.start_places import LaneNumber, place_at_distance
+from osc2tx.backends.xosc.facts.maps import Lane, LanePosition, Roads, place_along_road
+from osc2tx.backends.xosc.facts.start_places import place_at_distance
 from osc2tx.backends.xosc.report import Inexpressible, NoPlace
 from osc2tx.backends.xosc.state import ActorState, known
 from osc2tx_shared.classes import dataclass
@@ -26,25 +26,21 @@ NEAR = 1e-3
 """Metres between two places that count as one."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Said:
     """What is said about a start beside others.
 
     Attributes:
         in_lane_of: In or beside whose lane it is.
         lanes: How many to the left of that one.
-        number: The lane, where it has a number.
         ahead_of: Ahead of whom it is.
-        along: So far (m); negative: behind.
-        position: Metres along the road, instead.
+        along: So far (m), negative: behind; without a reference along the road, if at all.
     """
 
     in_lane_of: CastMember | None
     lanes: int
-    number: LaneNumber | None
     ahead_of: CastMember | None
-    along: float
-    position: float | None
+    along: float | None
 
     @property
     def reference(self) -> CastMember:
@@ -56,20 +52,21 @@ class Said:
     @property
     def is_of_one(self) -> bool:
         """Whether it is relative to one actor alone."""
-        names = {each.name for each in (self.in_lane_of, self.ahead_of) if each is not None}
-        return len(names) == 1 and self.position is None
+        if self.ahead_of is None:
+            return self.along is None
+        return self.in_lane_of is None or self.in_lane_of.name == self.ahead_of.name
 
 
 def beside(ctx: Context, start: Start) -> StartPlace:
     """Return a place in or beside the lane of another actor, so far ahead of it or behind it."""
-    said = _said(ctx, start)
+    said, number = _said(ctx, start), lane_number(start)
     if said.is_of_one:
-        ctx.init_gaps[start.id, said.reference.name] = -said.along
-    if ctx.roads is None and said.number is None and said.is_of_one:
+        ctx.init_gaps[start.id, said.reference.name] = -(said.along or 0.0)
+    if ctx.roads is None and number is None and said.is_of_one:
         return _relative(ctx, start, said, said.lanes, None)
     roads = ctx.required_roads("its lane needs", start.span)
-    mine = _place(ctx, roads, said)
-    lanes = _lanes_for_tools(ctx, roads, said, mine)
+    mine = _place(ctx, roads, said, number)
+    lanes = _lanes_for_tools(ctx, roads, said, mine, said.lanes if number is None else None)
     if lanes is None or goes_straight(ctx, start):
         return in_lane(ctx, start, mine)
     return _relative(ctx, start, said, lanes, mine)
@@ -80,28 +77,29 @@ def _relative(
 ) -> StartPlace:
     offset = lateral_of(ctx, start, mine)
     turn = orientation_in_lane(ctx, start, mine)
-    position = relative_lane(ctx, said.reference.name, lanes, said.along, offset, turn)
+    along = said.along or 0.0
+    position = relative_lane(ctx, said.reference.name, lanes, along, offset, turn)
     return position, ActorState(speed=known(0.0), offset=known(offset), lane=mine)
 
 
-def _place(ctx: Context, roads: Roads, said: Said) -> LanePosition:
+def _place(ctx: Context, roads: Roads, said: Said, number: Lane | None) -> LanePosition:
     """Return where it is, as the embedded world finds it."""
     place = _centre(ctx, roads, said.in_lane_of or said.reference)
     if said.lanes:
         side = "left" if said.lanes > 0 else "right"
         missing = f"there is no lane {abs(said.lanes)} to the {side} of lane {place.lane}"
         place = _found(roads.beside(place, said.lanes), missing)
-    if said.ahead_of is not None:
+    if said.along is not None and said.ahead_of is not None:
         origin, way = _centre(ctx, roads, said.ahead_of), "ahead" if said.along >= 0.0 else "back"
         missing = f"the lane does not reach {abs(said.along):g} m {way}"
         place = _found(place_at_distance(roads.map, place, origin, said.along), missing)
-    elif said.position is not None:
-        missing = f"lane {place.lane} does not lead to {said.position:g} m along its road"
-        place = _found(roads.along_road(place, said.position), missing)
-    if said.number is None:
+    elif said.along is not None:
+        missing = f"lane {place.lane} does not lead to {said.along:g} m along its road"
+        place = _found(place_along_road(roads.map, place, said.along), missing)
+    if number is None:
         return place
-    missing = f"there is no lane {said.number.number} beside {said.reference.name}"
-    return _found(roads.with_number(place, *said.number), missing)
+    missing = f"there is no lane {number.number} beside {said.reference.name}"
+    return _found(roads.with_number(place, number), missing)
 
 
 def _found(place: LanePosition | None, otherwise: str) -> LanePosition:
@@ -121,7 +119,9 @@ def _centre(ctx: Context, roads: Roads, member: CastMember) -> LanePosition:
     return lane._replace(offset=0.0)
 
 
-def _lanes_for_tools(ctx: Context, roads: Roads, said: Said, mine: LanePosition) -> int | None:
+def _lanes_for_tools(
+    ctx: Context, roads: Roads, said: Said, mine: LanePosition, lanes: int | None
+) -> int | None:
     """Return how many lanes to the left tools count to a place; `None` if they do not get there.
 
     They go metres along the lane of the reference as it looks, and then across; the world measures
@@ -135,17 +135,15 @@ def _lanes_for_tools(ctx: Context, roads: Roads, said: Said, mine: LanePosition)
     turn = math.remainder(pose.h - roads.map.pose(theirs).h, math.tau)
     if on is None or (on.road, on.lane) != (theirs.road, theirs.lane) or abs(turn) > ALIGNED:
         return None
-    lanes = said.lanes if said.number is None else roads.lanes_between(theirs, mine)
+    lanes = roads.lanes_between(theirs, mine) if lanes is None else lanes
     if lanes is None:
         return None
-    is_old = ctx.version == "1.0"
+    is_old, along = ctx.version == "1.0", said.along or 0.0
     if is_old or ctx.profile.counts_along_roads:
         travel = roads.map.travel_direction(theirs.road, theirs.lane)
-        is_there = (
-            mine.road == theirs.road and abs((mine.s - theirs.s) * travel - said.along) < NEAR
-        )
+        is_there = mine.road == theirs.road and abs((mine.s - theirs.s) * travel - along) < NEAR
         return lanes if is_there and (travel > 0 or not is_old) else None
-    ahead = roads.ahead(theirs, said.along)
+    ahead = roads.ahead(theirs, along)
     place = None if ahead is None else roads.beside(ahead, lanes)
     if place is None:
         return None
@@ -155,34 +153,16 @@ def _lanes_for_tools(ctx: Context, roads: Roads, said: Said, mine: LanePosition)
 
 def _said(ctx: Context, start: Start) -> Said:
     lane, position = start.modifiers.get("lane"), start.modifiers.get("position")
-    in_lane_of, number, lanes = None, None, 0
-    if lane is not None:
-        in_lane_of, lanes = lane.beside_lane()
-        if in_lane_of is None:
-            number = lane_number(start)
-    reference, is_behind = (None, False) if position is None else position.ahead_of()
-    distance = None if position is None else position.number("distance")
-    if reference is not None and distance is None:
-        distance = _distance_in_time(ctx, start, reference, is_behind=is_behind)
-    if position is not None and distance is None:
+    in_lane_of, lanes = (None, 0) if lane is None else lane.beside_lane()
+    if position is None:
+        return Said(in_lane_of, lanes, None, None)
+    reference, is_behind = position.ahead_of()
+    distance = position.number("distance")
+    time = position.number("time") if distance is None and reference is not None else None
+    if time is not None and reference is not None:  # that the one behind drives in it
+        theirs = ctx.states[reference.name].speed
+        speed = speed_at_start(ctx, start) if is_behind else theirs.low if theirs else 0.0
+        distance = time * speed
+    if distance is None:
         raise Inexpressible("no distance is stated", position.source.span)
-    along = 0.0 if distance is None or reference is None else distance
-    return Said(
-        in_lane_of=in_lane_of,
-        lanes=lanes,
-        number=number,
-        ahead_of=reference,
-        along=-along if is_behind else along,
-        position=distance if reference is None else None,
-    )
-
-
-def _distance_in_time(
-    ctx: Context, start: Start, reference: CastMember, *, is_behind: bool
-) -> float | None:
-    """Return the way (m) that the one behind drives in the time between two."""
-    time = start.modifiers["position"].number("time")
-    if time is None:
-        return None
-    theirs = ctx.states[reference.name].speed
-    return time * (speed_at_start(ctx, start) if is_behind else theirs.low if theirs else 0.0)
+    return Said(in_lane_of, lanes, reference, -distance if is_behind else distance)

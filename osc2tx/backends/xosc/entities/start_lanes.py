@@ -23,8 +23,13 @@ from osc2tx.backends.xosc.facts.actors import (
     course_of_shift,
     lost_across,
 )
-from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, offset_from
-from osc2tx.backends.xosc.facts.start_places import LaneNumber
+from osc2tx.backends.xosc.facts.maps import (
+    Lane,
+    LanePosition,
+    Pose,
+    lane_from_edge,
+    offset_from,
+)
 from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import ActorState, known
 from osc2tx.xosc import elements as xml
@@ -82,12 +87,12 @@ def lateral_of(ctx: Context, start: Start, place: LanePosition | None) -> float:
     return round(theirs + left_of(lateral, start.member.shape.width, other.shape.width), 6)
 
 
-def lane_number(start: Start) -> LaneNumber | None:
-    """Return the lane that is said by its number."""
+def lane_number(start: Start) -> Lane | None:
+    """Return the lane that is said by its number, and not beside another actor."""
     lane = start.modifiers.get("lane")
-    if lane is None:
+    if lane is None or lane.beside_lane()[0] is not None:
         return None
-    return LaneNumber(round(lane.number("lane") or 1), lane.member("from", "right"))
+    return lane_from_edge(round(lane.number("lane") or 1), lane.member("from", "right"))
 
 
 # --- how an actor is turned -----------------------------------------------------------------------

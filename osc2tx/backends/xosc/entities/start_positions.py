@@ -8,17 +8,12 @@ from osc2tx.backends.xosc.actions.arguments import Arguments
 from osc2tx.backends.xosc.actions.position.points_and_lines import points_along
 from osc2tx.backends.xosc.actions.registry import at_start
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment_of
+from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.entities.relative_starts import beside
 from osc2tx.backends.xosc.entities.start_lanes import at_pose, in_lane, lane_number, turned
 from osc2tx.backends.xosc.entities.start_statements import Start, StartPlace, is_at_point
 from osc2tx.backends.xosc.facts.maps import LanePosition, Pose
-from osc2tx.backends.xosc.facts.start_places import (
-    TakenBy,
-    given_place,
-    open_place,
-    read_spawn,
-)
+from osc2tx.backends.xosc.facts.start_places import TakenBy, given_place, open_place
 from osc2tx.backends.xosc.report import Inexpressible, NoPlace
 from osc2tx.backends.xosc.values.constants import Constant, Named
 
@@ -33,7 +28,9 @@ def position_of(ctx: Context, start: Start, taken_by: TakenBy) -> StartPlace:
         Inexpressible: The XML has no such position, or it is not known before the run.
     """
     location, position = start.modifiers.get("location"), start.modifiers.get("position")
-    if start.is_given and (start.is_beside or location is not None or position is not None):
+    if start.spawn is not None and (
+        start.is_beside or location is not None or position is not None
+    ):
         raise Inexpressible("the scenario says where it starts, so it takes no --spawn", start.span)
     path = start.modifiers.get("on_path")
     road = None if path is None else path.get("path")  # matters only to who has no other place
@@ -95,7 +92,7 @@ def _heading_at(
 
 def _near_point(ctx: Context, start: Start, point: tuple[float, float, float]) -> StartPlace:
     """Return the place in the lane that is nearest to a point, or in one of the same road."""
-    near = required_roads(ctx).map.locate(*point)
+    near = ctx.required_roads().map.locate(*point)
     if near is None:
         raise Inexpressible(f"no lane is near ({point[0]:g}, {point[1]:g})", start.span)
     return in_lane(ctx, start, _numbered(ctx, start, LanePosition(near.road, near.lane, near.s)))
@@ -106,7 +103,7 @@ def _numbered(ctx: Context, start: Start, place: LanePosition) -> LanePosition:
     lane = lane_number(start)
     if lane is None:
         return place
-    numbered = required_roads(ctx).with_number(place, *lane)
+    numbered = ctx.required_roads().with_number(place, lane)
     if numbered is None:
         span = start.modifiers["lane"].source.span
         raise Inexpressible(f"there is no lane {lane.number} at that place", span)
@@ -131,7 +128,7 @@ def _on_route(ctx: Context, start: Start, along: Arguments, taken_by: TakenBy) -
 
 def _on_road(ctx: Context, start: Start, road: Constant | None, taken_by: TakenBy) -> StartPlace:
     name, position, lane = start.id, start.modifiers.get("position"), lane_number(start)
-    spawn = dict(map(read_spawn, ctx.options.spawns)).get(name)
+    spawn = start.spawn
     if ctx.roads is None and spawn is not None:
         return in_lane(ctx, start, spawn)
     what = "its start" if lane is None else f"lane {lane.number}"

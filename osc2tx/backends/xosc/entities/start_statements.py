@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TypeAlias
 
 from osc2tx import ir
@@ -11,6 +12,7 @@ from osc2tx.backends.xosc.actions.trailers import towing
 from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import check_declared, check_map, is_map
+from osc2tx.backends.xosc.facts.maps import LanePosition
 from osc2tx.backends.xosc.facts.start_places import read_spawn
 from osc2tx.backends.xosc.report import Inexpressible
 from osc2tx.backends.xosc.scopes import Scope
@@ -20,7 +22,7 @@ from osc2tx.xosc import elements as xml
 from osc2tx_shared.classes import dataclass, replace
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Start:
     """The start of one actor.
 
@@ -31,16 +33,18 @@ class Start:
         modifiers: The same, by name.
         references: Whom it refers to.
         is_beside: It refers to the position of another actor.
-        is_given: An option says where it is.
+        tow: Who tows it; empty: nobody.
+        spawn: Where an option says that it is.
     """
 
     member: CastMember
     scope: Scope
     placement: ir.Placement | None
-    modifiers: dict[str, Arguments]
+    modifiers: Mapping[str, Arguments]
     references: tuple[str, ...]
     is_beside: bool = False
-    is_given: bool = False
+    tow: str = ""
+    spawn: LanePosition | None = None
 
     @property
     def id(self) -> str:
@@ -52,7 +56,7 @@ class Start:
         """Points come before what is relative, open places last."""
         if "location" in self.modifiers or is_at_point(self.modifiers.get("position")):
             return 0
-        return 1 if self.references or self.is_given else 2
+        return 1 if self.references or self.spawn is not None else 2
 
     @property
     def is_open(self) -> bool:
@@ -86,12 +90,12 @@ def starts_of(ctx: Context) -> list[Start]:
     """Return the start of each actor; what is wrong with one is in the report."""
     check_declared(ctx)
     found: dict[str, Start] = {}
-    given = dict(map(read_spawn, ctx.options.spawns))
+    spawns = dict(map(read_spawn, ctx.options.spawns))
     for scope in ctx.scope.all():
         for placement in scope.scenario.placements:
             member = scope.cast.get(placement.actor)
             acts = placement.is_later or not scope.is_first  # it acts already, or enters
-            if placement.is_implied and (acts or (member is not None and member.name in given)):
+            if placement.is_implied and (acts or (member is not None and member.name in spawns)):
                 continue
             if is_map(ctx, placement.actor):
                 check_map(ctx, placement)
@@ -101,49 +105,39 @@ def starts_of(ctx: Context) -> list[Start]:
                     raise Inexpressible(f"`{placement.actor}` is no entity of the XML")
                 if not scope.is_first:
                     raise Inexpressible("the scenario that places it does not begin with the run")
-                if member.name not in found:
-                    found[member.name] = _start(ctx, scope, member, placement)
-                elif placement.is_implied:
-                    found[member.name] = _with_implied(ctx, found[member.name], placement)
-                else:
+                known = found.get(member.name)
+                if known is not None and not placement.is_implied:
                     raise Inexpressible(f"{member.name} is placed twice")
+                start = known or Start(member, scope, placement, {}, ())
+                found[member.name] = _with(ctx, start, placement)
+    ctx.present |= {*found, *spawns}
     tows = towing(ctx)
-    starts = [
-        found.get(member.name)
-        or Start(member, ctx.scope, None, {}, tuple(tows.get(member.name, "").split()))
-        for member in ctx.entities
-    ]
-    ctx.present |= {*found, *given}
-    return [replace(start, is_given=start.id in given) for start in starts]
+    starts = []
+    for member in ctx.entities:
+        start = found.get(member.name) or Start(member, ctx.scope, None, {}, ())
+        tow = tows.get(member.name, "")
+        references = (*tow.split(), *start.references)
+        spawn = spawns.get(member.name)
+        starts.append(replace(start, references=references, tow=tow, spawn=spawn))
+    return starts
 
 
-def _start(ctx: Context, scope: Scope, member: CastMember, placement: ir.Placement) -> Start:
-    for call in placement.modifiers:
-        if call.name in WITHOUT_FORM["modifier"]:
-            raise Inexpressible(WITHOUT_FORM["modifier"][call.name], call.span)
-    modifiers = {call.name: Arguments(ctx, call) for call in placement.modifiers}
-    tow = towing(ctx).get(member.name)
-    references = [] if tow is None else [tow]
-    is_beside = False
-    for modifier, arguments in modifiers.items():
+def _with(ctx: Context, start: Start, placement: ir.Placement) -> Start:
+    """Return a start with what a placement states where it is silent so far."""
+    added = {
+        c.name: Arguments(ctx, c) for c in placement.modifiers if c.name not in start.modifiers
+    }
+    references, is_beside = dict.fromkeys(start.references), start.is_beside
+    for modifier, arguments in added.items():
+        if modifier in WITHOUT_FORM["modifier"]:
+            raise Inexpressible(WITHOUT_FORM["modifier"][modifier], arguments.span)
         for name in (*RELATIVE, *FASTER):
             other = arguments.entity(name)
             if other is not None:
-                references.append(other.name)
+                references[other.name] = None
                 is_beside = is_beside or modifier in BESIDE
-    return Start(member, scope, placement, modifiers, tuple(references), is_beside)
-
-
-def _with_implied(ctx: Context, start: Start, implied: ir.Placement) -> Start:
-    """Return a start with what suits the first action of the actor, where it is silent."""
-    silent = tuple(m for m in implied.modifiers if m.name not in start.modifiers)
-    besides = _start(ctx, start.scope, start.member, replace(implied, modifiers=silent))
-    return replace(
-        start,
-        modifiers={**start.modifiers, **besides.modifiers},
-        references=tuple(dict.fromkeys((*start.references, *besides.references))),
-        is_beside=start.is_beside or besides.is_beside,
-    )
+    modifiers = {**start.modifiers, **added}
+    return replace(start, modifiers=modifiers, references=tuple(references), is_beside=is_beside)
 
 
 def in_order(starts: list[Start]) -> list[Start]:

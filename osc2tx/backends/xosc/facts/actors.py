@@ -17,6 +17,7 @@ from osc2tx_runtime.world.actor_dimensions import (
     CATEGORIES,
     COMFORT,
     GENTLE,
+    RGB,
     TOP_SPEED,
     TYRES,
     Limits,

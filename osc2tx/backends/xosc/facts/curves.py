@@ -111,8 +111,10 @@ def curve_through(points: Sequence[Waypoint], *, is_timed: bool, is_smooth: bool
     return Way(poses, joined).curve
 
 
-def thinned(points: Sequence[Waypoint], *, is_timed: bool) -> tuple[Waypoint, ...]:
-    """Return points of a curve whose straight lines stay within `TOLERANCE` of all of them.
+def thinned(
+    points: Sequence[Waypoint], *, is_timed: bool, tolerance: float = TOLERANCE
+) -> tuple[Waypoint, ...]:
+    """Return points of a curve whose straight lines stay so near (m) to all of them.
 
     If it is timed, a place counts at its time, and not wherever it is on the curve.
     """
@@ -120,14 +122,16 @@ def thinned(points: Sequence[Waypoint], *, is_timed: bool) -> tuple[Waypoint, ..
     first = 0
     while first < len(points) - 1:
         last = first + 1
-        while last + 1 < len(points) and _is_straight(points[first : last + 2], is_timed):
+        while last + 1 < len(points) and _is_straight(
+            points[first : last + 2], is_timed, tolerance
+        ):
             last += 1
         kept.append(points[last])
         first = last
     return tuple(kept)
 
 
-def _is_straight(points: Sequence[Waypoint], is_timed: bool) -> bool:
+def _is_straight(points: Sequence[Waypoint], is_timed: bool, tolerance: float) -> bool:
     """Whether the points between the first and the last lie on the line between these."""
     begin, end = points[0], points[-1]
     way = (end.x - begin.x, end.y - begin.y, end.z - begin.z)
@@ -138,7 +142,7 @@ def _is_straight(points: Sequence[Waypoint], is_timed: bool) -> bool:
             part = (point.time - begin.time) / (end.time - begin.time)
         else:
             part = sum(a * b for a, b in zip(off, way, strict=True)) / square if square else 0.0
-        if math.dist(off, tuple(part * step for step in way)) > TOLERANCE:
+        if math.dist(off, tuple(part * step for step in way)) > tolerance:
             return False
     return True
 

@@ -1,4 +1,4 @@
-"""Maps, read by the runtime.
+"""Maps, looked for and read by the runtime.
 
 A lane of oncoming traffic is a place beside the innermost lane of the own direction.
 """
@@ -6,18 +6,20 @@ A lane of oncoming traffic is a place beside the innermost lane of the own direc
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cache, cached_property, lru_cache
 from pathlib import Path
-from typing import Literal, cast
+from typing import cast
 
 from osc2tx.backends.xosc.facts import refusing
 from osc2tx.backends.xosc.facts.curves import Waypoint
 from osc2tx.backends.xosc.report import Inexpressible
+from osc2tx_runtime.domain.map.search import find_map
+from osc2tx_runtime.domain.modifiers import Lane
 from osc2tx_runtime.domain.routes.lane_coordinates import place_along_road
 from osc2tx_runtime.domain.routes.road_paths import way_through
 from osc2tx_runtime.enums import BulbState, SemanticTrafficLightState
-from osc2tx_runtime.errors import ScenarioError
-from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap
+from osc2tx_runtime.errors import InputError, ScenarioError
+from osc2tx_runtime.opendrive import LanePosition, Pose, RoadMap, read_map
 from osc2tx_runtime.opendrive.geodesy import GeoReferenceError
 from osc2tx_runtime.opendrive.model import LaneKey
 from osc2tx_runtime.world.geometry.lane_neighbours import (
@@ -33,6 +35,7 @@ from osc2tx_runtime.world.geometry.lane_neighbours import (
 from osc2tx_runtime.world.longitudinal.bends_ahead import BendsAhead
 from osc2tx_runtime.world.surroundings.traffic_light_lamps import Lamp, lamps_that_mean, meaning_of
 from osc2tx_runtime.world.surroundings.traffic_light_states import Signals
+from osc2tx_shared.map_files import DEFAULT_MAP, places_in_project
 
 
 class Roads:
@@ -66,10 +69,9 @@ class Roads:
             ahead += [each for each in self.map.successors(key) if each not in ahead]
         return None
 
-    def with_number(self, place: LanePosition, number: int, edge: str) -> LanePosition | None:
+    def with_number(self, place: LanePosition, lane: Lane) -> LanePosition | None:
         """Return the lane with a number at a place; `None` if there is none."""
-        side: Literal["left", "right"] = "right" if edge == "right" else "left"
-        return lane_with_number(self.map, place, number, side)
+        return lane_with_number(self.map, place, lane.number, lane.edge)
 
     def lanes_between(self, place: LanePosition, other: LanePosition) -> int | None:
         """Return how many lanes to the left another lane of the same road is; `None`: it is not."""
@@ -84,14 +86,6 @@ class Roads:
         """Return the place so far (m) along the lane."""
         step = self.map.advance(place, distance)
         return step.position if abs(step.travelled - distance) < 1e-6 else None
-
-    def along_road(self, place: LanePosition, position: float) -> LanePosition | None:
-        """Return the place on a lane at a position (m) along its road."""
-        return place_along_road(self.map, place, position)
-
-    def way(self, place: LanePosition, goal: LanePosition) -> float | None:
-        """Return the way (m) along lanes from one place to another one; `None` without one."""
-        return self.map.route_distance(place, goal)
 
     def place(self, road: str, lane: int, s: float, t: float) -> LanePosition:
         """Return a place from its coordinates on a road given by its name.
@@ -198,6 +192,11 @@ class Roads:
         return tuple(Waypoint(0.0, pose.x, pose.y, pose.z, pose.yaw) for pose in found)
 
 
+def lane_from_edge(number: int, edge: str) -> Lane:
+    """Return the lane that is counted from an edge of the road."""
+    return Lane(number, from_="right" if edge == "right" else "left")
+
+
 # --- lanes of oncoming traffic --------------------------------------------------------------------
 
 CLOSE = 5.0
@@ -239,3 +238,48 @@ def _is_beside(road_map: RoadMap, own: LaneKey, number: int, offset: float) -> b
         if abs(centre.offset - offset) > SAME_PLACE:
             return False
     return True
+
+
+# --- folders with maps ----------------------------------------------------------------------------
+
+MOST_MAPS = 32
+"""Maps that are kept once read."""
+
+
+class MapFolders:
+    """Folders with maps. A map is looked for once for all documents of a scenario.
+
+    Args:
+        folders: The folders, or a map itself.
+    """
+
+    def __init__(self, folders: Sequence[Path]) -> None:
+        self._folders = tuple(folders)
+        self.roads = cache(self._roads)
+        self.places = cache(self._places)
+
+    def _roads(self, map_file: str | None) -> Roads | None:
+        """Return a map, looked for as `osc2tx run` does; `None` if it is not found.
+
+        Raises:
+            Inexpressible: It is found and is no map.
+        """
+        wanted = Path(map_file or DEFAULT_MAP)
+        if wanted.is_absolute() or ".." in wanted.parts:
+            return None  # nothing outside of the folders is read
+        try:
+            path = find_map(map_file, [folder for folder in self._folders if folder.exists()])
+        except InputError:
+            return None
+        now = path.stat()  # between two builds of one process it may change
+        return _read(path, now.st_mtime_ns, now.st_size)
+
+    def _places(self, map_file: str | None) -> tuple[Path, ...]:
+        """Return where a map is looked for, outside of the runtime library."""
+        return places_in_project(map_file, self._folders)
+
+
+@lru_cache(maxsize=MOST_MAPS)
+def _read(path: Path, modified: int, size: int) -> Roads:
+    with refusing(about=f"map {path.name} cannot be read: "):
+        return Roads(read_map(path), path)

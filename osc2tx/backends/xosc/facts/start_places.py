@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal, NamedTuple
 
 from osc2tx.backends.xosc.facts import refusing
 from osc2tx.backends.xosc.facts.actors import Shape
 from osc2tx.backends.xosc.facts.map_search import MapSegment
-from osc2tx.backends.xosc.facts.maps import LanePosition, Pose, Roads
+from osc2tx.backends.xosc.facts.maps import Lane, LanePosition, Pose, Roads
 from osc2tx.backends.xosc.report import Inexpressible, NoPlace
 from osc2tx.diagnostics import Span
-from osc2tx_runtime.domain.modifiers import Lane
 from osc2tx_runtime.domain.placing.default_starts import StartPlaces, TakenBy
 from osc2tx_runtime.domain.placing.start_room import Placed, StartRoom
 from osc2tx_runtime.domain.routes.lane_coordinates import place_at_distance
@@ -22,24 +20,11 @@ from osc2tx_runtime.world.motion.towing import pose_behind
 from osc2tx_runtime.world.state import ActorState
 
 
-class LaneNumber(NamedTuple):
-    """A lane counted from an edge of the road."""
-
-    number: int
-    edge: str
-
-    @property
-    def modifier(self) -> Lane:
-        """The lane in terms of the runtime."""
-        side: Literal["left", "right"] = "right" if self.edge == "right" else "left"
-        return Lane(self.number, from_=side)
-
-
 @refusing(NoPlace)
 def open_place(
     roads: Roads,
     name: str,
-    lane: LaneNumber | None,
+    lane: Lane | None,
     distance: float | None,
     segment: MapSegment | None,
     taken_by: TakenBy,
@@ -51,23 +36,20 @@ def open_place(
     Raises:
         NoPlace: There is no such place.
     """
-    places, modifier = StartPlaces(roads.map), None if lane is None else lane.modifier
+    places = StartPlaces(roads.map)
     if segment is None:
-        return places.default(name, modifier, distance, taken_by)
-    return places.on_path(name, segment, modifier, distance, taken_by)
+        return places.default(name, lane, distance, taken_by)
+    return places.on_path(name, segment, lane, distance, taken_by)
 
 
 @refusing(NoPlace)
-def given_place(
-    roads: Roads, name: str, spawn: LanePosition, lane: LaneNumber | None
-) -> LanePosition:
+def given_place(roads: Roads, name: str, spawn: LanePosition, lane: Lane | None) -> LanePosition:
     """Return the place of `--spawn`, checked against map and scenario.
 
     Raises:
         NoPlace: The map has no such place, or it is in another lane than the scenario says.
     """
-    modifier = None if lane is None else lane.modifier
-    return StartPlaces(roads.map).given(name, spawn, modifier, None)
+    return StartPlaces(roads.map).given(name, spawn, lane, None)
 
 
 def box_at(pose: Pose, shape: Shape) -> Box:

@@ -204,7 +204,7 @@ class Flattener:
 
     def _choice(self, node: ir.OneOf, start: Flow) -> Flow:
         """Flatten members of which a parameter of the document chooses one for each run."""
-        branch = self._ctx.choosing.branch(self._ctx.scope, node)
+        branch = self._ctx.choosing.drawn(self._ctx.scope, node)
         if branch is None:
             return self._member(node.members[0], start)
         self._ctx.require_support("ParameterCondition/text", node.span)

@@ -102,7 +102,7 @@ class LogicalWriter:
     ) -> None:
         self.parameters = open_parameters(scenario, module)
         self.domain = Domain(scenario, module, self.parameters)
-        self._branches = [p for p in self.parameters if p.node is not None]
+        self._branches = [p for p in self.parameters if p.is_branch]
         self._version = version
         self._write = write
         self._written: dict[frozenset[tuple[str, object]], Element | None] = {}
@@ -137,7 +137,7 @@ class LogicalWriter:
                 listed = self._listed(found, trial)
                 if listed is not None and listed.document is not None:
                     return replace(listed, document=trial.limits.raised(listed.document))
-                wrong = [p for p in kept if p.node is None]
+                wrong = [p for p in kept if not p.is_branch]
                 if not wrong:
                     return found
             kept = [parameter for parameter in kept if parameter not in wrong]
@@ -224,7 +224,7 @@ class _Trial:
         found = []
         ranges = self._domain.ranges()
         for parameter in self._domain.parameters:
-            if parameter.node is not None:  # all its members are in the document
+            if parameter.is_branch:  # all its members are in the document
                 continue
             places = self._probed(parameter, ranges)
             if places is None or (places and not has_columns):

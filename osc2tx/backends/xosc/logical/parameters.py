@@ -50,8 +50,8 @@ class OpenParameter:
         choices: All its values, if they are a set.
         range_: Its bounds, if it has any.
         is_whole: It has no fractions.
-        node: The `one_of` whose member it chooses.
-        change: The lane change whose side it chooses.
+        site: Where the `one_of` stands whose member it chooses, or the lane change whose side.
+        is_branch: It chooses a member.
     """
 
     key: str
@@ -62,8 +62,8 @@ class OpenParameter:
     choices: tuple[Constant, ...] = ()
     range_: ir.RangeValue | None = None
     is_whole: bool = False
-    node: ir.OneOf | None = None
-    change: ir.Invoke | ir.ModifierCall | None = None
+    site: Span | None = None
+    is_branch: bool = False
 
     @property
     def is_number(self) -> bool:
@@ -133,11 +133,14 @@ class OpenParameter:
         low, high = self.limits(values)
         return f"[{low:g}..{high:g}]"
 
-    def symbol(self, nominal: Constant, version: XmlVersion) -> Constant:
-        """Return the number that stands for it; what is no number has no expressions."""
+    def symbol(self, nominal: Constant, longest: int) -> Constant:
+        """Return the number that stands for it, in expressions of so many characters at most.
+
+        What is no number has no expressions.
+        """
         if not self.is_number or not isinstance(nominal, (int, float)):
             return nominal
-        return Symbol(nominal, f"${self.name}", has_expressions=version >= "1.1")
+        return Symbol(nominal, f"${self.name}", longest=longest)
 
 
 def told(value: Constant) -> str:
@@ -166,8 +169,8 @@ def open_parameters(scenario: ir.Scenario, module: ir.Module) -> tuple[OpenParam
     names = Names()
     found: dict[str, OpenParameter] = {}
     for scope in open_scopes(scenario, module).all():
-        for declaration in _in_order(scope.scenario):
-            if scope.values.is_given(declaration.name):
+        for declaration in scope.scenario.declarations:  # each after those that it is computed from
+            if not isinstance(declaration, ir.Parameter) or scope.values.is_given(declaration.name):
                 continue
             parameter = _open(declaration, scope, names)
             if parameter is not None:
@@ -201,26 +204,6 @@ def _with_known_bounds(
             continue
         kept.append(parameter)
     return tuple(kept)
-
-
-def _in_order(scenario: ir.Scenario) -> list[ir.Parameter]:
-    """Return the parameters, those first that others are computed from."""
-    declared = {d.name: d for d in scenario.declarations if isinstance(d, ir.Parameter)}
-    ordered: dict[str, ir.Parameter] = {}
-
-    def add(name: str, above: frozenset[str]) -> None:
-        if name not in declared or name in above or name in ordered:
-            return
-        declaration = declared[name]
-        for source in (declaration.value, declaration.domain):
-            for part in () if source is None else ir.walk(source):
-                if isinstance(part, ir.FieldRef):
-                    add(part.name, above | {name})
-        ordered[name] = declaration
-
-    for name in declared:
-        add(name, frozenset())
-    return list(ordered.values())
 
 
 def _elements(value: Constant) -> tuple[Constant, ...]:
@@ -281,7 +264,7 @@ def _branches(scope: Scope, names: Names) -> Iterator[OpenParameter]:
         name = names.new(f"{scope.prefix}{node.label or 'branch'}")
         choices = tuple(members.new(plain(each.label or each.name)) for each in node.members)
         made = _drawn(scope, name, node.span, choices)
-        yield replace(made, node=node)
+        yield replace(made, is_branch=True)
 
 
 def _sides(scope: Scope, names: Names) -> Iterator[OpenParameter]:
@@ -294,13 +277,13 @@ def _sides(scope: Scope, names: Names) -> Iterator[OpenParameter]:
             if called != "change_lane" or said & {"side", "target"}:
                 continue
             name = names.new(f"{scope.prefix}{node.label or called}_side")
-            yield replace(_drawn(scope, name, call.span, ("left", "right")), change=call)
+            yield _drawn(scope, name, call.span, ("left", "right"))
 
 
 def _drawn(scope: Scope, name: str, span: Span, choices: tuple[Constant, ...]) -> OpenParameter:
     """Return the parameter of a choice that has no name in the scenario."""
     key, construct = f"{scope.path}.{name}", f"parameter {name}"
-    return OpenParameter(key, name, scope.path, span, construct, choices)
+    return OpenParameter(key, name, scope.path, span, construct, choices, site=span)
 
 
 def declaration(

@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from functools import cached_property
 from itertools import count, islice, product
 from math import inf, prod
+from sys import maxsize
 from typing import NamedTuple, cast
 
 from osc2tx import ir
@@ -166,9 +167,9 @@ class Domain:
 
     def _solved(self, wanted: int) -> list[Row]:
         """Return rows of values that keep the constraints as far as these can be solved."""
-        scopes = open_scopes(self._scenario, self._module, self._folded).all()
         domains = {parameter.key: self._whole(parameter) for parameter in self.parameters}
-        solver = Solver(domains, relations_of(scopes, self.parameters))
+        scopes, others = self._symbolic(0.0), self._symbolic(1.0)
+        solver = Solver(domains, relations_of(self.parameters, scopes, others))
         rows = []
         for shares in _hypercube(len(self.parameters), wanted):
             inside = [(share * (wanted - 1) + 0.5) / wanted for share in shares]  # no ends: `<`
@@ -178,16 +179,20 @@ class Domain:
                 rows.append(Row(self._shares(point), point))
         return rows
 
+    def _symbolic(self, share: float) -> list[Scope]:
+        """Return the scopes in which parameters are symbols, whose values are at a place."""
+        point = self.at([share] * len(self.parameters))
+        symbols = {p.key: p.symbol(point[p.key], longest=maxsize) for p in self.parameters}
+        return open_scopes(self._scenario, self._module, {**point, **symbols}).all()
+
     def _whole(self, parameter: OpenParameter) -> Interval | tuple[Constant, ...]:
         """Return all that a parameter may be, whatever the others are."""
         choices = parameter.choices
         if parameter.is_dependent:
             return Interval(-inf, inf, parameter.is_whole)
-        numbers = [choice for choice in choices if isinstance(choice, int)]
-        is_listed = parameter.is_whole and numbers == [*range(numbers[0], numbers[-1] + 1)]
-        if choices and not is_listed:
-            return choices
-        return Interval(*parameter.limits(self.values(parameter)), parameter.is_whole)
+        low, high = parameter.limits(self.values(parameter)) if parameter.is_number else (0, 0)
+        is_listed = parameter.is_whole and choices == (*range(int(low), int(high) + 1),)
+        return choices if choices and not is_listed else Interval(low, high, parameter.is_whole)
 
     def _shares(self, point: Point) -> tuple[float, ...]:
         return tuple(p.share(point[p.key], self.values(p, point)) for p in self.parameters)

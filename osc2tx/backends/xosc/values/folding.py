@@ -7,20 +7,13 @@ what is given for it, a number or a `Symbol`, else the middle.
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from copy import copy
 
 from osc2tx import ir
 from osc2tx.backends.xosc.report import Inexpressible
-from osc2tx.backends.xosc.values.constants import (
-    Bounds,
-    Constant,
-    Member,
-    MethodResult,
-    Named,
-    UserTypes,
-    as_number,
-)
+from osc2tx.backends.xosc.values.constants import Bounds, Constant, Member, MethodResult, Named
+from osc2tx.backends.xosc.values.objects import Objects, UserTypes
 from osc2tx.xosc.expressions import Symbol
 from osc2tx.xosc.numbers import Noted
 
@@ -68,31 +61,33 @@ LARGEST = 1e15
 """What is computed may not be larger, in SI units, as what is written."""
 
 
-class Values:
-    """Folds expressions of one scenario, with values of fields that an invocation hands in."""
+class Values(Objects):
+    """Folds expressions of one scenario.
+
+    Args:
+        scenario: The scenario.
+        types: Those that the files of its module declare.
+        given: Values of fields, as an invocation hands them in.
+        hidden: Why the values of fields from outside are only known during the run.
+
+    Attributes:
+        sizes: What actors are like where the scenario does not say it.
+    """
 
     def __init__(
         self,
         scenario: ir.Scenario,
-        given: Mapping[str, Constant] | None = None,
-        types: UserTypes | None = None,
+        types: UserTypes,
+        given: Mapping[str, Constant],
+        hidden: Mapping[str, Inexpressible],
     ) -> None:
-        self._declared = {d.name: d for d in scenario.declarations}
+        super().__init__(scenario, types)
         self._methods = {m.name: m for m in scenario.methods}
-        self._given = dict(given or {})
-        self._types = types or UserTypes()
-        self._arguments: dict[str, Constant] = {}  # of the method that is looked into
+        self._given = given
+        self._hidden = hidden
+        self._arguments: Mapping[str, Constant] = {}  # of the method that is looked into
         self._depth = 0
-        self._hidden: dict[str, Inexpressible] = {}
-        self._sizes: dict[str, Mapping[tuple[str, ...], float]] = {}
-
-    def know(self, actor: str, sizes: Mapping[tuple[str, ...], float]) -> None:
-        """Note what an actor is like where the scenario does not say it."""
-        self._sizes[actor] = sizes
-
-    def hide(self, name: str, why: Inexpressible) -> None:
-        """Note that a field has a value from outside that is only known during the run."""
-        self._hidden[name] = why
+        self.sizes: dict[str, Mapping[tuple[str, ...], float]] = {}
 
     def is_given(self, name: str) -> bool:
         """Whether a field has a value from outside."""
@@ -155,61 +150,6 @@ class Values:
             raise Inexpressible(f"`{expression.span.text}` is no actor", expression.span)
         return value.name
 
-    def field(self, name: str, *path: str) -> Constant | None:
-        """Return what a constraint fixes about an actor or struct; `None` if nothing does."""
-        declaration = self._declared.get(name)
-        if declaration is None and "." in name:
-            owner, *inner = name.split(".")
-            return self.field(owner, *inner, *path)
-        if isinstance(declaration, (ir.Actor, ir.Struct)):
-            for value in declaration.values:
-                if value.path == path:
-                    return self.of(value.value)
-                is_part = value.path == path[: len(value.path)] and len(value.path) < len(path)
-                whole = self.of(value.value) if is_part else None
-                if isinstance(whole, Named):  # a struct of the scenario says it
-                    return self.field(whole.name, *path[len(value.path) :])
-            is_inner = any(value.path[: len(path)] == path for value in declaration.values)
-            if is_inner and isinstance(declaration, ir.Struct):
-                return Named(".".join((name, *path)))  # whose own members are fixed
-            default = self._types.default(declaration.type, path)
-            return None if default is None else self.of(default)
-        return None
-
-    def number_in(self, name: str, *path: str) -> float | None:
-        """Return the number that a constraint fixes; `None` if nothing does."""
-        return as_number(self.field(name, *path))
-
-    def member_in(self, name: str, *path: str) -> str | None:
-        """Return the name of the member of an enum, likewise."""
-        value = self.field(name, *path)
-        return value.name if isinstance(value, Member) else None
-
-    def own_fields(self, name: str) -> Iterator[tuple[str, str | float]]:
-        """Yield the plain values of the fields that files of the user give to an actor.
-
-        Nothing in a document depends on them, so what only the run knows is left out.
-        """
-        for field in self._types.fields(self.type_of(name)):
-            try:
-                value = self.field(name, field.name)
-            except Inexpressible:
-                continue
-            if isinstance(value, Member):
-                yield field.name, value.name
-            elif isinstance(value, (int, float, str)):
-                yield field.name, value
-
-    def type_of(self, name: str) -> str:
-        """Return the type of an actor or struct."""
-        declaration = self._declared.get(name)
-        return declaration.type if isinstance(declaration, (ir.Actor, ir.Struct)) else ""
-
-    def is_library_shape(self, name: str) -> bool:
-        """Whether a struct is a course that the library describes (§8.9.22)."""
-        declaration = self._declared.get(name)
-        return isinstance(declaration, ir.Struct) and declaration.type.startswith("common_")
-
     def of(self, expression: ir.Expression) -> Constant:
         """Return the value of an expression.
 
@@ -250,7 +190,10 @@ class Values:
                 given = ((each.parameter, self.of(each.value)) for each in expression.arguments)
                 return MethodResult(method, owner, tuple(given))
             case ir.MethodCall(base=ir.ScenarioSelf(), method=method) if method in self._methods:
-                return self._result(expression, self._methods[method])
+                called = self._methods[method]
+                pairs = zip(called.parameters, expression.arguments, strict=False)
+                given_by_name = {a.parameter or p.name: self.of(a.value) for p, a in pairs}
+                return self.result_of(called, given_by_name)
         raise Inexpressible(
             f"`{expression.span.text}` is only known during the run, and OpenSCENARIO XML"
             " does not compute",
@@ -293,7 +236,7 @@ class Values:
             if isinstance(owner, Named):
                 value = self.field(owner.name, *path)
                 if value is None:
-                    value = self._sizes.get(owner.name, {}).get(tuple(path))
+                    value = self.sizes.get(owner.name, {}).get(tuple(path))
                 if value is not None:
                     return value
         raise Inexpressible(
@@ -313,10 +256,6 @@ class Values:
         if not 0 <= number < len(elements):
             raise Inexpressible(f"`{expression.span.text}`: the list is shorter", expression.span)
         return elements[number]
-
-    def _result(self, call: ir.MethodCall, method: ir.Method) -> Constant:
-        pairs = zip(method.parameters, call.arguments, strict=False)
-        return self.result_of(method, {a.parameter or p.name: self.of(a.value) for p, a in pairs})
 
     def result_of(self, method: ir.Method, given: Mapping[str, Constant]) -> Constant:
         """Return what a method of the scenario returns for arguments by parameter.
@@ -349,7 +288,7 @@ class Values:
             return _COMPARISONS[name](left_number, right_number)
         if name not in _ARITHMETIC:
             raise Inexpressible(f"operator `{name}` has no counterpart", expression.span)
-        if name in "/%" and right_number == 0.0:
+        if name in "/%" and float(right_number) == 0.0:  # a symbol equals no number
             raise Inexpressible(f"`{expression.span.text}` divides by zero", expression.span)
         return _ARITHMETIC[name](left_number, right_number)
 

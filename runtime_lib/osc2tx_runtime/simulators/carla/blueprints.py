@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Mapping, Sequence
 
 from osc2tx_runtime.errors import SimulatorError
-from osc2tx_runtime.world.actor_dimensions import MODELS
+from osc2tx_runtime.world.actor_dimensions import MODELS, RGB
 from osc2tx_runtime.world.protocol import ActorSpec
 
 Library = Mapping[str, Mapping[str, Sequence[str]]]
@@ -15,20 +15,6 @@ Library = Mapping[str, Mapping[str, Sequence[str]]]
 SLOW_STARTER = 2.0  # m/s^2: trucks, buses and bicycles accelerate less
 WALKER, CHILD = "walker.pedestrian.0001", "walker.pedestrian.0010"
 PROP = "static.prop.box01"
-COLORS: Mapping[str, tuple[int, int, int]] = {
-    "black": (0, 0, 0),
-    "blue": (0, 0, 255),
-    "brown": (139, 69, 19),
-    "gray": (128, 128, 128),
-    "green": (0, 128, 0),
-    "grey": (128, 128, 128),
-    "orange": (255, 165, 0),
-    "red": (255, 0, 0),
-    "silver": (192, 192, 192),
-    "white": (255, 255, 255),
-    "yellow": (255, 255, 0),
-}
-"""Colors by name, as in CSS."""
 
 
 def blueprint_for(spec: ActorSpec, library: Library) -> str:
@@ -103,9 +89,9 @@ def attributes_of(
 
 def _color(written: str) -> str | None:
     """`255,0,0` for that, for `#ff0000` or `red`."""
-    text = written.strip().lower()
-    if text in COLORS:
-        return ",".join(map(str, COLORS[text]))
+    text = written.strip().lower().replace("grey", "gray")
+    if text in RGB:
+        return ",".join(map(str, RGB[text]))
     try:
         if text.startswith("#") and len(text) == 7:
             return ",".join(str(int(text[i : i + 2], 16)) for i in (1, 3, 5))

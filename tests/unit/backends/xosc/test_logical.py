@@ -15,6 +15,8 @@ import pytest
 from lxml import etree
 
 from osc2tx.backends.xosc import XmlScenario
+from osc2tx.backends.xosc.logical.parameters import open_parameters
+from osc2tx.backends.xosc.logical.sampling import Domain
 from osc2tx.compilation.driver import Compilation
 from osc2tx.options import CompileOptions, OneOfPolicy, XmlOptions, XmlVersion
 from osc2tx_runtime import RunSettings
@@ -233,6 +235,32 @@ def test_constraints_hold_in_every_row(relation, holds, tmp_path: Path) -> None:
         n.get("name"): n.get("value") for n in parsed(found.xml).iter("ParameterDeclaration")
     }
     assert holds(float(nominal["v"]), float(nominal["w"]))
+
+
+@pytest.mark.slow
+def test_an_order_that_hardly_any_values_have_is_solved(tmp_path: Path) -> None:
+    """Real and whole numbers and a truth value; fewer than one draw in 1,400 is in order."""
+    names = [f"v{index}" for index in range(6)]
+    values = "".join(f"    {v}: speed with:\n        keep(it in [10mps..20mps])\n" for v in names)
+    values += "".join(f"    {n}: int with:\n        keep(it in [1..60])\n" for n in "ab")
+    values += "    sport: bool with:\n        keep(it in [true, false])\n"
+    values += "".join(f"    keep({one} < {next})\n" for one, next in itertools.pairwise(names))
+    values += "    keep(a + b < 20)\n    keep(sport => v0 > 12mps)\n"
+    then = "wait elapsed((a + b) * 1s)\n        ego.assign_speed(v5)"
+    path = tmp_path / "a.osc"
+    text = SCENARIO.format(values=values, lane="1", speed="sport ? v0 : v1", then=then)
+    path.write_text(HEAD + text, encoding="utf-8")
+    module = Compilation(path, path.name, CompileOptions()).ir
+    assert module is not None
+    (scenario,) = module.scenarios
+    rows = Domain(scenario, module, open_parameters(scenario, module)).rows
+    assert len(rows) > 10
+    for row in rows:
+        numbers = [row.point[name] for name in names]
+        assert all(low < high for low, high in itertools.pairwise(numbers))  # type: ignore[operator]
+        assert row.point["a"] + row.point["b"] < 20  # type: ignore[operator]
+        assert not row.point["sport"] or numbers[0] > 12.0  # type: ignore[operator]
+    assert {row.point["sport"] for row in rows} == {True, False}
 
 
 def test_a_choice_of_members_runs_each_of_them(tmp_path: Path) -> None:

@@ -88,6 +88,23 @@ def test_a_range_is_declared_with_its_middle_and_its_limits(tmp_path: Path) -> N
     assert grades(found) == {"parameter v": "exact"}
 
 
+def test_a_division_by_what_may_be_zero_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "a.osc"
+    text = SOURCE.format(
+        values=V + RANGE.format("w", "speed", "[10mps..20mps]"),
+        duration="1s * (v / (v - w))",
+        speed="v",
+        target="15mps",
+        course="duration: 4s",
+        profile="constant",
+    )
+    path.write_text(text, encoding="utf-8")
+    options = CompileOptions(target="xosc", xml=XmlOptions(allow_approx=True))
+    (scenario,) = Compilation(path, path.name, options).xml
+    reasons = [entry.reason for entry in scenario.report.obstacles]
+    assert reasons == ["`v / (v - w)` divides by zero"]
+
+
 def test_values_reach_both_ends(tmp_path: Path) -> None:
     kph = RANGE.format("v", "speed", "[80kph..95kph]")
     found = emitted(tmp_path, kph, speed="v")

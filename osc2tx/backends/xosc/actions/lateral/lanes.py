@@ -78,10 +78,12 @@ def lanes_aside(leaf: Leaf, arguments: Arguments, name: str) -> int:
 
 def _drawn_side(leaf: Leaf, arguments: Arguments, count: int) -> str:
     """Return the side that a parameter of the document gives, of those with a lane."""
-    drawn = leaf.ctx.choosing.side(leaf.ctx.scope, arguments.source)
-    if not isinstance(drawn, str):
+    choosing = leaf.ctx.choosing
+    choice = choosing.drawn(leaf.ctx.scope, arguments.source)
+    if choice is None:
         reason = "the side is drawn for each run; say `left` or `right`"
         raise Inexpressible(reason, arguments.span)
+    drawn = str(choosing.point[choice.key])
     roads, lane = leaf.ctx.roads, leaf.state.lane
     if roads is None or lane is None:
         return drawn

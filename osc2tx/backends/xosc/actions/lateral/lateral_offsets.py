@@ -24,7 +24,7 @@ from osc2tx.backends.xosc.context import Context
 from osc2tx.backends.xosc.entities.cast import CastMember
 from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.facts.actors import Pace
-from osc2tx.backends.xosc.facts.maps import LanePosition, is_oncoming
+from osc2tx.backends.xosc.facts.maps import LanePosition, is_oncoming, lane_from_edge
 from osc2tx.backends.xosc.report import Inexpressible, Metres, Remedy
 from osc2tx.backends.xosc.state import LATERAL, known
 from osc2tx.xosc import elements as xml
@@ -140,7 +140,7 @@ def _numbered(leaf: Leaf, call: Arguments) -> Changes:
     roads, here = leaf.ctx.roads, leaf.state.lane
     if roads is None or here is None:
         raise Inexpressible("which lane it is in is only known during the run")
-    target = roads.with_number(here, number, edge)
+    target = roads.with_number(here, lane_from_edge(number, edge))
     lanes = None if target is None else roads.lanes_between(here, target)
     if lanes is None:
         raise Inexpressible(f"there is no such lane beside lane {here.lane}")

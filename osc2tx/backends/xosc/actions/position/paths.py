@@ -22,7 +22,7 @@ from osc2tx.backends.xosc.actions.position.points_and_lines import (
 from osc2tx.backends.xosc.actions.position.xml_positions import at_place, lane_place, relative_lane
 from osc2tx.backends.xosc.actions.registry import action, modifier, to_goal
 from osc2tx.backends.xosc.actions.speed.speed_changes import may_jump
-from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment_of
+from osc2tx.backends.xosc.entities.declared_roads import segment_of
 from osc2tx.backends.xosc.facts.actors import TOP_SPEED
 from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve
 from osc2tx.backends.xosc.facts.map_search import MapSegment, crossing_of, graph_of
@@ -73,8 +73,8 @@ def _along(leaf: Leaf, call: Arguments) -> Changes:
 def _along_segment(leaf: Leaf, segment: MapSegment, call: Arguments) -> Changes:
     """Return the changes that a route of the map makes: it goes on in the lanes, from wherever."""
     if call.offsets()[1]:
-        raise Inexpressible("a route of the map that is left before its end")
-    roads, lane = required_roads(leaf.ctx), leaf.state.lane
+        raise Inexpressible("a route of the map that is left before its end", leaf.node.span)
+    roads, lane = leaf.ctx.required_roads(), leaf.state.lane
     graph = graph_of(roads.map)
     ends = [graph.begin(segment), graph.end(segment)]
     if lane is not None and lane.road == ends[1].road:  # it keeps its own lane

@@ -15,8 +15,8 @@ from osc2tx.backends.xosc.actions.position.xml_positions import (
     world_position,
 )
 from osc2tx.backends.xosc.context import Context
-from osc2tx.backends.xosc.entities.declared_roads import required_roads, segment_of
-from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve
+from osc2tx.backends.xosc.entities.declared_roads import segment_of
+from osc2tx.backends.xosc.facts.curves import Line, Waypoint, sample_curve, thinned
 from osc2tx.backends.xosc.facts.map_search import (
     MapSegment,
     crossing_of,
@@ -91,7 +91,7 @@ def points_along(
     Raises:
         Inexpressible: They are not known before the run, or it ends before.
     """
-    roads = required_roads(ctx)
+    roads = ctx.required_roads()
     segment = segment_of(ctx, route)
     if segment is not None and crossing_of(segment) is None:
         for begin in graph_of(roads.map).beginnings(segment):
@@ -120,8 +120,8 @@ def line_of_route(ctx: Context, route: Constant | None) -> Line:
         raise Inexpressible("the route is only known during the run")
     elements = [_element(ctx, each) for each in given]
     kind = connect.name if isinstance(connect, Member) else "waypoint"
-    points = points_of_route(required_roads(ctx), elements, kind)
-    return Line(tuple(_thinned(points)))
+    points = points_of_route(ctx.required_roads(), elements, kind)
+    return Line(thinned(points, is_timed=False, tolerance=STRAIGHT))
 
 
 def _element(
@@ -138,24 +138,6 @@ def _element(
     if place is None:
         raise Inexpressible("a point of the route needs the map, which is not at hand")
     return place
-
-
-def _thinned(points: Sequence[Waypoint]) -> list[Waypoint]:
-    """Leave out points of a way that say nothing."""
-    kept = list(points[:1])
-    for index in range(1, len(points) - 1):
-        between = points[points.index(kept[-1]) + 1 : index + 1]
-        if any(_beside(kept[-1], points[index + 1], each) > STRAIGHT for each in between):
-            kept.append(points[index])
-    return [*kept, *points[len(points) - 1 :]] if len(points) > 1 else kept
-
-
-def _beside(a: Waypoint, b: Waypoint, point: Waypoint) -> float:
-    """Return how far (m) a point is from the straight line between two others."""
-    length = math.hypot(b.x - a.x, b.y - a.y)
-    if length == 0.0:
-        return math.hypot(point.x - a.x, point.y - a.y)
-    return abs((b.x - a.x) * (point.y - a.y) - (b.y - a.y) * (point.x - a.x)) / length
 
 
 def line_of(ctx: Context, value: Constant | None) -> Line:

@@ -11,6 +11,7 @@ from osc2tx.backends.xosc.actions.speed.courses import Computed, follow_course
 from osc2tx.backends.xosc.actions.speed.gaps import Gap, reach
 from osc2tx.backends.xosc.actions.speed.speed_modifiers import cover_in_time
 from osc2tx.backends.xosc.facts.actors import Linear
+from osc2tx.backends.xosc.facts.maps import place_along_road
 from osc2tx.backends.xosc.report import Inexpressible, Remedy
 
 
@@ -65,11 +66,11 @@ def _along_road(leaf: Leaf, call: Arguments, distance: float) -> Changes:
         raise Inexpressible("a distance from the start of the road that is not the end of the way")
     if lane is None or roads is None:
         raise Inexpressible("which road it is on is only known during the run")
-    place = roads.along_road(lane, distance)
+    place = place_along_road(roads.map, lane, distance)
     if place is None:
         raise Inexpressible(f"the road ends before {distance:g} m")
     if leaf.duration is not None:
-        way = roads.way(lane, place) if leaf.is_start else None
+        way = roads.map.route_distance(lane, place) if leaf.is_start else None
         if way is None:
             raise Inexpressible("how far it is from its place is only known during the run")
         return (cover_in_time(leaf, call, way, leaf.duration),)
