@@ -14,6 +14,7 @@ from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import TIME, Quantity
 from osc2tx.importing.entity_conditions import EntityConditions, joined_by
 from osc2tx.importing.places import Places
+from osc2tx.importing.signals import TrafficLights
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Unresolved
 from osc2tx_shared.classes import dataclass
@@ -53,10 +54,12 @@ class Trigger:
     Attributes:
         groups: Conditions that count together.
         node: Where it stands.
+        after: How much later than it is met it counts.
     """
 
     groups: list[list[Condition]] = field(default_factory=list)
     node: Node | None = None
+    after: Quantity | None = None
 
     @property
     def is_immediate(self) -> bool:
@@ -90,6 +93,7 @@ class Conditions:
         values: Values,
         places: Places,
         actors: Mapping[str, Actor],
+        lights: TrafficLights,
         name_of_mark: Callable[[str, str], str],
         texts: Callable[[str], str | None],
         set_in_run: Collection[str],
@@ -100,6 +104,7 @@ class Conditions:
             values: The values of the document.
             places: Its places.
             actors: Its actors.
+            lights: The traffic lights.
             name_of_mark: Gives the event of a variable with a value.
             texts: Gives the nominal value of a parameter.
             set_in_run: Parameters that the storyboard sets: they are variables.
@@ -107,7 +112,7 @@ class Conditions:
         self._set = set_in_run
         self._values, self._actors = values, actors
         self._of_entity = EntityConditions(values, places, actors)
-        self._name_of_mark, self._texts = name_of_mark, texts
+        self._name_of_mark, self._texts, self._lights = name_of_mark, texts, lights
         self.outside: dict[str, str] = {}
 
     def trigger(self, node: Node | None) -> Trigger:
@@ -158,6 +163,8 @@ class Conditions:
                 return self._of_mark(node, self._values.text(node, "variableRef"), delay)
             case "ParameterCondition":
                 return self._of_parameter(node, delay)
+            case "TrafficSignalCondition":
+                return Condition("expression", node, self._lights.shows(node), edge, delay)
             case "UserDefinedValueCondition":
                 name, value = self._values.text(node, "name"), self._values.text(node, "value")
                 node.text("rule")

@@ -7,6 +7,7 @@ from collections.abc import Collection
 from pathlib import Path
 
 from osc2tx.importing.actions import Actions
+from osc2tx.importing.carla import is_of_carla, mirrored
 from osc2tx.importing.cast import Cast, Libraries
 from osc2tx.importing.conditions import Conditions
 from osc2tx.importing.cursor import Ledger
@@ -19,6 +20,7 @@ from osc2tx.importing.parameters import Parameter
 from osc2tx.importing.places import Places
 from osc2tx.importing.program import Program, with_comments
 from osc2tx.importing.report import ImportReport
+from osc2tx.importing.signals import CONTROLLER, TrafficLights
 from osc2tx.importing.starting import is_straight_ahead
 from osc2tx.importing.starts import Starts
 from osc2tx.importing.steps import BoardReader
@@ -93,6 +95,8 @@ def import_document(
         raise Refused("it has no storyboard", root.place)
     if distribution is not None:  # what no parameter can stand for is that of the first run
         root = with_values(root, distribution.first)
+    if is_of_carla(root):
+        root = mirrored(root)
     document = Document(root, path, comments, folders)
     said = name or (path.stem if path else "scenario")
     try:
@@ -121,7 +125,7 @@ class _Import:
         self._report = ImportReport(source)
         self._ledger = Ledger(self._report)
         self._root = self._ledger.track(document.root)
-        self._names = Names(self._report, ("road", "environment_"))
+        self._names = Names(self._report, ("road", "environment_", CONTROLLER))
         self._scenario = self._names.new(name, kind="scenario")
         self._report.scenario = self._scenario
         self._values = Values(document, self._names, self._open)
@@ -154,11 +158,15 @@ class _Import:
         for said, actor in actors.items():
             body = places.bodies.get(said)
             actor.is_free = is_straight_ahead(places.map, body, beside=leaves)
-        actions = Actions(self._document, self._values, places, actors, self._mark, self._emitted)
+        lights = TrafficLights(places.map, self._values, self._names)
+        actions = Actions(
+            self._document, self._values, places, actors, lights, self._mark, self._emitted
+        )
         conditions = Conditions(
             self._values,
             places,
             actors,
+            lights,
             self._mark,
             self._document.parameters.get,
             {node.said("parameterRef") for node in self._document.tagged("ParameterAction")},
@@ -178,15 +186,15 @@ class _Import:
         structure = Structure(
             board,
             lambda base: self._names.new("", kind="event", base=base),
-            {actor.name: actor.goes_on for actor in actors.values()},
+            {actor.name: actor for actor in actors.values()},
         )
         whole = Whole(self._document, self._cast, self._names, self._report)
         program.body = whole.behavior(structure, structure.branches(), inits, board.end)
         self._find_used(program, places, structure)
-        program.declarations = self._declarations(places, actions, structure, program.text)
+        program.declarations = self._declarations(places, actions, lights, structure, program.text)
         program.imports = sorted(self._cast.imports)
         self._report.under_test = [each.name for each in actors.values() if each.is_under_test]
-        for step in board.steps:
+        for step in structure.events:
             if step.effects and structure.references[step.label] < 1:
                 self._report.names.pop(f"event {step.node.element.get('name')}", None)
                 step.node.idle("nothing refers to it by its name", "name")
@@ -211,6 +219,9 @@ class _Import:
             return []
         said = [header.text("description") or "", header.text("author") or ""]
         found = [said[0] or self._scenario]
+        if is_of_carla(self._document.root):
+            note = "places of the world are in the coordinates of CARLA; they are mirrored"
+            self._report.idle.append(("description", said[0], note, str(header.place)))
         if said[1]:
             found.append(f"Author: {said[1]}")
         for each in header.children("License"):
@@ -251,7 +262,12 @@ class _Import:
                     continue
 
     def _declarations(
-        self, places: Places, actions: Actions, structure: Structure, written: str
+        self,
+        places: Places,
+        actions: Actions,
+        lights: TrafficLights,
+        structure: Structure,
+        written: str,
     ) -> list[str]:
         declared = Declarations(
             self._document, self._root, self._values, self._report, self._open, self._comments_of
@@ -259,10 +275,14 @@ class _Import:
         lines = declared.map()
         if actions.needs_environment:
             lines.append("environment_: environment")
+        if lights.is_switched:
+            lines.append(f"{CONTROLLER}: traffic_light_controller")
+        lines += lights.lines
         for node in self._document.tagged("ScenarioObject"):
             declared_here = self._cast.lines.pop(node.get("name") or "", None)
             if declared_here is not None:
                 lines += with_comments(declared_here, self._comments_of(node))
+        lines += self._cast.couplings()
         lines += declared.parameters()
         words = set(re.findall(r"\w+", written))
         points = [line for line in places.points.lines if _is_read(line, words)]

@@ -20,14 +20,7 @@ from tests.xosc.parity import Given, is_exact, scenarios
 SCENARIOS = Path(__file__).parents[2] / "scenarios"
 OWN = [path for path in sorted(SCENARIOS.rglob("*.osc")) if path.stem != "hello_world"]
 
-PROFILE = "speeds change at other rates than on a wet road"
 DIFFERENT = {  # by names of scenarios
-    "durations": "an act that is stopped goes on",
-    "towing": "trailers are not coupled",
-    "driving_with_a_trailer": "trailers are not coupled",
-    "braking_distances": PROFILE,
-    "road_conditions": PROFILE,
-    "signal_conditions": "traffic lights are not imported",
     "overriding": "what ends it never comes",
 }
 
@@ -56,8 +49,6 @@ WITHOUT_SECOND = {  # what is imported has no document again
     "move_drive_walk",
     "orientation_modifiers",
     "overlaps",
-    "overtaking",
-    "parallel_execution",
     "relative_coordinates",
     "relative_modifiers",
     "semantic_validation",
