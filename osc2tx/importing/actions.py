@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from osc2tx.importing.cast import Actor
 from osc2tx.importing.controllers import gives_control, note_controllers
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.document import Document
 from osc2tx.importing.effects import Effect, Readings
+from osc2tx.importing.marks import Marks
 from osc2tx.importing.offsets import Offsets
 from osc2tx.importing.places import Places
 from osc2tx.importing.program import Statement
@@ -35,14 +36,13 @@ class Actions:
         places: Places,
         actors: Mapping[str, Actor],
         lights: TrafficLights,
-        name_of_mark: Callable[[str, str], str],
-        emitted: set[str],
+        marks: Marks,
     ) -> None:
         self.readings = readings = Readings(values, places, actors)
         self._document, self._actors = document, actors
         self._speeds, self._offsets = Speeds(readings), Offsets(readings)
         self._routes, self._synchrony = Routes(readings), Synchrony(readings)
-        self._surroundings = Surroundings(values, document, lights, name_of_mark, emitted)
+        self._surroundings = Surroundings(values, document, lights, marks)
 
     @property
     def needs_environment(self) -> bool:

@@ -13,6 +13,7 @@ from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import TIME, Quantity
 from osc2tx.importing.entity_conditions import EntityConditions, joined_by
+from osc2tx.importing.marks import Marks
 from osc2tx.importing.places import Places
 from osc2tx.importing.signals import TrafficLights
 from osc2tx.importing.values import Values
@@ -34,6 +35,8 @@ class Condition:
         element: Kind and name of the element of the storyboard.
         state: Its state.
         node: Where it stands.
+        lasting: How long (s) it has to be met.
+        kept: The expression that tells whether its event has come.
     """
 
     kind: str
@@ -45,6 +48,7 @@ class Condition:
     element: tuple[str, str] = ("", "")
     state: str = ""
     lasting: float = 0.0
+    kept: str = ""
 
 
 @dataclass
@@ -94,7 +98,7 @@ class Conditions:
         places: Places,
         actors: Mapping[str, Actor],
         lights: TrafficLights,
-        name_of_mark: Callable[[str, str], str],
+        marks: Marks,
         texts: Callable[[str], str | None],
         set_in_run: Collection[str],
     ) -> None:
@@ -105,14 +109,14 @@ class Conditions:
             places: Its places.
             actors: Its actors.
             lights: The traffic lights.
-            name_of_mark: Gives the event of a variable with a value.
+            marks: The events that stand for variables.
             texts: Gives the nominal value of a parameter.
             set_in_run: Parameters that the storyboard sets: they are variables.
         """
         self._set = set_in_run
         self._values, self._actors = values, actors
         self._of_entity = EntityConditions(values, places, actors)
-        self._name_of_mark, self._texts, self._lights = name_of_mark, texts, lights
+        self._marks, self._texts, self._lights = marks, texts, lights
         self.outside: dict[str, str] = {}
 
     def trigger(self, node: Node | None) -> Trigger:
@@ -168,7 +172,7 @@ class Conditions:
             case "UserDefinedValueCondition":
                 name, value = self._values.text(node, "name"), self._values.text(node, "value")
                 node.text("rule")
-                event = self._name_of_mark(name, value)
+                event = self._marks.event(name, value)
                 self.outside[event] = f"{name} = {value}, from outside"
                 return Condition("event", node, text=event, delay=delay)
         node.leave_out("the language has no condition for it; it is never met here")
@@ -191,10 +195,14 @@ class Conditions:
     def _of_mark(self, node: Node, name: str, delay: Quantity | None) -> Condition:
         """Return the condition on a variable, or on a parameter that is set in the run."""
         value, rule = self._values.text(node, "value"), node.said("rule")
+        left = self._marks.change_from(name, value) if rule in ("equalTo", "notEqualTo") else None
+        if left is not None and rule == "equalTo" and delay is None:
+            return Condition("expression", node, f"not {self._marks.kept(left)}")
         if rule != "equalTo":
             node.approximate(f"a variable is an event here: `{rule} {value}` is met when it is set")
             value = ""
-        return Condition("event", node, text=self._name_of_mark(name, value), delay=delay)
+        event = self._marks.event(name, value)
+        return Condition("event", node, event, delay=delay, kept=self._marks.kept(event))
 
     def _of_parameter(self, node: Node, delay: Quantity | None) -> Condition:
         said = node.said("parameterRef")

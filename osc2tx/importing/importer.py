@@ -15,7 +15,8 @@ from osc2tx.importing.declarations import Declarations
 from osc2tx.importing.distributions import Distribution
 from osc2tx.importing.document import NOWHERE, Document, Folders, Refused, with_values
 from osc2tx.importing.expressions import Untyped
-from osc2tx.importing.names import Names, snake
+from osc2tx.importing.marks import Marks
+from osc2tx.importing.names import Names
 from osc2tx.importing.parameters import Parameter
 from osc2tx.importing.places import Places
 from osc2tx.importing.program import Program, with_comments
@@ -130,13 +131,7 @@ class _Import:
         self._report.scenario = self._scenario
         self._values = Values(document, self._names, self._open)
         self._cast = Cast(document, self._values, self._ledger, self._names, libraries)
-        self._marks: dict[tuple[str, str], str] = {}
-        self._measured = {
-            node.get("variableRef") or node.get("parameterRef")
-            for node in document.tagged("VariableCondition", "ParameterCondition")
-            if node.get("rule") != "equalTo"
-        }
-        self._emitted: set[str] = set()
+        self._marks = Marks(document, self._names, self._report)
         self._comments: dict[object, list[str]] = {}
         for comment in document.comments:
             self._comments.setdefault(comment.within, []).append(comment.text)
@@ -159,15 +154,13 @@ class _Import:
             body = places.bodies.get(said)
             actor.is_free = is_straight_ahead(places.map, body, beside=leaves)
         lights = TrafficLights(places.map, self._values, self._names)
-        actions = Actions(
-            self._document, self._values, places, actors, lights, self._mark, self._emitted
-        )
+        actions = Actions(self._document, self._values, places, actors, lights, self._marks)
         conditions = Conditions(
             self._values,
             places,
             actors,
             lights,
-            self._mark,
+            self._marks,
             self._document.parameters.get,
             {node.said("parameterRef") for node in self._document.tagged("ParameterAction")},
         )
@@ -236,19 +229,6 @@ class _Import:
             found += self._comments.pop(node.place, [])
         return found
 
-    def _mark(self, name: str, value: str) -> str:
-        """Return the event that stands for a variable with a value.
-
-        A variable that is compared otherwise than for equality has one event for all values.
-        """
-        key = (name, "" if name in self._measured else value)
-        value = key[1]
-        if key not in self._marks:
-            base = snake(name) if value.lower() in ("true", "1", "") else snake(f"{name}_{value}")
-            self._marks[key] = self._names.new("", kind="event", base=base)
-            self._report.names[f"variable {name} = {value}"] = self._marks[key]
-        return self._marks[key]
-
     def _find_used(self, program: Program, places: Places, structure: Structure) -> None:
         """Note which parameters the scenario reads, itself or in what gives others."""
         written = (program.text, *structure.lines, *places.points.lines)
@@ -286,7 +266,7 @@ class _Import:
         lines += declared.parameters()
         words = set(re.findall(r"\w+", written))
         points = [line for line in places.points.lines if _is_read(line, words)]
-        events = [f"event {name}" for name in self._marks.values() if name in words]
+        events = list(self._marks.lines(words))
         events += [line for line in structure.lines if _is_read(line, words)]
         return [*lines, *points, *events]
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.document import Document
 from osc2tx.importing.effects import Effect
+from osc2tx.importing.marks import Marks
 from osc2tx.importing.program import Statement
 from osc2tx.importing.signals import TrafficLights
 from osc2tx.importing.values import Values
@@ -25,12 +26,11 @@ class Surroundings:
         values: Values,
         document: Document,
         lights: TrafficLights,
-        name_of_mark: Callable[[str, str], str],
-        emitted: set[str],
+        marks: Marks,
     ) -> None:
         self._values, self._document, self._lights = values, document, lights
         self._weather = Weather(values, document)
-        self._name_of_mark, self._emitted = name_of_mark, emitted
+        self._marks = marks
         self.needs_environment = False
 
     def effects(self, node: Node) -> Iterator[Effect]:
@@ -44,9 +44,7 @@ class Surroundings:
                     node.leave_out("variables are events here: they are set, not computed")
                     return
                 value = self._values.text(setting, "value")
-                event = self._name_of_mark(name, value)
-                self._emitted.add(event)
-                yield Effect(Statement(f"emit {event}", length=0.0))
+                yield Effect(Statement(f"emit {self._marks.event(name, value)}", length=0.0))
             case "EnvironmentAction":
                 yield from self._environment(node)
             case "InfrastructureAction" if node.inner.tag == "TrafficSignalAction":

@@ -10,6 +10,7 @@ from osc2tx.importing.dimensions import PRODUCT, TIME, Quantity, literal, total
 from osc2tx.importing.entity_conditions import joined_by
 from osc2tx.importing.program import Statement, composed, wait
 from osc2tx.importing.steps import ENDS, STARTS, Block, Board, Step
+from osc2tx_shared.classes import replace
 
 ON_A_LINE = 60
 """Characters of a condition that is in brackets if it is longer, between which lines break."""
@@ -58,6 +59,9 @@ class Waiting:
 
     def _of_group(self, group: Sequence[Condition], behind: Step | None) -> list[Statement]:
         found: list[Statement] = []
+        if any(each.kind == "time" for each in group) and behind is None:
+            # an event may come before the time, and is only looked at then
+            group = [_if_kept(each) for each in group]
         times = [each for each in group if each.kind == "time"]
         happenings = [each for each in group if each.kind in ("state", "event")]
         expressions = [each for each in group if each.kind == "expression"]
@@ -233,3 +237,10 @@ def _earlier(text: str, condition: Condition, by: float) -> str | None:
         return f"{text} - {literal(by, TIME)}"
     left = round(sum(each.value for each in parts) - by, 9)
     return literal(left, TIME) if left > 0.0 else None
+
+
+def _if_kept(condition: Condition) -> Condition:
+    """Return the condition that an event has come, where that is kept."""
+    if not condition.kept or condition.delay is not None:
+        return condition
+    return replace(condition, kind="expression", text=condition.kept)
