@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from osc2tx.importing.cast import Actor
 from osc2tx.importing.controllers import gives_control, note_controllers
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.document import Document
 from osc2tx.importing.effects import Effect, Readings
+from osc2tx.importing.marks import Marks
 from osc2tx.importing.offsets import Offsets
 from osc2tx.importing.places import Places
 from osc2tx.importing.program import Statement
 from osc2tx.importing.routes import Routes
+from osc2tx.importing.signals import TrafficLights
 from osc2tx.importing.speeds import Speeds
 from osc2tx.importing.surroundings import Surroundings
 from osc2tx.importing.synchrony import Synchrony
@@ -33,14 +35,14 @@ class Actions:
         values: Values,
         places: Places,
         actors: Mapping[str, Actor],
-        name_of_mark: Callable[[str, str], str],
-        emitted: set[str],
+        lights: TrafficLights,
+        marks: Marks,
     ) -> None:
         self.readings = readings = Readings(values, places, actors)
         self._document, self._actors = document, actors
         self._speeds, self._offsets = Speeds(readings), Offsets(readings)
         self._routes, self._synchrony = Routes(readings), Synchrony(readings)
-        self._surroundings = Surroundings(values, name_of_mark, emitted)
+        self._surroundings = Surroundings(values, document, lights, marks)
 
     @property
     def needs_environment(self) -> bool:
@@ -90,7 +92,20 @@ class Actions:
             case "ControllerAction" | "ActivateControllerAction":
                 actor.is_under_test = actor.is_under_test or gives_control(node)
                 note_controllers(node, self._document)
+            case "TrailerAction":
+                yield self._coupling(node.inner, actor)
             case "SynchronizeAction":
                 yield from self._synchrony.effects(node, said, actor)
             case _:
                 node.leave_out("the language has no such action")
+
+    def _coupling(self, node: Node, actor: Actor) -> Effect:
+        """Return what couples a trailer, or lets it go."""
+        call = "disconnect_trailer()"
+        if node.tag == "ConnectTrailerAction":
+            said = node.said("trailerRef")
+            trailer = self._actors.get(said)
+            if trailer is None:
+                raise Unresolved(f"there is no entity {said}", node.place)
+            call = f"connect_trailer(trailer: {trailer.name})"
+        return Effect(Statement(f"{actor.name}.{call}", length=0.0), actor.name)

@@ -96,6 +96,9 @@ Libraries = dict[Path, Library]
 """Library files by the catalogs that they are made from."""
 
 
+TRAILERS = ("trailer", "semitrailer")
+
+
 def facts(node: Node, document: Document) -> tuple[str, list[str]]:
     """Return the type of an entity, and what is known about it, as constraints."""
     found: list[str] = []
@@ -108,10 +111,8 @@ def facts(node: Node, document: Document) -> tuple[str, list[str]]:
         if category in RENAMED or category not in CATEGORIES:
             node.approximate(f"DSL 2.1 has no category {category}, so it is {said}")
         found.append(f"vehicle_category == {said}")
-        for each in node.children("Trailer"):
-            if any(part.get("entityRef") for part in each.element.walk()):
-                each.leave_out("trailers are not coupled here")
-            each.use_all()
+        kind = "trailer" if category in TRAILERS else kind
+        found += _halves(node, kind, document)
     elif category and category not in ("pedestrian", "none", "obstacle"):
         node.approximate(f"its category {category} has no counterpart in the DSL")
     box = node.find("BoundingBox")
@@ -121,6 +122,19 @@ def facts(node: Node, document: Document) -> tuple[str, list[str]]:
         if node.has(name) and (name, node.tag) != ("model", "Pedestrian"):
             node.approximate(f"{name}={node.text(name)!r} has no counterpart in the DSL")
     return kind, found
+
+
+def _halves(node: Node, kind: str, document: Document) -> list[str]:
+    """Return where a vehicle is coupled."""
+    tag, name = (
+        ("TrailerCoupler", "coupler") if kind == "trailer" else ("TrailerHitch", "trailer_receiver")
+    )
+    found = []
+    for half in node.children(tag):
+        half.idle("vehicles are coupled on the ground", "dz")
+        x = float(document.text_at(half.text("dx") or "0"))
+        found.append(f"{name}.position_x == {literal(x, LENGTH)}")
+    return found
 
 
 def _box(box: Node, kind: str, document: Document) -> list[str]:
@@ -139,7 +153,7 @@ def _box(box: Node, kind: str, document: Document) -> list[str]:
         if name == "z":
             center.idle("actors stand on the ground", "z")
             continue
-        if kind == "vehicle" and name == "x":
+        if kind in ("vehicle", "trailer") and name == "x":
             found.append(f"bounding_box.center.x == {literal(value, LENGTH)}")
         elif abs(value) > 1e-6:
             center.approximate(f"its box is {value:g} m from its origin along {name}, here none")
@@ -152,6 +166,7 @@ class Cast:
     Attributes:
         actors: By their names in the document.
         lines: Their declarations, by their names in the document.
+        tows: Names of trailers in the document with those of the actors that tow them.
         imports: The libraries that they need.
     """
 
@@ -165,6 +180,7 @@ class Cast:
     ) -> None:
         self.actors: dict[str, Actor] = {}
         self.lines: dict[str, list[str]] = {}
+        self.tows: dict[str, tuple[str, Node]] = {}
         self.imports: set[str] = set()
         self._document, self._values, self._ledger = document, values, ledger
         self._names, self._libraries = names, libraries
@@ -183,7 +199,8 @@ class Cast:
         for child in node.children(*KINDS):
             kind, constraints = facts(child, self._document)
             self.lines[said] = declaration(name, kind, [f"it.{each}" for each in constraints])
-            self.actors[said] = Actor(name, kind, bool(controllers))
+            self.actors[said] = Actor(name, _moving(kind), bool(controllers))
+            self._note_trailers(child, name)
             return
         reference = node.find("CatalogReference")
         if reference is None:
@@ -191,11 +208,11 @@ class Cast:
                 child.leave_out("what it is stands in another document")
             type_name = kind = "vehicle"
         else:
-            type_name, kind = self._of_catalog(reference)
+            type_name, kind = self._of_catalog(reference, name)
         self.lines[said] = [f"{name}: {type_name}"]
         self.actors[said] = Actor(name, kind, bool(controllers))
 
-    def _of_catalog(self, reference: Node) -> tuple[str, str]:
+    def _of_catalog(self, reference: Node, name: str) -> tuple[str, str]:
         """Return the type of an entity of a catalog, and of which kind that is."""
         entry_name = self._values.text(reference, "entryName")
         self._values.text(reference, "catalogName")
@@ -214,7 +231,28 @@ class Cast:
         if entry_name not in library.entries:
             self._add_type(library, self._ledger.track(entry, path.name))
         self.imports.add(library.name)
+        self._note_trailers(self._ledger.track(entry, path.name), name)
         return library.entries[entry_name]
+
+    def _note_trailers(self, vehicle: Node, name: str) -> None:
+        """Note the trailer that a vehicle tows from the start on."""
+        for each in vehicle.children("Trailer"):
+            for part in each.children():
+                if part.tag == "TrailerRef":
+                    self.tows[self._values.text(part, "entityRef")] = (name, part)
+                else:
+                    part.leave_out("a trailer that is no entity of the scenario")
+
+    def couplings(self) -> list[str]:
+        """Return which vehicles tow which trailers from the start on."""
+        found = []
+        for said, (vehicle, node) in self.tows.items():
+            trailer = self.actors.get(said)
+            if trailer is None:
+                node.leave_out(f"there is no entity {said}")
+            else:
+                found.append(f"{vehicle}.tow_trailer(trailer: {trailer.name})")
+        return found
 
     def _library(self, path: Path) -> Library:
         taken = {each.name for each in self._libraries.values()}
@@ -231,7 +269,12 @@ class Cast:
         lines = [f"actor {type_name} inherits {kind}:"]
         lines += [f"{INDENT}{each}" for each in keeps(constraints)] or [f"{INDENT}event unused"]
         library.types[type_name] = lines
-        library.entries[said] = (type_name, kind)
+        library.entries[said] = (type_name, _moving(kind))
+
+
+def _moving(kind: str) -> str:
+    """Return the type whose actions an actor of a type has."""
+    return "vehicle" if kind == "trailer" else kind
 
 
 def bodies_of(document: Document) -> list[Element]:

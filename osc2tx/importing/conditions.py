@@ -13,7 +13,9 @@ from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
 from osc2tx.importing.dimensions import TIME, Quantity
 from osc2tx.importing.entity_conditions import EntityConditions, joined_by
+from osc2tx.importing.marks import Marks
 from osc2tx.importing.places import Places
+from osc2tx.importing.signals import TrafficLights
 from osc2tx.importing.values import Values
 from osc2tx.xosc.element import Unresolved
 from osc2tx_shared.classes import dataclass
@@ -33,6 +35,8 @@ class Condition:
         element: Kind and name of the element of the storyboard.
         state: Its state.
         node: Where it stands.
+        lasting: How long (s) it has to be met.
+        kept: The expression that tells whether its event has come.
     """
 
     kind: str
@@ -44,6 +48,7 @@ class Condition:
     element: tuple[str, str] = ("", "")
     state: str = ""
     lasting: float = 0.0
+    kept: str = ""
 
 
 @dataclass
@@ -53,10 +58,12 @@ class Trigger:
     Attributes:
         groups: Conditions that count together.
         node: Where it stands.
+        after: How much later than it is met it counts.
     """
 
     groups: list[list[Condition]] = field(default_factory=list)
     node: Node | None = None
+    after: Quantity | None = None
 
     @property
     def is_immediate(self) -> bool:
@@ -90,7 +97,8 @@ class Conditions:
         values: Values,
         places: Places,
         actors: Mapping[str, Actor],
-        name_of_mark: Callable[[str, str], str],
+        lights: TrafficLights,
+        marks: Marks,
         texts: Callable[[str], str | None],
         set_in_run: Collection[str],
     ) -> None:
@@ -100,14 +108,15 @@ class Conditions:
             values: The values of the document.
             places: Its places.
             actors: Its actors.
-            name_of_mark: Gives the event of a variable with a value.
+            lights: The traffic lights.
+            marks: The events that stand for variables.
             texts: Gives the nominal value of a parameter.
             set_in_run: Parameters that the storyboard sets: they are variables.
         """
         self._set = set_in_run
         self._values, self._actors = values, actors
         self._of_entity = EntityConditions(values, places, actors)
-        self._name_of_mark, self._texts = name_of_mark, texts
+        self._marks, self._texts, self._lights = marks, texts, lights
         self.outside: dict[str, str] = {}
 
     def trigger(self, node: Node | None) -> Trigger:
@@ -158,10 +167,12 @@ class Conditions:
                 return self._of_mark(node, self._values.text(node, "variableRef"), delay)
             case "ParameterCondition":
                 return self._of_parameter(node, delay)
+            case "TrafficSignalCondition":
+                return Condition("expression", node, self._lights.shows(node), edge, delay)
             case "UserDefinedValueCondition":
                 name, value = self._values.text(node, "name"), self._values.text(node, "value")
                 node.text("rule")
-                event = self._name_of_mark(name, value)
+                event = self._marks.event(name, value)
                 self.outside[event] = f"{name} = {value}, from outside"
                 return Condition("event", node, text=event, delay=delay)
         node.leave_out("the language has no condition for it; it is never met here")
@@ -184,10 +195,14 @@ class Conditions:
     def _of_mark(self, node: Node, name: str, delay: Quantity | None) -> Condition:
         """Return the condition on a variable, or on a parameter that is set in the run."""
         value, rule = self._values.text(node, "value"), node.said("rule")
+        left = self._marks.change_from(name, value) if rule in ("equalTo", "notEqualTo") else None
+        if left is not None and rule == "equalTo" and delay is None:
+            return Condition("expression", node, f"not {self._marks.kept(left)}")
         if rule != "equalTo":
             node.approximate(f"a variable is an event here: `{rule} {value}` is met when it is set")
             value = ""
-        return Condition("event", node, text=self._name_of_mark(name, value), delay=delay)
+        event = self._marks.event(name, value)
+        return Condition("event", node, event, delay=delay, kept=self._marks.kept(event))
 
     def _of_parameter(self, node: Node, delay: Quantity | None) -> Condition:
         said = node.said("parameterRef")

@@ -52,8 +52,6 @@ IDLE_ELEMENTS: Mapping[str, str] = {
     "Performance": LIMITS,
     "Axles": AXLES,
     "SceneGraphFile": "the look of the roads is up to the simulator",
-    "TrailerHitch": "no trailer hangs on it",
-    "TrailerCoupler": "it hangs on nothing",
 }
 """Elements that have no effect with all below them."""
 

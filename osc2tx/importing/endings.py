@@ -12,7 +12,7 @@ from collections.abc import Container, Iterable, Iterator, Sequence
 
 from osc2tx.importing.effects import LATERAL, LONGITUDINAL
 from osc2tx.importing.program import Statement, composed, ended, wait
-from osc2tx.importing.structure import Branch
+from osc2tx.importing.steps import Branch
 
 Waits = list[Statement]
 """What is waited for, one after the other."""
@@ -27,6 +27,26 @@ def is_open(statement: Statement) -> bool:
     if statement.text == "serial":
         return is_open(statement.members[-1])
     return statement.text == "parallel" and all(is_open(each) for each in statement.members)
+
+
+def label_of(statement: Statement) -> str:
+    """Return the name of what happens in a statement."""
+    return statement.label or statement.text.removeprefix("emit ")
+
+
+def ends_of(members: Sequence[Statement]) -> frozenset[str]:
+    """Return the events with the last of which members end; none: that is not known."""
+    if not members:
+        return frozenset()
+    last = members[-1]
+    if last.members is None or last.modifiers:
+        return frozenset((label_of(last),))
+    if last.text == "serial":
+        return ends_of(last.members)
+    if last.text != "parallel":
+        return frozenset()
+    inner = [ends_of([each]) for each in last.members if not is_open(each)]
+    return frozenset(label for each in inner for label in each) if all(inner) else frozenset()
 
 
 _SECONDS = re.compile(r"(?:wait elapsed\(|\bduration: )(\d+\.?\d*)s\)$")
@@ -120,11 +140,18 @@ def first_of(endings: Sequence[Waits]) -> Waits:
 
 def ends_with(branch: Branch, waits: Sequence[Statement]) -> Waits | None:
     """Return what is waited for behind the last event of a branch; `None`: for another event."""
-    if not waits or not branch.members or waits[0].members is not None:
+    if not waits:
         return None
-    label = branch.members[-1].label
-    rest = list(waits[1:])
-    is_behind = bool(label) and waits[0].text == f"wait @{label}.end"
+    first, rest = waits[0], list(waits[1:])
+    ends, delays = set(), set()
+    for each in first.members or () if first.text == "parallel" else [first]:
+        marks = each.members if each.text == "serial" and each.members is not None else [each]
+        ends.add(marks[0].text)
+        delays.add(tuple(mark.text for mark in marks[1:]))
+    if len(delays) != 1:
+        return None
+    rest = [*map(Statement, delays.pop()), *rest]
+    is_behind = ends == {f"wait @{label}.end" for label in ends_of(branch.members)}
     is_time = all(each.text.startswith("wait elapsed(") for each in rest)
     return rest if is_behind and len(rest) <= 1 and is_time else None
 
@@ -138,12 +165,12 @@ def go_on_behind(branch: Branch, branches: Sequence[Branch], vehicles: Container
         vehicles: The actors that hold their lanes.
     """
     found: Waits = []
-    others = {slot for each in branches if each is not branch for slot in _slots(each)}
+    others = {slot for each in branches if each is not branch for slot in each.slots}
     for actor in sorted(branch.actors):
         told = [text for text in _texts(branch.members) if text.startswith(f"{actor}.")]
         slot = (actor, LONGITUDINAL)
         first = next(each for each in branches if actor in each.actors)
-        if slot not in others and (first is branch or slot in _slots(branch)):
+        if slot not in others and (first is branch or slot in branch.slots):
             found.append(Statement(f"{actor}.keep_speed()", length=math.inf))
         elif (
             actor in vehicles
@@ -154,10 +181,6 @@ def go_on_behind(branch: Branch, branches: Sequence[Branch], vehicles: Container
         else:
             return []
     return found
-
-
-def _slots(branch: Branch) -> set[tuple[str, str]]:
-    return {slot for step in branch.steps for slot in step.slots}
 
 
 def held_for(going: Sequence[Statement], rest: Sequence[Statement]) -> Waits:

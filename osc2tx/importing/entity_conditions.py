@@ -239,7 +239,15 @@ class EntityConditions:
         for key, b in others.items():
             if (said, key) in self._sides:
                 continue
-            measure = f"{a}.road_distance({b}, longitudinal{', bounding_boxes' if free else ''})"
+            bodies = [self._places.bodies.get(each) for each in (said, key)]
+            roads = [
+                None if each is None or each.place is None else each.place.road for each in bodies
+            ]
+            # along roads there is no distance where none leads to the other one
+            is_along = roads[0] is not None and roads[0] == roads[1]
+            method = "road_distance" if is_along else "object_distance"
+            mode = ", bounding_boxes" if free else ""
+            measure = f"{a}.{method}({b}, longitudinal{mode})"
             ahead = self._values.quantity(node, "distanceForward", LENGTH)
             behind = self._values.quantity(node, "distanceBackward", LENGTH)
             is_behind = (

@@ -7,6 +7,7 @@ from collections.abc import Collection
 from pathlib import Path
 
 from osc2tx.importing.actions import Actions
+from osc2tx.importing.carla import is_of_carla, mirrored
 from osc2tx.importing.cast import Cast, Libraries
 from osc2tx.importing.conditions import Conditions
 from osc2tx.importing.cursor import Ledger
@@ -14,11 +15,13 @@ from osc2tx.importing.declarations import Declarations
 from osc2tx.importing.distributions import Distribution
 from osc2tx.importing.document import NOWHERE, Document, Folders, Refused, with_values
 from osc2tx.importing.expressions import Untyped
-from osc2tx.importing.names import Names, snake
+from osc2tx.importing.marks import Marks
+from osc2tx.importing.names import Names
 from osc2tx.importing.parameters import Parameter
 from osc2tx.importing.places import Places
 from osc2tx.importing.program import Program, with_comments
 from osc2tx.importing.report import ImportReport
+from osc2tx.importing.signals import CONTROLLER, TrafficLights
 from osc2tx.importing.starting import is_straight_ahead
 from osc2tx.importing.starts import Starts
 from osc2tx.importing.steps import BoardReader
@@ -93,6 +96,8 @@ def import_document(
         raise Refused("it has no storyboard", root.place)
     if distribution is not None:  # what no parameter can stand for is that of the first run
         root = with_values(root, distribution.first)
+    if is_of_carla(root):
+        root = mirrored(root)
     document = Document(root, path, comments, folders)
     said = name or (path.stem if path else "scenario")
     try:
@@ -121,18 +126,12 @@ class _Import:
         self._report = ImportReport(source)
         self._ledger = Ledger(self._report)
         self._root = self._ledger.track(document.root)
-        self._names = Names(self._report, ("road", "environment_"))
+        self._names = Names(self._report, ("road", "environment_", CONTROLLER))
         self._scenario = self._names.new(name, kind="scenario")
         self._report.scenario = self._scenario
         self._values = Values(document, self._names, self._open)
         self._cast = Cast(document, self._values, self._ledger, self._names, libraries)
-        self._marks: dict[tuple[str, str], str] = {}
-        self._measured = {
-            node.get("variableRef") or node.get("parameterRef")
-            for node in document.tagged("VariableCondition", "ParameterCondition")
-            if node.get("rule") != "equalTo"
-        }
-        self._emitted: set[str] = set()
+        self._marks = Marks(document, self._names, self._report)
         self._comments: dict[object, list[str]] = {}
         for comment in document.comments:
             self._comments.setdefault(comment.within, []).append(comment.text)
@@ -154,12 +153,14 @@ class _Import:
         for said, actor in actors.items():
             body = places.bodies.get(said)
             actor.is_free = is_straight_ahead(places.map, body, beside=leaves)
-        actions = Actions(self._document, self._values, places, actors, self._mark, self._emitted)
+        lights = TrafficLights(places.map, self._values, self._names)
+        actions = Actions(self._document, self._values, places, actors, lights, self._marks)
         conditions = Conditions(
             self._values,
             places,
             actors,
-            self._mark,
+            lights,
+            self._marks,
             self._document.parameters.get,
             {node.said("parameterRef") for node in self._document.tagged("ParameterAction")},
         )
@@ -178,15 +179,15 @@ class _Import:
         structure = Structure(
             board,
             lambda base: self._names.new("", kind="event", base=base),
-            {actor.name: actor.goes_on for actor in actors.values()},
+            {actor.name: actor for actor in actors.values()},
         )
         whole = Whole(self._document, self._cast, self._names, self._report)
         program.body = whole.behavior(structure, structure.branches(), inits, board.end)
         self._find_used(program, places, structure)
-        program.declarations = self._declarations(places, actions, structure, program.text)
+        program.declarations = self._declarations(places, actions, lights, structure, program.text)
         program.imports = sorted(self._cast.imports)
         self._report.under_test = [each.name for each in actors.values() if each.is_under_test]
-        for step in board.steps:
+        for step in structure.events:
             if step.effects and structure.references[step.label] < 1:
                 self._report.names.pop(f"event {step.node.element.get('name')}", None)
                 step.node.idle("nothing refers to it by its name", "name")
@@ -211,6 +212,9 @@ class _Import:
             return []
         said = [header.text("description") or "", header.text("author") or ""]
         found = [said[0] or self._scenario]
+        if is_of_carla(self._document.root):
+            note = "places of the world are in the coordinates of CARLA; they are mirrored"
+            self._report.idle.append(("description", said[0], note, str(header.place)))
         if said[1]:
             found.append(f"Author: {said[1]}")
         for each in header.children("License"):
@@ -225,19 +229,6 @@ class _Import:
             found += self._comments.pop(node.place, [])
         return found
 
-    def _mark(self, name: str, value: str) -> str:
-        """Return the event that stands for a variable with a value.
-
-        A variable that is compared otherwise than for equality has one event for all values.
-        """
-        key = (name, "" if name in self._measured else value)
-        value = key[1]
-        if key not in self._marks:
-            base = snake(name) if value.lower() in ("true", "1", "") else snake(f"{name}_{value}")
-            self._marks[key] = self._names.new("", kind="event", base=base)
-            self._report.names[f"variable {name} = {value}"] = self._marks[key]
-        return self._marks[key]
-
     def _find_used(self, program: Program, places: Places, structure: Structure) -> None:
         """Note which parameters the scenario reads, itself or in what gives others."""
         written = (program.text, *structure.lines, *places.points.lines)
@@ -251,7 +242,12 @@ class _Import:
                     continue
 
     def _declarations(
-        self, places: Places, actions: Actions, structure: Structure, written: str
+        self,
+        places: Places,
+        actions: Actions,
+        lights: TrafficLights,
+        structure: Structure,
+        written: str,
     ) -> list[str]:
         declared = Declarations(
             self._document, self._root, self._values, self._report, self._open, self._comments_of
@@ -259,14 +255,18 @@ class _Import:
         lines = declared.map()
         if actions.needs_environment:
             lines.append("environment_: environment")
+        if lights.is_switched:
+            lines.append(f"{CONTROLLER}: traffic_light_controller")
+        lines += lights.lines
         for node in self._document.tagged("ScenarioObject"):
             declared_here = self._cast.lines.pop(node.get("name") or "", None)
             if declared_here is not None:
                 lines += with_comments(declared_here, self._comments_of(node))
+        lines += self._cast.couplings()
         lines += declared.parameters()
         words = set(re.findall(r"\w+", written))
         points = [line for line in places.points.lines if _is_read(line, words)]
-        events = [f"event {name}" for name in self._marks.values() if name in words]
+        events = list(self._marks.lines(words))
         events += [line for line in structure.lines if _is_read(line, words)]
         return [*lines, *points, *events]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from osc2tx.importing.cast import Actor
 from osc2tx.importing.cursor import Node
@@ -11,21 +12,26 @@ from osc2tx.importing.effects import Reader
 from osc2tx.importing.program import Statement, composed
 from osc2tx.xosc.player.courses import with_jerk
 from osc2tx_runtime.world.actor_dimensions import CAR_LIMITS, COMFORT
+from osc2tx_runtime.world.grip.friction import ADHESION, GRAVITY
+
+CAR = {
+    "maxAcceleration": CAR_LIMITS.acceleration,
+    "maxDeceleration": CAR_LIMITS.deceleration,
+    "maxAccelerationRate": CAR_LIMITS.jerk,
+}
+"""The limits of a car in the world."""
+
+SHARES: Mapping[float, str] = {1.0: ", rate_profile: asap", COMFORT: ""}
+"""How a change of speed is told that uses a share of the limits of its actor.
+
+Half of the grip on snow is all of it on ice: the whole comes first.
+"""
 
 
-def _limits(share: float) -> dict[str, float]:
-    """Return the limits of a car in the world, of which a share of the accelerations is used."""
-    return {
-        "maxAcceleration": share * CAR_LIMITS.acceleration,
-        "maxDeceleration": share * CAR_LIMITS.deceleration,
-        "maxAccelerationRate": CAR_LIMITS.jerk,
-    }
-
-
-COMFORTABLE = _limits(COMFORT)
-"""Of a change of the speed without a profile."""
-UTMOST = _limits(1.0)
-"""Of a change of the speed as soon as possible."""
+def _held(limits: Mapping[str, float], share: float, grip: float) -> dict[str, float]:
+    """Return a share of limits, on a road with a grip (m/s^2)."""
+    held = {name: share * min(limits[name], grip) for name in CAR if name != "maxAccelerationRate"}
+    return {**held, "maxAccelerationRate": limits["maxAccelerationRate"]}
 
 
 class Profiles(Reader):
@@ -62,13 +68,13 @@ class Profiles(Reader):
     ) -> Statement:
         """Return a change of the speed that only limits of the acceleration tell."""
         call, before = f"{actor.name}.change_speed(target: {speed.text}", self._speeds.get(said)
-        names = COMFORTABLE if limits is not None else {}
-        told = {name: self._values.nominal(limits, name, math.inf) for name in names if limits}
-        if told == COMFORTABLE:
-            return Statement(f"{call})")
-        if told == UTMOST:
-            return Statement(f"{call}, rate_profile: asap)")
+        told = {name: self._values.nominal(limits, name, math.inf) for name in CAR if limits}
         body = self._places.bodies.get(said)
+        own = CAR if body is None else body.limits
+        for share, profile in SHARES.items():
+            roads = (math.inf, *(each * GRAVITY for each in ADHESION.values()))
+            if any(told == _held(each, share, grip) for each in (CAR, own) for grip in roads):
+                return Statement(f"{call}{profile})")
         if body is None or before is None or before.value == speed.value:
             entry.approximate("the speed changes with the usual accelerations of the world")
             return Statement(f"{call})")

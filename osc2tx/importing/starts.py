@@ -151,7 +151,9 @@ class Starts:
         actor = self._cast.actors[said]
         if self._is_at_point(said) and not self._others.get(said):
             modifiers = self._on_foot(said)
-            return [Statement(f"{actor.verb}()", modifiers=modifiers, length=math.inf)]
+            stands = said not in self._speeds and not self.has_way(said)
+            call = f"{actor.name}.remain_stationary()" if stands else f"{actor.verb}()"
+            return [Statement(call, modifiers=modifiers, length=math.inf)]
         return [*self.statements(said), *(self.lasting(said) or self.going(said))]
 
     def statements(self, said: str, then: list[Statement] | None = None) -> list[Statement]:

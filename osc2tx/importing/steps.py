@@ -17,6 +17,7 @@ from osc2tx.xosc.element import Element, Unresolved
 from osc2tx_shared.classes import dataclass
 
 MOST_REPEATS = 20
+STARTS = ("startTransition", "runningState")
 ENDS = ("endTransition", "completeState", "stopTransition")
 
 
@@ -78,6 +79,42 @@ class Step:
         found.label = self.label if self.label else found.label
         found.comments = [*self.comments, *found.comments]
         return found
+
+
+@dataclass(eq=False)
+class Block(Step):
+    """An act that is stopped, as one event.
+
+    Attributes:
+        inner: Its events.
+        stop: What stops it.
+    """
+
+    inner: list[Step] = field(default_factory=list)
+    stop: Trigger = field(default_factory=Trigger)
+
+
+@dataclass(eq=False)
+class Branch:
+    """What happens one after the other, from the start of the scenario on.
+
+    Attributes:
+        steps: The events in it.
+        members: Its statements.
+    """
+
+    steps: list[Step] = field(default_factory=list)
+    members: list[Statement] = field(default_factory=list)
+
+    @property
+    def actors(self) -> set[str]:
+        """The actors that it moves."""
+        return {actor for step in self.steps for actor in step.actors}
+
+    @property
+    def slots(self) -> set[tuple[str, str]]:
+        """The motions that it controls."""
+        return {slot for step in self.steps for slot in step.slots}
 
 
 @dataclass

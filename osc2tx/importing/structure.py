@@ -8,34 +8,18 @@ of two events is not known before the run, one overrides the other.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import field
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import cached_property
+from itertools import combinations
 
-from osc2tx.importing.conditions import Condition, Trigger
+from osc2tx.importing.acts import blocks_of, without_own_start
+from osc2tx.importing.cast import Actor
+from osc2tx.importing.conditions import Trigger
 from osc2tx.importing.dimensions import TIME, Quantity, literal
+from osc2tx.importing.joining import Join, joined
 from osc2tx.importing.program import Statement, composed, wait
-from osc2tx.importing.steps import ENDS, Board, Step
-from osc2tx.importing.waiting import STARTS, Waiting, minus, nominal_start, start_of
-from osc2tx_shared.classes import dataclass
-
-
-@dataclass(eq=False)
-class Branch:
-    """What happens one after the other, from the start of the scenario on.
-
-    Attributes:
-        steps: The events in it.
-        members: Its statements.
-    """
-
-    steps: list[Step] = field(default_factory=list)
-    members: list[Statement] = field(default_factory=list)
-
-    @property
-    def actors(self) -> set[str]:
-        """The actors that it moves."""
-        return {actor for step in self.steps for actor in step.actors}
+from osc2tx.importing.steps import ENDS, Block, Board, Branch, Step
+from osc2tx.importing.waiting import Waiting, lateness, minus, nominal_start, start_of
 
 
 class Structure:
@@ -47,14 +31,14 @@ class Structure:
     """
 
     def __init__(
-        self, board: Board, name_event: Callable[[str], str], going_on: Mapping[str, str]
+        self, board: Board, name_event: Callable[[str], str], going_on: Mapping[str, Actor]
     ) -> None:
         """Take the storyboard.
 
         Args:
             board: The storyboard.
             name_event: Gives a name for an event of the scenario.
-            going_on: The action that goes on, by actor.
+            going_on: How actors go on, by actor.
         """
         self._board, self._going_on = board, going_on
         self._waiting = Waiting(board, name_event)
@@ -62,35 +46,20 @@ class Structure:
         self.waits = self._waiting.waits
         self.references = self._waiting.references
         self._predecessor = self._waiting.predecessor
-        for step in board.steps:
-            step.triggers = (step.triggers[0], self._of_others(step, step.triggers[1]))
-        for step in board.steps:
-            self._order(step)
-
-    def _of_others(self, step: Step, trigger: Trigger) -> Trigger:
-        """Return a trigger without the start of what the step is in, which has come."""
-        groups = []
-        for group in trigger.groups:
-            others = [each for each in group if not self._is_own_start(each, step)]
-            late = [each for each in group if each not in others and each.delay is not None]
-            if late and not step.triggers[0].is_immediate:
-                groups.append(group)
-                continue
-            now = Quantity(literal(0.0, TIME), 0.0)
-            times = [Condition("time", each.node, quantity=now, delay=each.delay) for each in late]
-            groups.append([*others, *times])
-        return Trigger(groups, trigger.node)
-
-    def _is_own_start(self, condition: Condition, step: Step) -> bool:
-        is_start = condition.kind == "state" and condition.state in STARTS
-        return is_start and step in self._board.elements.get(condition.element, ())
+        blocks = blocks_of(board, name_event)
+        self._scopes = [board.steps, *(block.inner for block in blocks)]
+        for step in (each for scope in self._scopes for each in scope):
+            step.triggers = without_own_start(step, board)
+        for scope in self._scopes:
+            for step in scope:
+                self._order(step, scope)
 
     # --- who follows whom -------------------------------------------------------------------------
 
-    def _order(self, step: Step) -> None:
+    def _order(self, step: Step, scope: Collection[Step]) -> None:
         """Put a step behind the one whose end starts it."""
         found = [each for each in self._ends_in(step.trigger) if each is not step]
-        if len(found) == 1 and not self._leads_to(step, found[0]):
+        if len(found) == 1 and found[0] in scope and not self._leads_to(step, found[0]):
             self._predecessor[step] = found[0]
             found[0].successors.append(step)
 
@@ -112,33 +81,56 @@ class Structure:
             step
             for condition in trigger.groups[0]
             if condition.kind == "state" and condition.state in ENDS
-            if self._waiting.stopped_act(condition) is None
             for step in self._waiting.steps_of(condition)
         ]
 
     # --- compositions -----------------------------------------------------------------------------
 
-    def branches(self) -> list[Branch]:
-        """Return what runs side by side from the start on."""
-        roots = [step for step in self._board.steps if step not in self._predecessor]
+    def branches(self, scope: Sequence[Step] | None = None) -> list[Branch]:
+        """Return what runs side by side from the start on, of the scenario or of an act."""
+        scope = self._board.steps if scope is None else scope
+        roots = [step for step in scope if step not in self._predecessor]
         found: list[Branch] = []
+        joins: list[Join] = []
         for group in self._groups(roots):
             timed = [start_of(step) for step in group]
             if len(group) > 1 and all(time is not None for time in timed):
                 found.append(self._timeline(group))
                 continue
-            made = [Branch(list(_below(step)), self._chain(step)) for step in group]
-            self._override(made)
-            found += made
-        for condition in (each for group in self._board.end.groups for each in group):
-            self._waiting.stopped_act(condition)  # the end of the scenario may wait for it
-        for number, trigger in self._board.stops.items():
-            found = self._stopped(number, trigger, found)
+            for step in group:
+                branch = Branch(list(_below(step)), self._chain(step))
+                found.append(branch)
+                joins += self._joins(step, branch)
+        held = {name: each.goes_on for name, each in self._going_on.items() if not each.is_free}
+        found = joined(found, joins, held)
+        for join in joins:
+            if join.branch not in found:  # nothing waits for the events by their names
+                self.references.subtract(list(join.delays))
+        self._override(found)
         return found
+
+    def _joins(self, step: Step, branch: Branch) -> Iterator[Join]:
+        """Yield a branch as one behind others, if it waits for the ends of several events."""
+        trigger = step.trigger
+        if len(trigger.groups) != 1 or (
+            trigger is step.triggers[1] and not step.triggers[0].is_immediate
+        ):
+            return
+        ends = [each for each in trigger.groups[0] if each.kind == "state" and each.state in ENDS]
+        rest = [each for each in trigger.groups[0] if each not in ends]
+        delays = {
+            each.label: "" if end.delay is None else end.delay.text
+            for end in ends
+            for each in self._waiting.steps_of(end)
+        }
+        is_plain = all(each.kind == "expression" and lateness(each) == 0.0 for each in rest)
+        if len(delays) > 1 and is_plain:
+            waits = self.waits(Trigger([rest], trigger.node, trigger.after))
+            yield Join(branch, delays, [*waits, *self._chain(step, waits=False)])
 
     def _groups(self, roots: Sequence[Step]) -> list[list[Step]]:
         """Return the roots in groups of those that move the same."""
-        order = {step: index for index, step in enumerate(self._board.steps)}
+        order = {root: index for index, root in enumerate(roots)}
         found: list[tuple[list[Step], set[str]]] = []  # with all that a group moves
         for root in roots:
             moved = {actor for step in _below(root) for actor in step.moved}
@@ -157,7 +149,7 @@ class Structure:
         pending = self._waits_of(step) if waits else []
         at = step
         while True:
-            if at.effects or at.label in self._referred_labels:
+            if at.effects or isinstance(at, Block) or at.label in self._referred_labels:
                 found += [*pending, self._statement(at)]
                 pending = []
             if len(at.successors) != 1:
@@ -177,13 +169,20 @@ class Structure:
             return self.waits(event, behind)
         return self.waits(act, behind) + self.waits(event, behind)
 
+    @property
+    def events(self) -> list[Step]:
+        """The events of the document."""
+        return [step for scope in self._scopes for step in scope if not isinstance(step, Block)]
+
     @cached_property
     def _referred_labels(self) -> set[str]:
         """Labels of steps whose starts or ends are waited for."""
-        triggers = [trigger for step in self._board.steps for trigger in step.triggers]
+        steps = [step for scope in self._scopes for step in scope]
+        triggers = [trigger for step in steps for trigger in step.triggers]
+        stops = [step.stop for step in steps if isinstance(step, Block)]
         return {
             step.label
-            for trigger in (*triggers, self._board.end)
+            for trigger in (*triggers, *stops, self._board.end)
             for group in trigger.groups
             for condition in group
             if condition.kind == "state"
@@ -191,6 +190,8 @@ class Structure:
         }
 
     def _statement(self, step: Step) -> Statement:
+        if isinstance(step, Block):
+            return self._block(step)
         if step.effects:
             return step.statement
         if f"event {step.label}" not in self.lines:
@@ -242,49 +243,41 @@ class Structure:
 
     def go_on(self, actors: Sequence[str]) -> list[Statement]:
         """Return what lets actors go on as they do."""
-        each = [Statement(self._going_on[actor], length=math.inf) for actor in actors]
+        each = [Statement(self._going_on[actor].goes_on, length=math.inf) for actor in actors]
         return [composed("parallel", each)] if each else []
 
     def _override(self, branches: Sequence[Branch]) -> None:
         """Let steps of different branches end each other, the later ones the earlier."""
-        for index, one in enumerate(branches):
-            for other in branches[index + 1 :]:
-                for a in one.steps:
-                    for b in other.steps:
-                        pairs = ((a, b), (b, a)) if a.effects and b.effects else ()
-                        for ended, by in pairs:
-                            if _ends(by, ended):
-                                self.lines.append(f"override({ended.label}, {by.label})")
-                                self.references.update((ended.label, by.label))
+        moving: dict[str, list[int]] = {}
+        for index, branch in enumerate(branches):
+            for actor in {actor for step in branch.steps for actor in step.moved}:
+                moving.setdefault(actor, []).append(index)
+        pairs = sorted({pair for indices in moving.values() for pair in combinations(indices, 2)})
+        for one, other in pairs:
+            for a in branches[one].steps:
+                for b in branches[other].steps:
+                    both = ((a, b), (b, a)) if a.effects and b.effects else ()
+                    for ended, by in both:
+                        if _ends(by, ended):
+                            self.lines.append(f"override({ended.label}, {by.label})")
+                            self.references.update((ended.label, by.label))
 
-    def _stopped(self, number: int, trigger: Trigger, branches: list[Branch]) -> list[Branch]:
-        """Return the branches with those of an act up to what stops it."""
-        mine = [each for each in branches if any(step.act == number for step in each.steps)]
-        waits = self.waits(trigger)
-        is_alone = all(step.act == number for each in mine for step in each.steps)
-        until = waits[0] if len(waits) == 1 and waits[0].text.startswith("wait ") else None
-        beside = [composed("serial", each.members) for each in mine if each.members]
-        label = self._waiting.stopped.get(number, "")
-        if not beside or (not label and (until is None or not is_alone)):
-            _leave_out(trigger)
-            return branches
-        whole = beside[0] if len(beside) == 1 else Statement("parallel", members=beside)
-        if whole.members is None or whole.label or whole.modifiers:
-            whole = Statement("serial", members=[whole])
-        whole.label, whole.length = label, None
-        if until is None or not is_alone:
-            _leave_out(trigger)
+    # --- acts that are stopped --------------------------------------------------------------------
+
+    def _block(self, block: Block) -> Statement:
+        """Return an act up to what stops it."""
+        beside = [composed("serial", each.members) for each in self.branches(block.inner)]
+        whole = composed("parallel", [each for each in beside if each.members != []])
+        ways = [self.waits(Trigger([group])) for group in block.stop.groups]
+        if all(len(way) == 1 and way[0].members is None for way in ways):
+            if whole.members is None or whole.label or whole.modifiers:
+                whole = Statement("serial", members=[whole])
+            whole.modifiers += [f"until {way[0].text.removeprefix('wait ')}" for way in ways]
         else:
-            whole.modifiers.append(f"until {until.text.removeprefix('wait ')}")
-        merged = Branch([step for each in mine for step in each.steps], [whole])
-        at = branches.index(mine[0])
-        others = [each for each in branches if each not in mine]
-        return [*others[:at], merged, *others[at:]]
-
-
-def _leave_out(trigger: Trigger) -> None:
-    if trigger.node is not None:
-        trigger.node.leave_out("an act that is stopped goes on here")
+            whole = composed("one_of", [whole, *(composed("serial", way) for way in ways)])
+        whole.label = block.label if block.label in self._referred_labels else ""
+        whole.length = None
+        return whole
 
 
 def _below(step: Step) -> Iterator[Step]:

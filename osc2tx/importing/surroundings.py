@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from osc2tx.importing.cursor import Node
-from osc2tx.importing.dimensions import ANGLE, LENGTH
+from osc2tx.importing.document import Document
 from osc2tx.importing.effects import Effect
+from osc2tx.importing.marks import Marks
 from osc2tx.importing.program import Statement
+from osc2tx.importing.signals import TrafficLights
 from osc2tx.importing.values import Values
+from osc2tx.importing.weather import Weather
 
 
 class Surroundings:
@@ -19,10 +22,15 @@ class Surroundings:
     """
 
     def __init__(
-        self, values: Values, name_of_mark: Callable[[str, str], str], emitted: set[str]
+        self,
+        values: Values,
+        document: Document,
+        lights: TrafficLights,
+        marks: Marks,
     ) -> None:
-        self._values = values
-        self._name_of_mark, self._emitted = name_of_mark, emitted
+        self._values, self._document, self._lights = values, document, lights
+        self._weather = Weather(values, document)
+        self._marks = marks
         self.needs_environment = False
 
     def effects(self, node: Node) -> Iterator[Effect]:
@@ -36,45 +44,31 @@ class Surroundings:
                     node.leave_out("variables are events here: they are set, not computed")
                     return
                 value = self._values.text(setting, "value")
-                event = self._name_of_mark(name, value)
-                self._emitted.add(event)
-                yield Effect(Statement(f"emit {event}", length=0.0))
+                yield Effect(Statement(f"emit {self._marks.event(name, value)}", length=0.0))
             case "EnvironmentAction":
                 yield from self._environment(node)
+            case "InfrastructureAction" if node.inner.tag == "TrafficSignalAction":
+                inner = node.inner.inner
+                if inner.tag != "TrafficSignalStateAction":
+                    inner.leave_out("cycles of traffic lights are not imported")
+                    return
+                yield Effect(Statement(self._lights.switch(inner), length=0.0))
             case _:
                 node.leave_out("the language has no such action, or not for this document")
 
     def _environment(self, node: Node) -> Iterator[Effect]:
-        environment = node.find("Environment")
-        if environment is None:
-            node.leave_out("environments of catalogs are not imported yet")
-            return
-        for each in environment.children():
-            if each.tag == "Weather":
-                yield from self._weather(each)
-            elif each.tag not in ("ParameterDeclarations",):
-                each.leave_out("of the environment only the weather is imported")
+        environment = node.find("Environment") or self._of_catalog(node.one("CatalogReference"))
+        for call in () if environment is None else self._weather.calls(environment):
+            self.needs_environment = True
+            yield Effect(Statement(f"environment_.{call}", length=0.0))
 
-    def _weather(self, node: Node) -> Iterator[Effect]:
-        for name in ("cloudState", "fractionalCloudCover"):
-            if node.has(name):
-                node.approximate(f"{name}={node.text(name)!r} has no counterpart in the DSL")
-        for each in node.children():
-            call = None
-            if each.tag == "Fog" and each.has("visualRange"):
-                value = self._values.quantity(each, "visualRange", LENGTH)
-                call = f"fog(visual_range: {value.text})"
-            elif each.tag == "Sun" and each.has("azimuth"):
-                azimuth = self._values.quantity(each, "azimuth", ANGLE)
-                elevation = self._values.quantity(each, "elevation", ANGLE)
-                call = (
-                    f"assign_celestial_position(light_source: environment_.sun, "
-                    f"azimuth: {azimuth.text}, elevation: {elevation.text})"
-                )
-            for unsaid in each.element.attributes:
-                if unsaid[0] not in ("visualRange", "azimuth", "elevation"):
-                    each.text(unsaid[0])
-                    each.approximate(f"{unsaid[0]}={unsaid[1]!r} has no counterpart in the DSL")
-            if call is not None:
-                self.needs_environment = True
-                yield Effect(Statement(f"environment_.{call}", length=0.0))
+    def _of_catalog(self, reference: Node) -> Node | None:
+        self._values.text(reference, "catalogName")
+        said = self._values.text(reference, "entryName")
+        for each in reference.children("ParameterAssignments"):
+            each.use_all()
+        found = self._document.entry(reference.element)
+        if found is None:
+            reference.leave_out(f"there is no entry {said} in the catalogs")
+            return None
+        return reference.entry(found[0], found[1].name)

@@ -6,15 +6,14 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 
 from osc2tx.importing.conditions import Condition, Trigger
-from osc2tx.importing.dimensions import PRODUCT, TIME, Quantity, literal
+from osc2tx.importing.dimensions import PRODUCT, TIME, Quantity, literal, total
 from osc2tx.importing.entity_conditions import joined_by
-from osc2tx.importing.names import snake
 from osc2tx.importing.program import Statement, composed, wait
-from osc2tx.importing.steps import ENDS, Board, Step
+from osc2tx.importing.steps import ENDS, STARTS, Block, Board, Step
+from osc2tx_shared.classes import replace
 
 ON_A_LINE = 60
 """Characters of a condition that is in brackets if it is longer, between which lines break."""
-STARTS = ("startTransition", "runningState")
 
 
 class Waiting:
@@ -23,7 +22,6 @@ class Waiting:
     Attributes:
         lines: Declarations that the order needs: events, overrides.
         predecessor: Steps by those behind them.
-        stopped: Names of the compositions of acts that are stopped, by the numbers of the acts.
         references: How often the scenario refers to statements, by their labels.
     """
 
@@ -37,7 +35,6 @@ class Waiting:
         self._board, self._name_event = board, name_event
         self.lines: list[str] = []
         self.predecessor: dict[Step, Step] = {}
-        self.stopped: dict[int, str] = {}
         self.references: Counter[str] = Counter()
         self._declared: dict[str, str] = {}
 
@@ -50,23 +47,27 @@ class Waiting:
 
     def waits(self, trigger: Trigger, behind: Step | None = None) -> list[Statement]:
         """Return what waits for a trigger; `behind`: it comes after this step."""
+        later = [] if trigger.after is None else [wait(f"elapsed({trigger.after.text})")]
         if trigger.is_immediate:
-            return []
+            return later
         groups = [self._of_group(group, behind) for group in trigger.groups]
         if len(groups) == 1:
-            return groups[0]
+            return [*groups[0], *later]
         if any(not group for group in groups):
-            return []
-        return [composed("one_of", [composed("serial", group) for group in groups])]
+            return later
+        return [composed("one_of", [composed("serial", group) for group in groups]), *later]
 
     def _of_group(self, group: Sequence[Condition], behind: Step | None) -> list[Statement]:
         found: list[Statement] = []
+        if any(each.kind == "time" for each in group) and behind is None:
+            # an event may come before the time, and is only looked at then
+            group = [_if_kept(each) for each in group]
         times = [each for each in group if each.kind == "time"]
         happenings = [each for each in group if each.kind in ("state", "event")]
         expressions = [each for each in group if each.kind == "expression"]
         levels = [each for each in expressions if each.edge == "none"]
         edges = [each for each in expressions if each.edge != "none"]
-        late = max((_lateness(each) for each in expressions), default=0.0)
+        late = max((lateness(each) for each in expressions), default=0.0)
         if late > 0.0 and (len(group) > len(expressions) or len(expressions) > 1):
             self._say_delays(happenings, expressions, late)
         if times and behind is not None:
@@ -110,8 +111,8 @@ class Waiting:
         happenings: Sequence[Condition], expressions: Sequence[Condition], late: float
     ) -> None:
         """Say where delays of conditions that count together cannot be told apart."""
-        early = [each for each in happenings if _lateness(each) < late]
-        others = [each for each in expressions if _lateness(each) != late]
+        early = [each for each in happenings if lateness(each) < late]
+        others = [each for each in expressions if lateness(each) != late]
         if early or others:
             (early or others)[0].node.approximate("delays of several conditions follow each other")
 
@@ -140,11 +141,6 @@ class Waiting:
             yield f"@{condition.text}"
             return
         steps = self.steps_of(condition)
-        label = self.stopped_act(condition)
-        if label is not None:
-            self.references[label] += 1
-            yield f"@{label}.end"
-            return
         if not steps:
             kind, name = condition.element
             condition.node.approximate(
@@ -158,24 +154,11 @@ class Waiting:
         for step in steps:
             if step is behind:
                 continue
-            if not step.effects:
+            if not step.effects and not isinstance(step, Block):
                 yield f"@{step.label}"
             else:
                 self.references[step.label] += 1
                 yield f"@{step.label}.{'start' if condition.state in STARTS else 'end'}"
-
-    def stopped_act(self, condition: Condition) -> str | None:
-        """Return the name of the act whose end is waited for, if that act is stopped."""
-        kind, name = condition.element
-        if kind != "act" or condition.state not in ENDS:
-            return None
-        acts = {step.act for step in self._board.elements.get(condition.element, ())}
-        number = next(iter(acts)) if len(acts) == 1 else 0
-        if number not in self._board.stops:
-            return None
-        if number not in self.stopped:
-            self.stopped[number] = self._name_event(snake(name))
-        return self.stopped[number]
 
     def _event(self, text: str, condition: Condition) -> str:
         if text not in self._declared:
@@ -189,7 +172,7 @@ def start_of(step: Step) -> Quantity | None:
     """Return the time at which a step starts, if its triggers say nothing else."""
     found = Quantity("0s", 0.0)
     for trigger in step.triggers:
-        if trigger.is_immediate:
+        if trigger.is_immediate and trigger.after is None:
             continue
         if len(trigger.groups) != 1 or len(trigger.groups[0]) != 1:
             return None
@@ -197,6 +180,7 @@ def start_of(step: Step) -> Quantity | None:
         if condition.kind != "time" or condition.quantity is None:
             return None
         time = Quantity(_time_of(condition), _nominal(condition), condition.quantity.is_open, 1)
+        time = time if trigger.after is None else total(TIME, (1, time), (1, trigger.after))
         found = max(found, time, key=lambda each: each.value)
     return found
 
@@ -240,7 +224,7 @@ def _edge(condition: Condition) -> str:
     return f"rise({condition.text})"
 
 
-def _lateness(condition: Condition) -> float:
+def lateness(condition: Condition) -> float:
     """Return how many seconds later than it is met a condition counts."""
     delay = 0.0 if condition.delay is None else condition.delay.value
     return delay + condition.lasting
@@ -253,3 +237,10 @@ def _earlier(text: str, condition: Condition, by: float) -> str | None:
         return f"{text} - {literal(by, TIME)}"
     left = round(sum(each.value for each in parts) - by, 9)
     return literal(left, TIME) if left > 0.0 else None
+
+
+def _if_kept(condition: Condition) -> Condition:
+    """Return the condition that an event has come, where that is kept."""
+    if not condition.kept or condition.delay is not None:
+        return condition
+    return replace(condition, kind="expression", text=condition.kept)

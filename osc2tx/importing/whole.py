@@ -10,6 +10,7 @@ from osc2tx.importing.conditions import Trigger
 from osc2tx.importing.document import Document
 from osc2tx.importing.endings import (
     Waits,
+    ends_of,
     ends_with,
     first_of,
     go_on_behind,
@@ -22,7 +23,8 @@ from osc2tx.importing.names import Names
 from osc2tx.importing.program import Statement, composed, ended, wait, without_labels
 from osc2tx.importing.report import ImportReport
 from osc2tx.importing.starts import Starts
-from osc2tx.importing.structure import Branch, Structure
+from osc2tx.importing.steps import Branch
+from osc2tx.importing.structure import Structure
 
 LONGEST = "60s"
 """How long a scenario runs whose document has no end."""
@@ -77,7 +79,7 @@ class Whole:
             if rest is None:
                 continue
             if all(lasting[id(each)] is not None for each in branches if each is not branch):
-                structure.references[branch.members[-1].label] -= 1
+                structure.references.subtract(ends_of(branch.members))
                 content = [*members.content(branch), *held_for(members.going(branch), rest)]
                 lasting[id(branch)] = composed("serial", content)
                 side_by_side = [*begun, *filter(None, lasting.values())]

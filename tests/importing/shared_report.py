@@ -19,6 +19,9 @@ from typing import NamedTuple
 from osc2tx.cli.import_ import Result, import_all
 from osc2tx.importing.document import Folders
 
+TOWNS = "carla-2020"
+"""The folder of the maps that documents of CARLA name without a path."""
+
 SAME, OFF = "same places and end", "other places or another end"
 
 
@@ -52,12 +55,13 @@ def rows(folder: Path, out: Path, filters: Sequence[str] = ()) -> Iterator[Row]:
         out: Where the scenarios go.
         filters: Parts of paths; documents with none of them are left out.
     """
+    maps = (folder.parent / "maps" / TOWNS,)
     for number, path in enumerate(sorted(folder.rglob("*.xosc"))):
         file = path.relative_to(folder).as_posix()
         if filters and not any(part in file for part in filters):
             continue
         place = out / str(number)  # each has settings of its own
-        results, refused = import_all([path], place, Folders(), force=True)
+        results, refused = import_all([path], place, Folders(maps), force=True)
         yield from (_row(file, path, each) for each in results)
         if refused:
             yield Row(file, "it is refused", False, False, 0, 0)

@@ -1,0 +1,84 @@
+"""Variables as events: one is emitted where a variable is set, and waited for by conditions on it.
+
+Where it matters that an event has come before, a `bool` keeps it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from osc2tx.importing.document import Document
+from osc2tx.importing.names import Names, snake
+from osc2tx.importing.report import ImportReport
+from osc2tx.xosc import elements as xml
+
+
+class Marks:
+    """The events that stand for variables with values, and for parameters that are set in the run.
+
+    A variable that is compared otherwise than for equality has one event for all values.
+    """
+
+    def __init__(self, document: Document, names: Names, report: ImportReport) -> None:
+        self._names, self._report = names, report
+        root = document.root
+        self._measured = {
+            node.get("variableRef") or node.get("parameterRef")
+            for kind in (xml.VariableCondition, xml.ParameterCondition)
+            for node in root.below(kind)
+            if node.get("rule") != "equalTo"
+        }
+        self._initial = {
+            node.get("name") or "": _plain(node.get("value") or "")
+            for node in root.below(xml.VariableDeclaration)
+        }
+        self._set: dict[str, set[str]] = {}
+        for action in document.resolved.below(xml.VariableAction):
+            for each in action.children:
+                said = action.get("variableRef") or ""
+                self._set.setdefault(said, set()).add(_plain(each.get("value") or ""))
+        self._events: dict[tuple[str, str], str] = {}
+        self._kept: dict[str, str] = {}
+
+    def event(self, name: str, value: str) -> str:
+        """Return the event that stands for a variable with a value."""
+        key = (name, "" if name in self._measured else value)
+        value = key[1]
+        if key not in self._events:
+            base = snake(name) if value.lower() in ("true", "1", "") else snake(f"{name}_{value}")
+            self._events[key] = self._names.new("", kind="event", base=base)
+            self._report.names[f"variable {name} = {value}"] = self._events[key]
+        return self._events[key]
+
+    def kept(self, event: str) -> str:
+        """Return the `bool` that tells whether an event has come."""
+        if event not in self._kept:
+            self._kept[event] = self._names.new("", kind="variable", base=f"{event}_came")
+        return self._kept[event]
+
+    def change_from(self, name: str, value: str) -> str | None:
+        """Return the event with which a variable loses the value that it has at the start.
+
+        `None`: it does not have it then, or it may get it again, or there are several such events.
+        """
+        others = self._set.get(name, set())
+        if name in self._measured or self._initial.get(name) != _plain(value):
+            return None
+        if len(others) != 1 or _plain(value) in others:
+            return None
+        return self.event(name, next(iter(others)))
+
+    def lines(self, words: set[str]) -> Iterator[str]:
+        """Yield the declarations of what some words name."""
+        kept = {event: name for event, name in self._kept.items() if name in words}
+        for event in self._events.values():
+            if event in words or event in kept:
+                yield f"event {event}"
+        for event, name in kept.items():
+            yield f"var {name}: bool = sample(true, @{event}, false)"
+
+
+def _plain(value: str) -> str:
+    """Return a value in the form in which values are compared."""
+    lower = value.lower()
+    return {"1": "true", "0": "false"}.get(lower, lower)

@@ -1,0 +1,125 @@
+"""Environments: sun, clouds, fog, wind, air, rain and snow, with the friction that they give."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+from osc2tx.importing.cursor import Node
+from osc2tx.importing.dimensions import ANGLE, LENGTH, SPEED, short
+from osc2tx.importing.document import Document
+from osc2tx.importing.values import Values
+from osc2tx.xosc import elements as xml
+from osc2tx_runtime.world.grip.friction import ADHESION
+
+OKTAS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
+CLOUDS: Mapping[str, int] = {"free": 0, "skyOff": 0, "cloudy": 4, "rainy": 8, "overcast": 8}
+"""States of the sky in oktas."""
+
+HEAVIEST_RAIN = 50.0
+"""mm/h that are the intensity 1 of a document that has no unit for it."""
+
+FREEZING = 273.15  # K
+FALLING: Mapping[str, tuple[float, ...]] = {
+    "rain": (ADHESION["wet"], ADHESION["ice"]),
+    "snow": (ADHESION["snow"],),
+}
+"""Friction of roads while it rains or snows."""
+
+
+class Weather:
+    """Reads environments."""
+
+    def __init__(self, values: Values, document: Document) -> None:
+        self._values = values
+        self._falling = {
+            each.get("precipitationType") or ""
+            for each in document.resolved.below(xml.Precipitation)
+        }
+
+    def calls(self, environment: Node) -> Iterator[str]:
+        """Yield the methods of an environment that make it as an element says."""
+        kind = ""
+        for node in environment.children():
+            if node.tag == "Weather":
+                yield from self._sky(node)
+                for each in node.children():
+                    kind = each.element.get("precipitationType") or kind
+                    yield from self._part(each)
+            elif node.tag == "RoadCondition":
+                self._road(node, kind)
+            elif node.tag != "ParameterDeclarations":
+                node.leave_out("of the environment only weather and roads are imported")
+
+    def _sky(self, node: Node) -> Iterator[str]:
+        cover = node.text("fractionalCloudCover")
+        state = node.text("cloudState")
+        if cover is not None and cover.removesuffix("Oktas") in OKTAS:
+            yield f"clouds(cloudiness: {OKTAS.index(cover.removesuffix('Oktas'))})"
+        elif state is not None and state in CLOUDS:
+            if state != "free":
+                node.approximate(f"a sky that is {state} has {CLOUDS[state]} oktas of clouds here")
+            yield f"clouds(cloudiness: {CLOUDS[state]})"
+        elif state is not None or cover is not None:
+            node.approximate(f"clouds {cover or state!r} have no counterpart in the DSL")
+        parts = []
+        if node.has("temperature"):
+            celsius = self._values.nominal(node, "temperature") - FREEZING
+            parts.append(f"temperature: {short(round(celsius, 6))}celsius")
+        if node.has("atmosphericPressure"):
+            pressure = self._values.nominal(node, "atmosphericPressure")
+            parts.append(f"pressure: {short(round(0.01 * pressure, 6))}hPa")
+        if parts:
+            yield f"air({', '.join(parts)})"
+
+    def _part(self, node: Node) -> Iterator[str]:
+        match node.tag:
+            case "Fog" if node.has("visualRange"):
+                visible = self._values.quantity(node, "visualRange", LENGTH)
+                yield f"fog(visual_range: {visible.text})"
+            case "Sun" if node.has("azimuth"):
+                for name in ("illuminance", "intensity"):
+                    node.idle("how bright the sun is follows from where it stands", name)
+                azimuth = self._values.quantity(node, "azimuth", ANGLE)
+                elevation = self._values.quantity(node, "elevation", ANGLE)
+                where = f"azimuth: {azimuth.text}, elevation: {elevation.text}"
+                yield f"assign_celestial_position(light_source: environment_.sun, {where})"
+            case "Wind":
+                speed = self._values.quantity(node, "speed", SPEED)
+                # from where it comes, clockwise from north, instead of whither from east
+                whither = self._values.nominal(node, "direction")
+                from_ = math.degrees((-0.5 * math.pi - whither) % (2.0 * math.pi))
+                yield f"wind(speed: {speed.text}, direction: {short(round(from_, 6))}deg)"
+            case "Precipitation":
+                yield from self._precipitation(node)
+        for name, text in (
+            node.element.attributes if node.tag not in ("Precipitation", "Wind") else ()
+        ):
+            if name not in ("visualRange", "azimuth", "elevation", "illuminance", "intensity"):
+                node.text(name)
+                node.approximate(f"{name}={text!r} has no counterpart in the DSL")
+
+    def _precipitation(self, node: Node) -> Iterator[str]:
+        """Yield what falls; of rain and snow one ends when the other one begins."""
+        kind = node.text("precipitationType") or "dry"
+        if node.has("precipitationIntensity"):
+            amount = self._values.nominal(node, "precipitationIntensity")
+        else:
+            amount = HEAVIEST_RAIN * self._values.nominal(node, "intensity")
+            if amount > 0.0 and kind != "dry":
+                node.approximate(f"its intensity 1 is taken to be {HEAVIEST_RAIN:g} mm/h")
+        for each in ("rain", "snow"):
+            if each in self._falling and each != kind:
+                yield f"{each}(intensity: 0mmph)"
+        if kind in ("rain", "snow"):
+            yield f"{kind}(intensity: {short(round(amount, 6))}mmph)"
+
+    def _road(self, node: Node, kind: str) -> None:
+        """Note how slippery roads are, which follows from what falls here."""
+        factor = self._values.nominal(node, "frictionScaleFactor", 1.0)
+        expected = FALLING.get(kind, (1.0, *ADHESION.values()) if not kind else (1.0,))
+        if factor in expected:
+            node.idle("how slippery a road is follows from the weather")
+        else:
+            node.approximate(f"the friction {factor:g} is that which follows from the weather")
+        node.use_all()
