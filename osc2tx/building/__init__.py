@@ -8,5 +8,6 @@ not at all, and those that are up to date are not touched.
 of earlier builds that are still valid (`fingerprint` is their key), `workers` make the others,
 `plan` compares the outputs with the folder, where `ownership` tells which files are ours,
 `written_digests` and `version_control` which of them are unedited, and `write` brings the
-folder up to date. `compare` shows changes instead; `watch` builds again when a source changes.
+folder up to date. `compare` shows changes instead, also since a revision, whose sources
+`revision_files` lays out; `watch` builds again when a source changes.
 """

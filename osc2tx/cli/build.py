@@ -267,13 +267,16 @@ def _diff_against(task: _Task, revision: str) -> Exit:
     """Print the outputs of the present sources, compared with those of a revision."""
     from osc2tx.building.compare import compare_with, diff_lines
 
-    with progress_bar("compiling") as progress:
+    configs = ConfigFiles()
+    is_kept = cache_folder(task.cache) is not None
+    with progress_bar("compiling", is_kept=is_kept) as progress:
         comparison = compare_with(
             revision,
             task.paths,
             task.given,
             workers=task.workers,
             cache=task.cache,
+            configs=configs,
             progress=progress,
         )
     reads_document = task.reporter.form != "text"
@@ -288,14 +291,16 @@ def _diff_against(task: _Task, revision: str) -> Exit:
         for each, path in paths.items()
         if reads_document
     ]
-    code, report = task.reporter.report(comparison.results, faults=faults)
+    code, report = task.reporter.report(
+        comparison.results, comparison.bugs, faults, Baselines(configs)
+    )
     for problem in comparison.problems:
         complain(problem)
     for each, path in () if reads_document else paths.items():
         print_diff(path, each.old, each.new)
     changed = count_of(len(comparison.differences), "file")
     complain(f"{changed} changed since {revision}; {found(report)}")
-    return max(code, Exit.BUG) if comparison.bugs else code
+    return code
 
 
 def _watch(task: _Task) -> Exit:

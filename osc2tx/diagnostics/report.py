@@ -40,12 +40,12 @@ class ScenarioEntry:
 
 @dataclass(frozen=True, slots=True)
 class FileFault:
-    """An error of a file as a whole, such as a stale output.
+    """What there is to say of a file as a whole, such as a stale output.
 
     Attributes:
         file: The file, relative to the folder of the reader.
         rule: The check that found it: `stale-output`, `changed-output` or `not-formatted`.
-        message: Description of the error.
+        message: Description.
         diff: The correction as a diff, if requested.
     """
 
@@ -53,6 +53,11 @@ class FileFault:
     rule: str
     message: str
     diff: str | None = None
+
+    @property
+    def is_error(self) -> bool:
+        """Whether it is an error: a difference from a revision is none."""
+        return self.rule != "changed-output"
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,7 +22,8 @@ def render_github(report: Report) -> str:
         for file, count in report.hidden.items()
     ]
     commands += [
-        f"::error {_properties({'file': fault.file, 'title': f'osc2tx {fault.rule}'})}"
+        f"::{'error' if fault.is_error else 'notice'}"
+        f" {_properties({'file': fault.file, 'title': f'osc2tx {fault.rule}'})}"
         f"::{_data(fault.message)}"
         for fault in report.faults
     ]

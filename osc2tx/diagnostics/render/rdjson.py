@@ -30,7 +30,7 @@ def render_rdjson(report: Report, *, docs_url: str | None = None) -> str:
     found += [
         {
             "message": fault.message,
-            "severity": "ERROR",
+            "severity": "ERROR" if fault.is_error else "INFO",
             "code": {"value": fault.rule},
             "location": {"path": fault.file},
         }

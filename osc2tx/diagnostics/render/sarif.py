@@ -82,7 +82,7 @@ def _fault(fault: FileFault, index: int) -> dict[str, Any]:
     return {
         "ruleId": fault.rule,
         "ruleIndex": index,
-        "level": "error",
+        "level": "error" if fault.is_error else "note",
         "message": {"text": _escape(f"{fault.file}: {fault.message}")},
         "locations": [{"physicalLocation": {"artifactLocation": artifact}}],
         "partialFingerprints": {FINGERPRINT: sha256(repr(fault).encode()).hexdigest()[:32]},

@@ -1,14 +1,18 @@
 """Diffs against a revision: what the change of the sources did, and nothing else."""
 
+import hashlib
 import subprocess
 from pathlib import Path
 
 import pytest
 
+import osc2tx_runtime
 from osc2tx.building.compare import Comparison, compare_with
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import GivenOptions
 from tests.unit.building.projects import Project, contents, write
+
+MAPS = Path(osc2tx_runtime.__file__).parent / "maps"
 
 
 def git(folder: Path, *arguments: str) -> str:
@@ -72,6 +76,78 @@ def test_imports_of_the_revision_count_for_it(project: Project) -> None:
     write(project.sources / "lib.osc", "scenario\n")
     paths = [d.path for d in compared(project).differences]
     assert paths == [f"sub/b_c.{suffix}" for suffix in ("py", "top.xosc")]
+
+
+ON_A_MAP = """import osc.standard.all
+
+namespace null use std, stdtypes
+
+scenario top:
+    road: map with:
+        keep(it.map_file == "own.xodr")
+    ego: vehicle
+    do serial:
+        ego.drive(duration: 3s) with:
+            lane(1, at: start)
+            position(20m, at: start)
+            speed(10mps)
+"""
+
+
+def with_a_map(project: Project, folder: str = "maps") -> Path:
+    """A scenario that OpenSCENARIO XML can only express with its map, which the settings name."""
+    write(project.folder / "osc2tx.toml", f'map_paths = ["{folder}"]\n')
+    write(project.sources / "a.osc", ON_A_MAP)
+    road = project.folder / folder / "own.xodr"
+    road.parent.mkdir(exist_ok=True)
+    road.write_bytes((MAPS / "highway.xodr").read_bytes())
+    return road
+
+
+def commit_all(project: Project) -> None:
+    git(project.folder, "add", ".")
+    git(project.folder, "commit", "-qm", "more")
+
+
+def test_maps_of_the_revision_count_for_it(project: Project) -> None:
+    road = with_a_map(project)
+    commit_all(project)
+    assert (compared(project).differences, compared(project).problems) == ((), ())
+    road.write_bytes((MAPS / "crossing.xodr").read_bytes())
+    assert {d.path for d in compared(project).differences} <= {
+        "a.top.xosc",
+        "a.top.xosc.report.json",
+    }
+    assert compared(project).differences
+
+
+def test_a_map_in_git_lfs_is_that_of_the_working_copy(project: Project) -> None:
+    road = with_a_map(project)
+    data = road.read_bytes()
+    digest = hashlib.sha256(data).hexdigest()
+    road.write_text(
+        f"version https://git-lfs.github.com/spec/v1\noid sha256:{digest}\nsize {len(data)}\n"
+    )
+    commit_all(project)
+    road.write_bytes(data)
+    assert (compared(project).differences, compared(project).problems) == ((), ())
+    road.write_bytes(data + b"\n")
+    (problem,) = compared(project).problems
+    assert problem.startswith("HEAD: maps/own.xodr is in Git LFS")
+
+
+def test_maps_outside_of_the_repository_are_named(project: Project) -> None:
+    with_a_map(project, "../maps")
+    commit_all(project)
+    (problem,) = compared(project).problems
+    assert problem == "HEAD: ../maps of the settings is outside of the repository and not read"
+
+
+def test_warnings_that_settings_ignore_are_left_out(project: Project) -> None:
+    write(project.sources / "a.osc", ON_A_MAP.partition("    do")[0])
+    assert {r.code for result in compared(project).results for r in result.reports} == {"OSC510"}
+    write(project.folder / "osc2tx.toml", '[files."**"]\nignore = ["OSC510"]\n')
+    assert not [r for result in compared(project).results for r in result.reports]
 
 
 def test_a_source_with_errors_then_is_told(project: Project) -> None:

@@ -63,6 +63,9 @@ def test_changes_since_a_revision_as_json(shell: Shell) -> None:
     (change,) = document(ended.out)["files"]
     assert (change["file"], change["rule"]) == ("out/a.py", "changed-output")
     assert "+++ b/out/a.py" in change["diff"] and "31 * kph" in change["diff"]
+    assert shell(*arguments, "--output-format", "github").out.startswith("::notice ")
+    (run,) = json.loads(shell(*arguments, "--output-format", "sarif").out)["runs"]
+    assert [each["level"] for each in run["results"]] == ["note"]
 
 
 def test_one_cause_in_many_files_is_shown_once(shell: Shell) -> None:
