@@ -25,11 +25,15 @@ Entry: TypeAlias = tuple[str, str, str]
 
 
 class Baselines:
-    """The baselines of the projects of some files; each is read once, when it is needed."""
+    """The baselines of the projects of some files; each is read once, when it is needed.
+
+    Attributes:
+        configs: The settings files.
+    """
 
     def __init__(self, configs: ConfigFiles) -> None:
         """Take the settings files."""
-        self._configs = configs
+        self.configs = configs
         self._stated: dict[Path, Counter[Entry]] = {}
         self._left: dict[Path, Counter[Entry]] = {}
 
@@ -100,7 +104,7 @@ class Baselines:
         source = diagnostic.primary.source.path if diagnostic.primary is not None else None
         if source is None or CODES[diagnostic.code].severity is Severity.ERROR:
             return None
-        place = self._configs.for_source(source).baseline
+        place = self.configs.for_source(source).baseline
         if place is None:
             return None
         return place, (_relative(source, place), diagnostic.code, diagnostic.message)
@@ -108,7 +112,7 @@ class Baselines:
     def _names_by_place(self, files: Iterable[Path]) -> dict[Path, set[str]]:
         names: dict[Path, set[str]] = {}
         for path in files:
-            place = self._configs.for_source(path).baseline
+            place = self.configs.for_source(path).baseline
             if place is not None:
                 names.setdefault(place, set()).add(_relative(path, place))
         return names

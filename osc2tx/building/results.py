@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 
 from osc2tx.building.fingerprint import digest
 from osc2tx.building.jobs import Job, RunTexts, find_bug
+from osc2tx.building.severities import Severities
 from osc2tx.compilation.file_reports import LossEntry
-from osc2tx.diagnostics import Diagnostic, Severity, SourceFile, Span
+from osc2tx.diagnostics import Diagnostic, SourceFile, Span
 from osc2tx.diagnostics.report import ScenarioEntry
 from osc2tx_shared.classes import dataclass, replace
 
@@ -269,20 +270,7 @@ def used_files(dependencies: Iterable[Dependency], text_of: Callable[[str], str]
 
 def with_severities(results: Sequence[FileResult], configs: ConfigFiles) -> list[FileResult]:
     """Return results with the warnings that settings ignore left out, or made errors."""
-    tables: dict[Path, tuple[frozenset[str], frozenset[str]]] = {}
-
-    def judged(report: Diagnostic) -> Diagnostic | None:
-        path = report.primary.source.path if report.primary is not None else None
-        if path is None:
-            return report
-        if path not in tables:
-            config = configs.for_source(path)
-            tables[path] = config.codes("ignore", path), config.codes("errors", path)
-        ignored, errors = tables[path]
-        if report.code in ignored:
-            return None
-        return replace(report, severity=Severity.ERROR) if report.code in errors else report
-
+    judged = Severities(configs)
     return [
         replace(result, reports=tuple(filter(None, map(judged, result.reports))))
         for result in results

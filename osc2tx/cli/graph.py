@@ -42,6 +42,8 @@ def graph(wanted: str | None, reverse: bool, affected: str | None, form: str) ->
     other file uses are one node for each folder. `--affected-since` lists the sources that a change
     can affect, with the files that changed.
     """
+    if reverse and (wanted is None or affected is not None):
+        raise click.UsageError("--reverse is for a name: what uses a declaration, file or map")
     configs = ConfigFiles()
     jobs = find_jobs(sources_or_stated((), "read"), GivenOptions(), configs)
     index = SourceIndex(jobs, configs)
@@ -79,8 +81,10 @@ def graph(wanted: str | None, reverse: bool, affected: str | None, form: str) ->
 
 def _name_in_project(wanted: str, index: SourceIndex) -> str:
     """Return what the project calls a file that was named by its path; else what was written."""
-    file = index.files.get(Path(os.path.realpath(wanted)))
-    return wanted if file is None else file.name
+    place = Path(os.path.realpath(wanted))
+    if place in index.files:
+        return index.files[place].name
+    return place.name if place.is_file() else wanted  # a map is called by its name alone
 
 
 def _shown(path: Path) -> str:

@@ -13,20 +13,20 @@ from collections.abc import Callable, Sequence
 from enum import IntEnum
 from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
+from typing import Any, Literal, TypeAlias, get_args
 
 import click
 
 from osc2tx.building.answers import Answer
+from osc2tx.building.baseline import Baselines
+from osc2tx.building.severities import Severities
 from osc2tx.compilation.file_reports import Reportable, apply_suppressions
+from osc2tx.config import ConfigFiles
 from osc2tx.diagnostics import CODES, Severity
 from osc2tx.diagnostics.report import FileFault, Report, display_name, make_report
 from osc2tx.version import __version__
 from osc2tx_shared.classes import dataclass, replace
 from osc2tx_shared.text import complain, is_watched, put, put_document, say
-
-if TYPE_CHECKING:
-    from osc2tx.building.baseline import Baselines
 
 
 def wants_color(*, err: bool = False) -> bool:
@@ -139,7 +139,7 @@ class Reporter:
             compilations: The files.
             bugs: Internal errors.
             faults: Errors of files as a whole.
-            baselines: Hold the warnings that are not reported.
+            baselines: Hold the warnings that are known; those of the files if left out.
 
         Returns:
             The exit code they call for, and the report.
@@ -147,8 +147,9 @@ class Reporter:
         most = self.most_shown
         if most is None:
             most = MOST_SHOWN if self.form in FORMATS_FOR_READERS else 0
-        settled = apply_suppressions(compilations)
-        shown = settled.shown if baselines is None else baselines.new_among(settled.shown)
+        baselines = baselines or Baselines(ConfigFiles())
+        settled = apply_suppressions(compilations, Severities(baselines.configs))
+        shown = baselines.new_among(settled.shown)
         report = make_report(
             shown,
             files=len(compilations),

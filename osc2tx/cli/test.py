@@ -120,7 +120,7 @@ def test(
     code = pytest.main(
         [*look, *arguments, "-o", "python_files=", "--", *(str(each.path) for each in found)]
     )
-    return _exit_code(pytest.ExitCode(code))
+    return _exit_code(pytest.ExitCode(code), affected)
 
 
 def _given(options: Mapping[str, object]) -> Iterator[tuple[str, object]]:
@@ -139,9 +139,12 @@ def _processes(workers: int | None, files: int) -> list[str]:
     return [f"--numprocesses={count}"] if is_worth_it else []
 
 
-def _exit_code(code: int) -> Exit:
+def _exit_code(code: int, affected: str | None) -> Exit:
     from pytest import ExitCode
 
+    if code == ExitCode.NO_TESTS_COLLECTED and affected is not None:
+        complain(f"no scenario to run among those that changes since {affected} affect")
+        return Exit.OK
     if code == ExitCode.NO_TESTS_COLLECTED:
         complain("no scenario to run: none can run by itself, or none is selected")
     return {

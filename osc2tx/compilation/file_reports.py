@@ -5,7 +5,7 @@ Nothing here loads a stage: a check whose result is remembered needs none.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Protocol
 
 from osc2tx.diagnostics import Diagnostic, SourceFile, Span
@@ -55,25 +55,33 @@ class LossEntry:
     reasons: tuple[str, ...] = ()
 
 
-def apply_suppressions(compilations: Sequence[Reportable]) -> SuppressionResult:
+def apply_suppressions(
+    compilations: Sequence[Reportable],
+    judged: Callable[[Diagnostic], Diagnostic | None] = lambda found: found,
+) -> SuppressionResult:
     """Return what was reported on several files, each report once, and what comments suppress.
 
     A report in a file that several others import counts once; a suppression there is used if it
     is of use to one of them.
+
+    Args:
+        compilations: The files.
+        judged: Returns a report as settings want it, or `None` if they leave it out.
     """
     found: dict[tuple[object, ...], Diagnostic] = {}
     for compilation in compilations:
         for reported in compilation.reports:
             span = reported.primary or compilation.start
-            diagnostic = replace(reported, primary=span)
-            place = (span.source.identity, span.start, span.end)
-            found.setdefault((diagnostic.code, diagnostic.message, *place), diagnostic)
-    judged = {
+            diagnostic = judged(replace(reported, primary=span))
+            if diagnostic is not None:
+                place = (span.source.identity, span.start, span.end)
+                found.setdefault((diagnostic.code, diagnostic.message, *place), diagnostic)
+    sources = {
         compilation.source: compilation.is_complete
         for compilation in compilations
         if compilation.source is not None and _may_suppress(compilation.source)
     }
-    return settle(found.values(), judged, _suppressions_of)
+    return settle(found.values(), sources, _suppressions_of)
 
 
 def _may_suppress(source: SourceFile) -> bool:

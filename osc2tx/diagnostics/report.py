@@ -40,7 +40,7 @@ class ScenarioEntry:
 
 @dataclass(frozen=True, slots=True)
 class FileFault:
-    """What there is to say of a file as a whole, such as a stale output.
+    """A finding about a file as a whole, such as a stale output.
 
     Attributes:
         file: The file, relative to the folder of the reader.
@@ -172,5 +172,5 @@ def display_name(source: SourceFile, folder: Path | None) -> str:
     """Return how to cite a file to a reader in `folder`."""
     if folder is None or source.path is None:
         return source.name
-    path = real_path(source.path)
+    path = real_path(source.path.parent) / source.path.name  # a link is cited, not its goal
     return path.relative_to(folder).as_posix() if path.is_relative_to(folder) else str(path)

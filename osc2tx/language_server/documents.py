@@ -9,7 +9,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from osc2tx.building.jobs import Job
+from osc2tx.building.severities import Severities
 from osc2tx.compilation.driver import Compilation
+from osc2tx.compilation.file_reports import apply_suppressions
+from osc2tx.config import ConfigFiles
 from osc2tx.diagnostics import Diagnostic, DiagnosticSink, SourceFile, Span
 from osc2tx.semantics import SemanticModel
 from osc2tx.semantics.symbols import EnumSymbol, Symbol, TypeSymbol
@@ -72,10 +75,10 @@ class Document:
         """The text as a source file."""
         return self.compilation.source or SourceFile(self.job.name, self.text, self.job.path)
 
-    @property
+    @cached_property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
-        """What was found and no comment suppresses, in this file or about it."""
-        return self.compilation.diagnostics
+        """What was found and neither settings nor comments leave out, in this file or about it."""
+        return apply_suppressions([self.compilation], Severities(ConfigFiles())).shown
 
     @property
     def model(self) -> SemanticModel | None:

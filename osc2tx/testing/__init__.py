@@ -55,8 +55,9 @@ def pytest_addoption(parser: pytest.Parser, pluginmanager: pytest.PytestPluginMa
     """Add the option, and those of scenarios as tests; called by pytest."""
     help = "let assert_build_fresh write what differs instead of failing"
     parser.getgroup("osc2tx").addoption(_OPTION, action="store_true", help=help)
-    from osc2tx.testing import scenario_tests
+    from osc2tx.testing import scenario_selection, scenario_tests
 
+    pluginmanager.register(scenario_selection, "osc2tx-selection")
     pluginmanager.register(scenario_tests, "osc2tx-scenarios")
 
 

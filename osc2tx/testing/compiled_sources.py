@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -55,12 +56,18 @@ class CompiledSources:
         """Return whether a file is one of the `sources` of its project."""
         return self.configs.for_source(path).is_source(path)
 
-    def prepare(self, places: Iterable[Path], workers: int) -> None:
+    def prepare(
+        self,
+        places: Iterable[Path],
+        workers: int,
+        progress: Callable[[int, int], None] = lambda done, total: None,
+    ) -> None:
         """Compile the sources of projects that are in some places, in several processes.
 
         Args:
             places: Files and folders.
             workers: How many processes may compile.
+            progress: Called with the numbers of compiled files and of all files.
         """
         wanted: list[Path] = []
         for place in places:
@@ -71,7 +78,12 @@ class CompiledSources:
                     wanted += [inner] if inner.is_file() else sorted(inner.rglob("*.osc"))
         if wanted:
             jobs = find_jobs(list(dict.fromkeys(wanted)), GivenOptions(), self.configs)
-            self._keep(self._compile(jobs, workers))
+            self._keep(self._compile(jobs, workers, progress))
+
+    def values(self) -> Iterator[Mapping[str, str]]:
+        """Yield what each scenario fixes."""
+        for result in self._results.values():
+            yield from (entry.values for entry in result.scenarios)
 
     def result(self, path: Path) -> FileResult:
         """Return the result of a file; the text of its module may not be in hand."""
@@ -116,7 +128,12 @@ class CompiledSources:
     def _keep(self, results: Iterable[FileResult]) -> None:
         self._results |= {real_path(result.job.path): result for result in results}
 
-    def _compile(self, jobs: Sequence[Job], workers: int) -> list[FileResult]:
+    def _compile(
+        self,
+        jobs: Sequence[Job],
+        workers: int,
+        progress: Callable[[int, int], None] = lambda done, total: None,
+    ) -> list[FileResult]:
         """Return results that have a module; XML is only made for those who ask for it."""
         asked = {job: self._with_module(job) for job in jobs}
         known: dict[Job, FileResult] = {}
@@ -125,7 +142,13 @@ class CompiledSources:
             found = next((each for kind in kinds if (each := self._memory.load(kind))), None)
             known |= {job: found} if found is not None else {}
         missing = [job for job in jobs if job not in known]
-        made = compile_jobs([asked[job] for job in missing], workers, self._memory.keep)
+        numbers = count(1)
+
+        def finished(result: FileResult) -> None:
+            self._memory.keep(result)
+            progress(next(numbers), len(missing))
+
+        made = compile_jobs([asked[job] for job in missing], workers, finished)
         known |= dict(zip(missing, made, strict=True))
         return [known[job] for job in jobs]
 

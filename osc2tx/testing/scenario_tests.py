@@ -7,7 +7,7 @@ if the run ends with the `verdict` that the settings expect, which is `success` 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,11 +16,11 @@ import pytest
 from osc2tx.compilation.inputs import InputError
 from osc2tx.config import ConfigError
 from osc2tx.testing.result_properties import EXPECTED, REASON, TRACE, VERDICT, VIOLATION
+from osc2tx.testing.scenario_selection import is_worker, say_unknown_names
 
 if TYPE_CHECKING:
     from osc2tx.diagnostics.report import ScenarioEntry
     from osc2tx.testing.compiled_sources import CompiledSources
-    from osc2tx.testing.conditions import ValueCondition
     from osc2tx.testing.page import PageOfProject
 
 SUFFIX = ".osc"
@@ -31,14 +31,6 @@ _PAGE: pytest.StashKey[PageOfProject] = pytest.StashKey()
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Add the options; called by pytest."""
     group = parser.getgroup("osc2tx")
-    group.addoption(
-        "--osc-where",
-        action="append",
-        default=[],
-        metavar="'NAME == VALUE'",
-        help="only scenarios that fix this value; repeated: all of them",
-    )
-    group.addoption("--osc-shard", metavar="K/N", help="only the K-th of N parts of all tests")
     group.addoption("--osc-fail-on", action="append", default=[], metavar="WHAT", help="as of run")
     group.addoption("--osc-traces", metavar="DIR", help="write traces, their pages and an index")
     group.addoption("--osc-page", metavar="FILE", help="write the page of the project")
@@ -54,14 +46,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Read the options; called by pytest."""
-    try:
-        _conditions(config)
-        _shard(config)
-    except ValueError as error:
-        raise pytest.UsageError(str(error)) from None
+    """Begin the page of the project; called by pytest."""
     page = config.getoption("osc_page")
-    if page and not _is_worker(config):
+    if page and not is_worker(config):
         from osc2tx.testing.page import PageOfProject
 
         stores = [Path(each) for each in config.getoption("osc_campaign")]
@@ -72,16 +59,23 @@ def pytest_configure(config: pytest.Config) -> None:
 def pytest_sessionstart(session: pytest.Session) -> None:
     """Compile what the session will collect, before processes of pytest-xdist do; by pytest."""
     config = session.config
-    if _is_worker(config):
+    if is_worker(config):
         return
     from osc2tx.building.workers import processors
+    from osc2tx.cli.progress import progress_bar
+    from osc2tx_shared.cache import cache_folder
 
+    sources = _sources(config)
     places = [config.invocation_params.dir / each.split("::")[0] for each in config.args]
     workers = config.getoption("osc_jobs") or processors()
+    cache = config.getoption("osc_cache_dir")
+    is_kept = cache_folder(Path(cache) if cache else None) is not None
     try:
-        _sources(config).prepare((place for place in places if place.exists()), workers)
+        with progress_bar("compiling", is_kept=is_kept) as progress:
+            sources.prepare((place for place in places if place.exists()), workers, progress)
     except (ConfigError, InputError) as error:
         raise pytest.UsageError(str(error)) from None
+    say_unknown_names(config, {name for values in sources.values() for name in values})
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:
@@ -103,21 +97,10 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
     return ScenarioFile.from_parent(parent, path=file_path)
 
 
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Select by values and by shard; called by pytest."""
-    conditions = _conditions(config)
-    if conditions:
-        _select(config, items, [item for item in items if _meets(item, conditions)])
-    shard = _shard(config)
-    if shard is not None:
-        index, count = shard
-        _select(config, items, items[index - 1 :: count])
-
-
 def pytest_sessionfinish(session: pytest.Session) -> None:
     """Make the pages of all traces, and of the project; called by pytest."""
     config = session.config
-    if _is_worker(config):
+    if is_worker(config):
         return
     from osc2tx.campaigns import CampaignError
     from osc2tx_runtime.errors import InputError as TraceError
@@ -141,14 +124,14 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 def pytest_terminal_summary(terminalreporter: Any) -> None:
     """Print a table of the scenarios that failed; called by pytest."""
     failed = sorted(
-        (*report.nodeid.split("::", 1), properties[VERDICT], properties[REASON])
+        (*report.nodeid.split("::", 1), *(properties[key] for key in (VERDICT, EXPECTED, REASON)))
         for report in terminalreporter.stats.get("failed", ())
         if VERDICT in (properties := dict(report.user_properties))
     )
     if not failed:
         return
     terminalreporter.section("scenarios that failed")
-    rows = [("file", "scenario", "verdict", "reason"), *failed]
+    rows = [("file", "scenario", "verdict", "expected", "reason"), *failed]
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]) - 1)]
     for *first, reason in rows:
         cells = [text.ljust(width) for text, width in zip(first, widths, strict=True)]
@@ -280,53 +263,6 @@ def _sources(config: pytest.Config) -> CompiledSources:
             Path(cache) if cache else None, with_xml=bool(config.getoption("osc_page"))
         )
     return config.stash[_SOURCES]
-
-
-def _conditions(config: pytest.Config) -> list[ValueCondition]:
-    """Return the conditions on values.
-
-    Raises:
-        ValueError: One has another form.
-    """
-    texts = config.getoption("osc_where")
-    if not texts:
-        return []
-    from osc2tx.testing.conditions import ValueCondition
-
-    return [ValueCondition.parse(text) for text in texts]
-
-
-def _is_worker(config: pytest.Config) -> bool:
-    """Whether this is a process of pytest-xdist, which runs what another one chooses."""
-    return hasattr(config, "workerinput")
-
-
-def _shard(config: pytest.Config) -> tuple[int, int] | None:
-    """Return which part of how many is to run.
-
-    Raises:
-        ValueError: It is none.
-    """
-    text = config.getoption("osc_shard")
-    if text is None:
-        return None
-    index, sign, count = text.partition("/")
-    if sign and index.isdecimal() and count.isdecimal() and 1 <= int(index) <= int(count):
-        return int(index), int(count)
-    raise ValueError(f"{text!r} is no shard: write K/N, as in 1/4")
-
-
-def _meets(item: pytest.Item, conditions: Sequence[ValueCondition]) -> bool:
-    if not isinstance(item, ScenarioItem):
-        return True
-    values = item.entry.values if item.entry is not None else {}
-    return all(condition.holds(values) for condition in conditions)
-
-
-def _select(config: pytest.Config, items: list[pytest.Item], chosen: Sequence[pytest.Item]) -> None:
-    kept = set(map(id, chosen))
-    config.hook.pytest_deselected(items=[item for item in items if id(item) not in kept])
-    items[:] = chosen
 
 
 def _seen_from_here(path: Path) -> str:

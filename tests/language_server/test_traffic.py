@@ -74,6 +74,17 @@ def test_imports_are_what_the_editor_has(editor: Editor) -> None:
     assert codes(editor, user) == []
 
 
+def test_settings_leave_warnings_out(editor: Editor) -> None:
+    use = "namespace null use std, stdtypes\n\n"
+    text = f"import osc.standard.all\n\n{use}scenario base:\n    ego: vehicle\n"
+    uri = editor.open("lib/base.osc", text)
+    assert [found.code for found in editor.problems[uri]] == ["OSC510"]
+    settings = editor.folder / "osc2tx.toml"
+    settings.write_text('[files."lib/**"]\nignore = ["OSC510"]\n', encoding="utf-8")
+    uri = editor.open("lib/other.osc", text.replace("base", "other"))
+    assert editor.problems[uri] == []
+
+
 def test_files_that_come_and_go(editor: Editor) -> None:
     user = editor.open("moving/user.osc", USER.format("lib.osc"))
     assert "OSC205" in codes(editor, user)

@@ -20,9 +20,13 @@ function badgeOf(text, status) {
 
 const linked = (text, page) => (page ? element("a", { href: page.split("/").map(encodeURIComponent).join("/"), textContent: text }) : text);
 
+function toldVerdict({ verdict, expected }) {
+  if (expected === "success") return verdict;
+  return verdict === expected ? `${verdict}, as expected` : `${verdict}, not ${expected}`;
+}
+
 function verdictOf(scenario) {
-  const text = passed(scenario) && scenario.verdict !== "success" ? `${scenario.verdict}, as expected` : scenario.verdict;
-  return badgeOf(text, passed(scenario) ? "success" : "failure");
+  return badgeOf(toldVerdict(scenario), passed(scenario) ? "success" : "failure");
 }
 
 function fillHead() {
@@ -49,7 +53,7 @@ function fillValues(name) {
       const bad = all.filter((each) => !passed(each));
       const shown = [...bad, ...all.filter(passed)].slice(0, MOST_NAMED);
       const names = element("span", {});
-      shown.forEach((each, index) => names.append(index ? ", " : "", linked(each.name, each.page), passed(each) ? "" : ` (${each.verdict})`));
+      shown.forEach((each, index) => names.append(index ? ", " : "", linked(each.name, each.page), passed(each) ? "" : ` (${toldVerdict(each)})`));
       if (all.length > shown.length) names.append(` and ${all.length - shown.length} more`);
       return [[value], [all.length - bad.length, "number"], [bad.length ? badgeOf(bad.length, "failure") : 0, "number"], [names]];
     }));

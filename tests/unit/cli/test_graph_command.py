@@ -89,6 +89,7 @@ scenario pass_by (urban/pass.osc)
         ("calm", {"vehicle.pass_by", "pass_by", "free"}),
         ("test_car", {"city_car", "town", "pass_by", "stand", "free"}),
         ("town.xodr", {"town", "pass_by", "stand"}),
+        ("maps/town.xodr", {"town", "pass_by", "stand"}),
         ("shared/oem/fleet.osc", {"test_car", "town", "pass_by", "stand", "free"}),
         ("wild", set()),
     ],
@@ -96,7 +97,7 @@ scenario pass_by (urban/pass.osc)
 def test_users(project: Shell, wanted: str, users: set[str]) -> None:
     lines = project("graph", "--reverse", wanted).out.splitlines()
     shown = {line.split(" (")[0].split()[-1] for line in lines}
-    start = {"test_car", "city_car"} if wanted.endswith("fleet.osc") else {wanted}
+    start = {"test_car", "city_car"} if wanted.endswith("fleet.osc") else {Path(wanted).name}
     assert shown == users | start
     document = json.loads(project("graph", "--reverse", wanted, "--output-format", "json").out)
     assert shown == {node["name"] for node in document["nodes"]}
@@ -136,6 +137,8 @@ def test_a_name_that_there_is_not(project: Shell) -> None:
     ended = project("graph", "clam")
     assert ended.code == 2
     assert "the project has no `clam`; did you mean `calm`?" in ended.err
+    ended = project("graph", "--reverse")
+    assert (ended.code, "--reverse is for a name" in ended.err) == (2, True)
 
 
 # --- changes --------------------------------------------------------------------------------------

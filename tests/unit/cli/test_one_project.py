@@ -175,13 +175,14 @@ def test_no_link_leads_out_of_a_project(
     (project.folder / "scenarios/link.osc").symlink_to(other / "secret.osc")
     ended = project("check", "scenarios")
     assert (ended.code, "password" in ended.err) == (4, False)
+    assert "scenarios/link.osc:1:1" in ended.err
     assert "is a link to a file outside of the folder" in ended.err
 
 
 # --- Settings for many files ----------------------------------------------------------------------
 
 
-def test_warnings_are_ignored_by_pattern(project: Shell) -> None:
+def test_warnings_are_ignored_by_pattern(project: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("urban/unused", "rural/unused"):
         text = CUT_IN.format(name="unused").replace("    mine:", "    spare: speeds\n    mine:")
         project.write(f"scenarios/{name}.osc", text)
@@ -191,6 +192,14 @@ def test_warnings_are_ignored_by_pattern(project: Shell) -> None:
     for command in ("check", "build"):
         err = project(command).err
         assert ("rural/unused" in err, "urban/unused" in err) == (True, False)
+    for command, *options in (("tree",), ("run", "--max-time", "0.1"), ("build", "--emit", "py")):
+        assert "OSC437" in project(command, "scenarios/rural/unused.osc", *options).err
+        assert "OSC437" not in project(command, "scenarios/urban/unused.osc", *options).err
+    for folder, is_shown in (("rural", True), ("urban", False)):
+        text = (project.folder / f"scenarios/{folder}/unused.osc").read_bytes()
+        monkeypatch.setattr(sys, "stdin", SimpleNamespace(buffer=io.BytesIO(text)))
+        ended = project("check", "-", "--stdin-filename", f"scenarios/{folder}/unused.osc")
+        assert ("OSC437" in ended.err) is is_shown
     project.write("osc2tx.toml", settings + '[files."town/*"]\nstd = "2.2"\n')
     assert 'osc2tx.toml: [files."town/*"] is for no file' in project("check").err
 

@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 from osc2tx.testing.conditions import ValueCondition
+from tests.unit.building.test_revision import git
 from tests.unit.cli.shell import Shell
 
 BASE = """import osc.standard.all
@@ -126,7 +127,7 @@ def test_a_failure_is_told_in_a_table(project: Shell) -> None:
     ended = start(project, "osc2tx", "test", "-j", "1", "-q")
     assert ended.returncode == 5
     (row,) = (line for line in ended.stdout.splitlines() if line.startswith("scenarios/refused"))
-    assert row.split()[:3] == ["scenarios/refused/never.osc", "never", "failure"]
+    assert row.split()[:4] == ["scenarios/refused/never.osc", "never", "failure", "success"]
     assert "never happened" in row
 
 
@@ -215,6 +216,58 @@ def test_nothing_selected_is_no_success(project: Shell) -> None:
     ended = start(project, "osc2tx", "test", "--where", "v_ego == 1kph", "-j", "1")
     assert ended.returncode == 2
     assert "no scenario to run" in ended.stderr
+
+
+def test_jobs_of_ci_may_have_nothing_to_do(project: Shell) -> None:
+    """An empty shard, or a change that concerns no selected scenario, fails no job."""
+    ended = start(project, "osc2tx", "test", "--shard", "9/9", "-j", "1")
+    assert (ended.returncode, "no scenario is in this shard" in ended.stderr) == (0, True)
+    ended = start(project, "osc2tx", "test", "--shard", "9/9", "-k", "nothing", "-j", "1")
+    assert ended.returncode == 2
+    for arguments in (("init", "-q"), ("add", "."), ("commit", "-qm", "one")):
+        git(project.folder, *arguments)
+    fast = project.folder / "scenarios/rural/fast.osc"
+    fast.write_text(fast.read_text().replace("1s", "2s"))
+    since = ("--affected-since", "HEAD")
+    assert start(project, "osc2tx", "test", *since, "-j", "1").stdout.count("1 passed") == 1
+    ended = start(project, "osc2tx", "test", *since, "-k", "slow", "-j", "1")
+    assert (ended.returncode, "changes since HEAD" in ended.stderr) == (0, True)
+
+
+def test_a_value_that_no_scenario_fixes_is_said(project: Shell) -> None:
+    ended = start(project, "osc2tx", "test", "--where", "about.prioriti == high", "-j", "1")
+    assert ended.returncode == 2
+    meant = "no scenario fixes `about.prioriti`; did you mean `about.priority`?"
+    assert meant in ended.stderr
+
+
+# `osc2tx test`, interrupted when the first file is compiled.
+INTERRUPTED = """
+import sys
+from osc2tx.building.results import compile_job
+from osc2tx.testing import compiled_sources
+
+def interrupted(jobs, workers, finished):
+    finished(compile_job(jobs[0]))
+    raise KeyboardInterrupt
+
+compiled_sources.compile_jobs = interrupted
+sys.argv[1:] = ["test", "-j", "1"]
+from osc2tx.start import main
+main()
+"""
+
+
+def test_an_interruption_says_what_is_kept(
+    project: Shell, monkeypatch: pytest.MonkeyPatch, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    """As of a build: results that are there count for the next call."""
+    monkeypatch.setenv("OSC2TX_CACHE_DIR", str(tmp_path_factory.mktemp("cache")))
+    monkeypatch.delenv("OSC2TX_NO_CACHE", raising=False)
+    program = [sys.executable, "-c", INTERRUPTED]
+    ended = subprocess.run(program, cwd=project.folder, capture_output=True, text=True, check=False)
+    assert ended.returncode == 130
+    assert "1 of 6 files are done and kept" in ended.stderr
 
 
 @pytest.mark.slow
