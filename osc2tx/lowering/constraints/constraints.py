@@ -354,9 +354,16 @@ class ConstraintLowering:
 
     def _value_of(self, definition: Constraint) -> Domain:
         """Return the domain of the value that a parameter is set to."""
-        values = values_on(definition.operations, self._written)
+        known = {key: self._known(key) for key in definition.operations.keys}
+        values = values_on(definition.operations, {k: d for k, d in known.items() if d is not None})
         root = definition.operations.root
         return values[root.operands[1]] if len(root.operands) > 1 else values[-1]
+
+    def _known(self, key: Key) -> Domain | None:
+        """Return the domain of a parameter in the module, also if its one value is set later."""
+        hard = self._hard.get(key)
+        is_point = hard is not None and single_value(hard) is not None
+        return self._written.get(key, hard if is_point else None)
 
     def _is_said(
         self,
