@@ -192,7 +192,7 @@ def test_warnings_are_ignored_by_pattern(project: Shell) -> None:
         err = project(command).err
         assert ("rural/unused" in err, "urban/unused" in err) == (True, False)
     project.write("osc2tx.toml", settings + '[files."town/*"]\nstd = "2.2"\n')
-    assert 'osc2tx.toml: [files."town/*"] is for no file' in project("check").err
+    assert 'osc2tx.toml: [files."town/*"] matches no file' in project("check").err
 
 
 def test_maps_of_the_project(project: Shell) -> None:
